@@ -1,0 +1,79 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace clearway::core {
+
+/// Exit codes of every program, as `docs/command-line.md` lists them.
+enum class ExitCode : int {
+    ok = 0,
+    runs_failed = 1,
+    usage = 2,
+    bad_input = 3,
+    environment = 4,
+    incomplete = 5,
+    fell_short = 6,
+    conflict = 7,
+    interrupted = 130,
+    terminated = 143,
+};
+
+/// One thing wrong with what the user gave. All members may hold text from the user's files; printers escape them.
+struct Problem {
+    std::string where;    ///< File and place: `city.toml:12:3: demand.count` or `--step-length`.
+    std::string what;     ///< What is wrong with it, with the value met: `-3 is negative`.
+    std::string allowed;  ///< What would be right: `0 to 100000`. Empty where nothing general can be said.
+    std::string cure;     ///< What to do. Empty where `allowed` says it all.
+};
+
+/// Base of everything that a program reports to its user with an exit code. `what()` is the whole message.
+class Error : public std::runtime_error {
+  public:
+    Error(ExitCode exit_code, const std::string& message)
+        : std::runtime_error(message), exit_code_(exit_code) {}
+    ExitCode exit_code() const { return exit_code_; }
+
+  private:
+    ExitCode exit_code_;
+};
+
+/// The user's input is wrong. Thrown after all problems of the input have been collected; there is at least one.
+class InputError : public Error {
+  public:
+    explicit InputError(std::vector<Problem> problems);
+    explicit InputError(Problem problem);
+    const std::vector<Problem>& problems() const { return problems_; }
+
+  private:
+    std::vector<Problem> problems_;
+};
+
+/// The machine lacks something: SUMO missing or of another version, a folder not writable, a full disk, a taken port.
+class EnvironmentError : public Error {
+  public:
+    explicit EnvironmentError(const std::string& message) : Error(ExitCode::environment, message) {}
+};
+
+/// The simulator failed. Each layer that passes it on adds what it knows (time, vehicle, file) with `with_context`.
+class SimulatorError : public Error {
+  public:
+    explicit SimulatorError(const std::string& message) : Error(ExitCode::runs_failed, message) {}
+    /// The same error with `context` before its message.
+    SimulatorError with_context(const std::string& context) const;
+};
+
+/// Two results claim one place and differ.
+class ConflictError : public Error {
+  public:
+    explicit ConflictError(const std::string& message) : Error(ExitCode::conflict, message) {}
+};
+
+/// One line per problem: `where: what (allowed: ...). cure`.
+std::string format_problem(const Problem& problem);
+
+/// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near (more than a third differs).
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace clearway::core

@@ -1,0 +1,137 @@
+#include "core/process.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <fstream>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+extern char** environ;
+
+namespace clearway::core {
+namespace {
+
+std::vector<std::string> merged_environment(const std::map<std::string, std::string>& extra) {
+    std::vector<std::string> entries;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string text = *entry;
+        if (!extra.contains(text.substr(0, text.find('=')))) entries.push_back(text);
+    }
+    for (const auto& [name, value] : extra) {
+        entries.push_back(name + "=" + value);
+    }
+    return entries;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    for (std::string& text : texts) {
+        result.push_back(text.data());
+    }
+    result.push_back(nullptr);
+    return result;
+}
+
+double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+std::optional<Exit> collect(const Child& child, int options) {
+    int status = 0;
+    rusage usage{};
+    pid_t ended = 0;
+    while ((ended = wait4(child.pid, &status, options, &usage)) < 0) {
+        if (errno != EINTR) {
+            throw EnvironmentError(fmt::format("waiting for process {}: {}", child.pid, std::strerror(errno)));
+        }
+    }
+    if (ended == 0) return std::nullopt;
+    Exit exit;
+    exit.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - child.started).count();
+    exit.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    exit.peak_kib = usage.ru_maxrss;
+    if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
+    if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
+    return exit;
+}
+
+[[noreturn]] void become(const Command& command, int output, char** arguments, char** environment) {
+    // Only calls that are safe after a fork in a program with threads.
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (output >= 0) {
+        dup2(output, STDOUT_FILENO);
+        dup2(output, STDERR_FILENO);
+    }
+    execvpe(command.program.c_str(), arguments, environment);
+    _exit(127);
+}
+
+}  // namespace
+
+std::string Exit::describe() const {
+    if (signal != 0) return fmt::format("killed by signal {} ({})", signal, strsignal(signal));
+    return fmt::format("exit code {}", code);
+}
+
+Child start(const Command& command) {
+    int output = -1;
+    if (!command.output.empty()) {
+        output = open(command.output.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+        if (output < 0) {
+            throw EnvironmentError(fmt::format("{}: {}", command.output.string(), std::strerror(errno)));
+        }
+    }
+    std::vector<std::string> words = {command.program.string()};
+    words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+    std::vector<std::string> entries = merged_environment(command.environment);
+    const std::vector<char*> arguments = pointers(words);
+    const std::vector<char*> environment = pointers(entries);
+
+    const pid_t child = fork();
+    if (child == 0) become(command, output, const_cast<char**>(arguments.data()), const_cast<char**>(environment.data()));
+    if (output >= 0) close(output);
+    if (child < 0) throw EnvironmentError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+    return {child, std::chrono::steady_clock::now()};
+}
+
+Exit wait(const Child& child) {
+    return *collect(child, 0);
+}
+
+std::optional<Exit> poll(const Child& child) {
+    return collect(child, WNOHANG);
+}
+
+Exit run(const Command& command) {
+    return wait(start(command));
+}
+
+std::string tail(const std::filesystem::path& file, int lines) {
+    std::ifstream stream(file);
+    std::deque<std::string> kept;
+    for (std::string line; std::getline(stream, line);) {
+        kept.push_back(line);
+        if (std::ssize(kept) > lines) kept.pop_front();
+    }
+    std::string text;
+    for (const std::string& line : kept) {
+        text += line + "\n";
+    }
+    return text;
+}
+
+std::filesystem::path program_folder() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+}  // namespace clearway::core

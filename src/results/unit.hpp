@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "traffic/command.hpp"
+
+namespace clearway::results {
+
+/// SUMO options that a whole process shares; conditions of one process differ in everything else.
+enum class Engine : std::uint8_t {
+    standard,
+    sublane,  ///< --lateral-resolution.
+    solo,     ///< Each emergency vehicle alone on the road with every signal open.
+};
+
+/// A named combination of failure, predictor and policy parts.
+struct ConditionSpec {
+    std::string name;
+    std::string failure = "perfect";   ///< Preset of sensing: perfect, B10, ...
+    std::string predictor = "none";
+    std::vector<std::string> parts;    ///< Policy parts; empty: the car-following model alone.
+    Engine engine = Engine::standard;
+    traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
+};
+
+/// What one worker process does: one scenario, one replication, one engine, several conditions forked from one warm-up.
+struct UnitSpec {
+    std::string scenario;                           ///< Name of the scenario.
+    std::filesystem::path scenario_file;            ///< The effective configuration, TOML.
+    std::filesystem::path network_folder;           ///< Network built once for the study.
+    std::uint64_t study_seed = 1;
+    std::uint32_t replication = 0;
+    Engine engine = Engine::standard;
+    std::vector<ConditionSpec> conditions;
+    std::filesystem::path output;                   ///< Folder of the scenario in the run folder.
+};
+
+/// JSON, for the worker's command line. `read_unit` throws core::InputError.
+std::string to_json(const UnitSpec& unit);
+UnitSpec read_unit(const std::filesystem::path& file);
+
+}  // namespace clearway::results

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+
+namespace clearway::roads {
+
+/// A point of the network's plane, m.
+struct Point {
+    float x_m = 0.0F;
+    float y_m = 0.0F;
+};
+
+/// A lane, internal lanes of junctions included.
+struct Lane {
+    std::string id;
+    core::EdgeIndex edge;
+    std::uint32_t number = 0;  ///< 0 is the outermost (right where traffic drives on the right).
+    float length_m = 0.0F;     ///< As SUMO states it; may differ from the length of `shape`.
+    float speed_limit_mps = 0.0F;
+    float width_m = 3.2F;
+    bool allows_cars = true;        ///< vClass passenger may use it.
+    bool allows_emergency = true;   ///< vClass emergency may use it.
+    std::vector<Point> shape;       ///< At least two points.
+    std::uint32_t first_connection = 0;
+    std::uint32_t connection_count = 0;
+};
+
+/// An edge, internal edges of junctions included.
+struct Edge {
+    std::string id;
+    std::string name;  ///< Street name, or empty. Text from a file.
+    std::string type;
+    std::string from_junction;
+    std::string to_junction;
+    std::uint32_t first_lane = 0;  ///< Lanes of an edge are consecutive, by number.
+    std::uint32_t lane_count = 0;
+    float length_m = 0.0F;
+    bool internal = false;
+    int priority = 0;
+};
+
+/// A way from the end of one lane to the start of another.
+struct Connection {
+    core::LaneIndex from;
+    core::LaneIndex to;
+    core::LaneIndex via;         ///< First internal lane, or none.
+    core::SignalIndex signal;    ///< Or none.
+    std::uint16_t signal_link = 0;
+    char direction = 's';        ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
+};
+
+struct Phase {
+    double duration_s = 0.0;
+    std::string state;
+};
+
+/// A link of a signal: one connection that it controls.
+struct SignalLink {
+    core::LaneIndex from;
+    core::LaneIndex to;
+    core::LaneIndex via;
+};
+
+/// A traffic signal and the program that it starts with.
+struct Signal {
+    std::string id;
+    std::vector<std::vector<SignalLink>> links;  ///< By link number; several connections may share one.
+    std::vector<Phase> program;
+    std::vector<std::vector<bool>> foes;  ///< foes[a][b]: the ways of links a and b cross or merge.
+};
+
+/// How a network file lies on the globe, for the way back to WGS 84.
+struct Location {
+    double offset_x_m = 0.0;
+    double offset_y_m = 0.0;
+    std::string projection;  ///< PROJ string, `!` where there is none.
+    double x_minimum_m = 0.0, y_minimum_m = 0.0, x_maximum_m = 0.0, y_maximum_m = 0.0;
+};
+
+/// The map as anyone may know it: SUMO's network file in memory. Immutable after reading, so it may be shared by threads.
+class Network {
+  public:
+    /// Reads `.net.xml` or `.net.xml.gz`, streaming. Throws core::InputError naming file and line for a file that is
+    /// missing, not XML, not a network, or inconsistent.
+    static Network read(const std::filesystem::path& file);
+
+    std::span<const Lane> lanes() const { return lanes_; }
+    std::span<const Edge> edges() const { return edges_; }
+    std::span<const Signal> signals() const { return signals_; }
+    const Lane& lane(core::LaneIndex index) const { return lanes_[index.value]; }
+    const Edge& edge(core::EdgeIndex index) const { return edges_[index.value]; }
+    const Signal& signal(core::SignalIndex index) const { return signals_[index.value]; }
+    const Location& location() const { return location_; }
+
+    /// Nothing when there is no such id.
+    std::optional<core::LaneIndex> find_lane(std::string_view id) const;
+    std::optional<core::EdgeIndex> find_edge(std::string_view id) const;
+    std::optional<core::SignalIndex> find_signal(std::string_view id) const;
+
+    core::LaneIndex lane_of(core::EdgeIndex edge, std::uint32_t number) const;
+    std::span<const Connection> connections_from(core::LaneIndex lane) const;
+    /// Edges outside junctions that can be reached directly from `edge` by a car, without repetition, ascending.
+    std::span<const core::EdgeIndex> successors(core::EdgeIndex edge) const;
+
+    /// Point and heading (rad, counter-clockwise from the x axis) at `position` along a lane; clamped to its ends.
+    Point point_at(core::LaneIndex lane, core::Metres position) const;
+    double heading_at(core::LaneIndex lane, core::Metres position) const;
+
+  private:
+    friend class NetworkBuilder;
+    Network() = default;
+
+    std::vector<Lane> lanes_;
+    std::vector<Edge> edges_;
+    std::vector<Signal> signals_;
+    std::vector<Connection> connections_;
+    std::vector<core::EdgeIndex> successors_;
+    std::vector<std::uint32_t> first_successor_;
+    std::unordered_map<std::string, std::uint32_t> lane_rows_, edge_rows_, signal_rows_;
+    Location location_;
+};
+
+/// Edges outside junctions, open to cars, in the largest set in which every edge reaches every other. Ascending.
+std::vector<core::EdgeIndex> largest_car_component(const Network& network);
+
+}  // namespace clearway::roads

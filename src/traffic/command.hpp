@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+
+namespace clearway::traffic {
+
+// What actuation asks of the simulator. Every command is legal when it gets there: the simulator gateway checks ranges
+// again and throws on a breach, because SUMO would swallow it.
+
+/// Drive at most this fast, until ReleaseSpeed.
+struct SetSpeed {
+    core::VehicleKey vehicle;
+    core::MetresPerSecond speed;
+};
+struct ReleaseSpeed {
+    core::VehicleKey vehicle;
+};
+/// Change to lane `lane_number` of the present edge and stay for `duration`.
+struct RequestLane {
+    core::VehicleKey vehicle;
+    std::uint32_t lane_number = 0;
+    core::Seconds duration;
+};
+/// How the vehicle itself decides on lane changes (SUMO's laneChangeMode).
+enum class LaneChangeFreedom : std::uint8_t { normal, strategic_only, none };
+struct SetLaneChangeFreedom {
+    core::VehicleKey vehicle;
+    LaneChangeFreedom freedom = LaneChangeFreedom::normal;
+};
+/// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows what it does.
+enum class SafetyChecks : std::uint8_t { on, off };
+struct SetSafetyChecks {
+    core::VehicleKey vehicle;
+    SafetyChecks checks = SafetyChecks::on;
+};
+/// Stand still as soon as braking allows with the usual deceleration, at the latest at `position` of the present lane.
+struct StopOnLane {
+    core::VehicleKey vehicle;
+    core::Metres position;
+    core::Seconds duration;
+};
+struct ResumeFromStop {
+    core::VehicleKey vehicle;
+};
+/// Show exactly these letters, until RestoreProgram.
+struct SetSignalState {
+    core::SignalIndex signal;
+    std::string state;
+};
+struct RestoreProgram {
+    core::SignalIndex signal;
+};
+
+using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks, StopOnLane,
+                             ResumeFromStop, SetSignalState, RestoreProgram>;
+
+}  // namespace clearway::traffic

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::traffic {
+
+/// An emergency vehicle that a run adds after the warm-up.
+struct EmergencyDeparture {
+    std::string id;
+    std::string type;                ///< SUMO vehicle type, defined in the scenario's files.
+    VehicleKind kind = VehicleKind::ambulance;
+    std::vector<std::string> edges;  ///< Route, by edge id, internal edges left out.
+    core::Seconds depart;
+    std::string depart_lane = "best";
+    std::string depart_speed = "max";
+};
+
+/// Parameters that a scenario writes on a SUMO vehicle type, and that the gateway reads back: `<param key= value=/>`.
+/// A type without them is human and of kind other.
+inline constexpr const char* class_parameter = "clearway.class";
+inline constexpr const char* kind_parameter = "clearway.kind";
+
+}  // namespace clearway::traffic

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+
+namespace clearway::traffic {
+
+/// Drive at `speed` as far as safety allows.
+struct DriveAt {
+    core::MetresPerSecond speed;
+};
+/// Move to the lane with this number on the present edge (0 is the outermost: right where traffic drives on the right) and
+/// stay there while the lease lasts.
+struct ChangeLane {
+    std::uint32_t lane_number = 0;
+};
+/// Do not change lanes except where the route demands it.
+struct HoldLane {};
+/// Stand at the side of the road: sublane model only, towards the right or the left edge of the lane.
+enum class Side : std::uint8_t { right, left };
+struct PullAside {
+    Side side = Side::right;
+};
+/// Give way at the stop line of the present lane: stop there although the signal may be green.
+struct StopAtLine {};
+/// Show green for these links of a signal and red for those that conflict, with yellow and all-red between.
+struct HoldGreen {
+    std::vector<std::uint16_t> links;  ///< Link numbers of the signal, ascending.
+};
+/// Lengthen or shorten what a signal's own program shows, to give time back to the approaches that waited.
+struct FavourLinks {
+    std::vector<std::uint16_t> links;
+};
+
+using Action = std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, FavourLinks>;
+
+/// Who a lease is for.
+using Target = std::variant<core::VehicleKey, core::SignalIndex>;
+
+/// One action of a policy: it ends by itself at `expiry`; a policy renews it or lets it lapse, and never releases.
+struct Lease {
+    Target target;
+    Action action;
+    core::Seconds expiry;      ///< Simulation time; later than now.
+    int priority = 0;          ///< Of two leases for one target and one kind of action the higher wins; then the earlier.
+    const char* policy = "";   ///< Name of the part that issued it (static storage).
+    const char* reason = "";   ///< Why, in a few words (static storage).
+    core::VehicleKey beneficiary;  ///< The emergency vehicle it serves; value 0 for none.
+};
+
+/// `drive_at`, `change_lane`, ...
+std::string_view name(const Action& action);
+
+}  // namespace clearway::traffic

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/ids.hpp"
+
+namespace clearway::traffic {
+
+/// What every signal shows now, indexed by `core::SignalIndex`. A state holds one of SUMO's letters per link (`GgyrRuosO`).
+/// Signals are infrastructure: their state is known to everybody.
+struct SignalStates {
+    std::vector<std::string> state;
+};
+
+/// True for letters that let vehicles pass now: `G` (priority), `g` (yielding), `o`/`O` (blinking, off).
+constexpr bool is_green(char letter) {
+    return letter == 'G' || letter == 'g' || letter == 'o' || letter == 'O';
+}
+
+}  // namespace clearway::traffic
