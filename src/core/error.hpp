@@ -20,7 +20,8 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One thing wrong with what the user gave. All members may hold text from the user's files; printers escape them.
+/// One thing wrong with what the user gave. All members may hold text from the user's files; printers escape
+/// them.
 struct Problem {
     std::string where;    ///< File and place: `city.toml:12:3: demand.count` or `--step-length`.
     std::string what;     ///< What is wrong with it, with the value met: `-3 is negative`.
@@ -39,7 +40,8 @@ class Error : public std::runtime_error {
     ExitCode exit_code_;
 };
 
-/// The user's input is wrong. Thrown after all problems of the input have been collected; there is at least one.
+/// The user's input is wrong. Thrown after all problems of the input have been collected; there is at least
+/// one.
 class InputError : public Error {
   public:
     explicit InputError(std::vector<Problem> problems);
@@ -50,13 +52,15 @@ class InputError : public Error {
     std::vector<Problem> problems_;
 };
 
-/// The machine lacks something: SUMO missing or of another version, a folder not writable, a full disk, a taken port.
+/// The machine lacks something: SUMO missing or of another version, a folder not writable, a full disk, a
+/// taken port.
 class EnvironmentError : public Error {
   public:
     explicit EnvironmentError(const std::string& message) : Error(ExitCode::environment, message) {}
 };
 
-/// The simulator failed. Each layer that passes it on adds what it knows (time, vehicle, file) with `with_context`.
+/// The simulator failed. Each layer that passes it on adds what it knows (time, vehicle, file) with
+/// `with_context`.
 class SimulatorError : public Error {
   public:
     explicit SimulatorError(const std::string& message) : Error(ExitCode::runs_failed, message) {}
@@ -73,7 +77,8 @@ class ConflictError : public Error {
 /// One line per problem: `where: what (allowed: ...). cure`.
 std::string format_problem(const Problem& problem);
 
-/// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near (more than a third differs).
+/// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near (more than a
+/// third differs).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace clearway::core

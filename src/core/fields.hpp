@@ -10,13 +10,14 @@ namespace clearway::core {
 ///
 ///     static constexpr auto fields() {
 ///         return std::make_tuple(
-///             core::Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.", "dissertation 4.1; 50 m assumed"},
+///             core::Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.",
+///             "dissertation 4.1; 50 m assumed"},
 ///             ...);
 ///     }
 ///
-/// and parsing, range checks, printing, hashing, CSV headers and reference pages all come from that list. The default of a
-/// field is the member's initialiser. `minimum` and `maximum` are inclusive and in the field's unit; they are ignored for
-/// text, for booleans and for enumerations.
+/// and parsing, range checks, printing, hashing, CSV headers and reference pages all come from that list. The
+/// default of a field is the member's initialiser. `minimum` and `maximum` are inclusive and in the field's
+/// unit; they are ignored for text, for booleans and for enumerations.
 template <class Struct, class Member>
 struct Field {
     const char* name;
@@ -29,7 +30,8 @@ struct Field {
 };
 
 template <class Struct, class Member>
-Field(const char*, const char*, Member Struct::*, double, double, const char*, const char*) -> Field<Struct, Member>;
+Field(const char*, const char*, Member Struct::*, double, double, const char*, const char*)
+    -> Field<Struct, Member>;
 
 /// Calls `visit(field)` for every field of `Struct`, in the order of its table.
 template <class Struct, class Visitor>

@@ -66,7 +66,9 @@ std::string read_file(const std::filesystem::path& file) {
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw EnvironmentError(fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
+    if (error)
+        throw EnvironmentError(
+            fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
     if (::access(folder.c_str(), W_OK) != 0) fail(folder, "write into this folder");
 }
 

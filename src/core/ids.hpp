@@ -9,8 +9,9 @@
 
 namespace clearway::core {
 
-/// What outlives a step: a vehicle's identity, a 64-bit hash of its SUMO id. It does not depend on the order in which
-/// vehicles appear, so keyed random draws agree between conditions. Collisions are refused where keys are registered.
+/// What outlives a step: a vehicle's identity, a 64-bit hash of its SUMO id. It does not depend on the order
+/// in which vehicles appear, so keyed random draws agree between conditions. Collisions are refused where
+/// keys are registered.
 struct VehicleKey {
     std::uint64_t value = 0;
     constexpr auto operator<=>(const VehicleKey&) const = default;
@@ -19,8 +20,8 @@ struct VehicleKey {
 /// Key of a vehicle by its SUMO id (FNV-1a, 64 bit, then mixed). Pure.
 VehicleKey vehicle_key(std::string_view sumo_id);
 
-/// Index of an element in its table; `none()` where there is none. Lane, edge, signal and junction indices refer to
-/// `roads::Network` and are valid for a run; a route index refers to a `traffic::Roster`.
+/// Index of an element in its table; `none()` where there is none. Lane, edge, signal and junction indices
+/// refer to `roads::Network` and are valid for a run; a route index refers to a `traffic::Roster`.
 template <class Tag>
 struct Index {
     std::uint32_t value = std::numeric_limits<std::uint32_t>::max();

@@ -52,7 +52,8 @@ std::optional<Exit> collect(const Child& child, int options) {
     pid_t ended = 0;
     while ((ended = wait4(child.pid, &status, options, &usage)) < 0) {
         if (errno != EINTR) {
-            throw EnvironmentError(fmt::format("waiting for process {}: {}", child.pid, std::strerror(errno)));
+            throw EnvironmentError(
+                fmt::format("waiting for process {}: {}", child.pid, std::strerror(errno)));
         }
     }
     if (ended == 0) return std::nullopt;
@@ -98,7 +99,8 @@ Child start(const Command& command) {
     const std::vector<char*> environment = pointers(entries);
 
     const pid_t child = fork();
-    if (child == 0) become(command, output, const_cast<char**>(arguments.data()), const_cast<char**>(environment.data()));
+    if (child == 0)
+        become(command, output, const_cast<char**>(arguments.data()), const_cast<char**>(environment.data()));
     if (output >= 0) close(output);
     if (child < 0) throw EnvironmentError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
     return {child, std::chrono::steady_clock::now()};

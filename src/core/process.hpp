@@ -13,16 +13,16 @@ namespace clearway::core {
 
 /// How a child process is started. Arguments are passed as they are; no shell is involved.
 struct Command {
-    std::filesystem::path program;               ///< Path, or a name looked up in PATH.
-    std::vector<std::string> arguments;          ///< Without argv[0].
+    std::filesystem::path program;                   ///< Path, or a name looked up in PATH.
+    std::vector<std::string> arguments;              ///< Without argv[0].
     std::map<std::string, std::string> environment;  ///< Added to, or replacing, the parent's.
-    std::filesystem::path output;                ///< Both streams go to this file (created, truncated); empty: inherited.
+    std::filesystem::path output;  ///< Both streams go to this file (created, truncated); empty: inherited.
 };
 
 /// How a child ended.
 struct Exit {
-    int code = 0;        ///< Exit status; 127 when the program could not be started.
-    int signal = 0;      ///< Signal that killed it, or 0.
+    int code = 0;    ///< Exit status; 127 when the program could not be started.
+    int signal = 0;  ///< Signal that killed it, or 0.
     double wall_s = 0.0;
     double cpu_s = 0.0;  ///< User and system time of the child and what it waited for.
     long peak_kib = 0;   ///< Largest resident size.
@@ -37,8 +37,8 @@ struct Child {
     std::chrono::steady_clock::time_point started;
 };
 
-/// Starts a child. The child gets SIGTERM when this process dies (Linux), so that no worker outlives its study.
-/// Throws EnvironmentError when the process table or a file prevents it.
+/// Starts a child. The child gets SIGTERM when this process dies (Linux), so that no worker outlives its
+/// study. Throws EnvironmentError when the process table or a file prevents it.
 Child start(const Command& command);
 
 /// Waits for the end of `child`. Each child can be waited for once.

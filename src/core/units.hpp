@@ -4,8 +4,9 @@
 
 namespace clearway::core {
 
-/// A number with an SI unit in its type, for use at module boundaries. Inside a module flat `float` or `double` arrays with
-/// the unit in their name are the rule. Arithmetic that would change the unit is left to `.value`, on purpose.
+/// A number with an SI unit in its type, for use at module boundaries. Inside a module flat `float` or
+/// `double` arrays with the unit in their name are the rule. Arithmetic that would change the unit is left to
+/// `.value`, on purpose.
 template <class Tag>
 struct Quantity {
     double value = 0.0;

@@ -9,9 +9,11 @@
 
 namespace clearway::graph {
 
-/// Which pairs of classes may be linked (dissertation 4.1). Human and human never are: human drivers are passive.
+/// Which pairs of classes may be linked (dissertation 4.1). Human and human never are: human drivers are
+/// passive.
 struct LinkRules {
-    double radius_m = 50.0;  ///< Link when the distance is below this; (0, 1000]. 50 m assumed: the source states none.
+    double radius_m =
+        50.0;  ///< Link when the distance is below this; (0, 1000]. 50 m assumed: the source states none.
     enum class Pairs : std::uint8_t { excluded, included };
     Pairs automated_automated = Pairs::excluded;
     Pairs emergency_emergency = Pairs::excluded;
@@ -19,8 +21,8 @@ struct LinkRules {
     bool allows(traffic::VehicleClass left, traffic::VehicleClass right) const;
 };
 
-/// Undirected graph in CSR form: the neighbours of row i are neighbour[first[i]] ... neighbour[first[i + 1] - 1], ascending.
-/// Every link is stored from both ends.
+/// Undirected graph in CSR form: the neighbours of row i are neighbour[first[i]] ... neighbour[first[i + 1] -
+/// 1], ascending. Every link is stored from both ends.
 struct ProximityGraph {
     std::vector<std::uint32_t> first;
     std::vector<core::VehicleIndex> neighbour;
@@ -43,8 +45,9 @@ struct Places {
     std::span<const traffic::VehicleClass> vehicle_class;
 };
 
-/// Builds proximity graphs with a sorted uniform grid: O(n + links). Distance is Euclidean: equation (1) of the dissertation
-/// *corrected* (it prints a minus sign). Keeps its buffers: no allocation once they have grown. One builder, one thread.
+/// Builds proximity graphs with a sorted uniform grid: O(n + links). Distance is Euclidean: equation (1) of
+/// the dissertation *corrected* (it prints a minus sign). Keeps its buffers: no allocation once they have
+/// grown. One builder, one thread.
 class ProximityBuilder {
   public:
     /// Links allowed by `rules`.

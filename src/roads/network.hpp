@@ -28,9 +28,9 @@ struct Lane {
     float length_m = 0.0F;     ///< As SUMO states it; may differ from the length of `shape`.
     float speed_limit_mps = 0.0F;
     float width_m = 3.2F;
-    bool allows_cars = true;        ///< vClass passenger may use it.
-    bool allows_emergency = true;   ///< vClass emergency may use it.
-    std::vector<Point> shape;       ///< At least two points.
+    bool allows_cars = true;       ///< vClass passenger may use it.
+    bool allows_emergency = true;  ///< vClass emergency may use it.
+    std::vector<Point> shape;      ///< At least two points.
     std::uint32_t first_connection = 0;
     std::uint32_t connection_count = 0;
 };
@@ -53,10 +53,10 @@ struct Edge {
 struct Connection {
     core::LaneIndex from;
     core::LaneIndex to;
-    core::LaneIndex via;         ///< First internal lane, or none.
-    core::SignalIndex signal;    ///< Or none.
+    core::LaneIndex via;       ///< First internal lane, or none.
+    core::SignalIndex signal;  ///< Or none.
     std::uint16_t signal_link = 0;
-    char direction = 's';        ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
+    char direction = 's';  ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
 };
 
 struct Phase {
@@ -87,11 +87,12 @@ struct Location {
     double x_minimum_m = 0.0, y_minimum_m = 0.0, x_maximum_m = 0.0, y_maximum_m = 0.0;
 };
 
-/// The map as anyone may know it: SUMO's network file in memory. Immutable after reading, so it may be shared by threads.
+/// The map as anyone may know it: SUMO's network file in memory. Immutable after reading, so it may be shared
+/// by threads.
 class Network {
   public:
-    /// Reads `.net.xml` or `.net.xml.gz`, streaming. Throws core::InputError naming file and line for a file that is
-    /// missing, not XML, not a network, or inconsistent.
+    /// Reads `.net.xml` or `.net.xml.gz`, streaming. Throws core::InputError naming file and line for a file
+    /// that is missing, not XML, not a network, or inconsistent.
     static Network read(const std::filesystem::path& file);
 
     std::span<const Lane> lanes() const { return lanes_; }
@@ -109,10 +110,12 @@ class Network {
 
     core::LaneIndex lane_of(core::EdgeIndex edge, std::uint32_t number) const;
     std::span<const Connection> connections_from(core::LaneIndex lane) const;
-    /// Edges outside junctions that can be reached directly from `edge` by a car, without repetition, ascending.
+    /// Edges outside junctions that can be reached directly from `edge` by a car, without repetition,
+    /// ascending.
     std::span<const core::EdgeIndex> successors(core::EdgeIndex edge) const;
 
-    /// Point and heading (rad, counter-clockwise from the x axis) at `position` along a lane; clamped to its ends.
+    /// Point and heading (rad, counter-clockwise from the x axis) at `position` along a lane; clamped to its
+    /// ends.
     Point point_at(core::LaneIndex lane, core::Metres position) const;
     double heading_at(core::LaneIndex lane, core::Metres position) const;
 
@@ -130,7 +133,8 @@ class Network {
     Location location_;
 };
 
-/// Edges outside junctions, open to cars, in the largest set in which every edge reaches every other. Ascending.
+/// Edges outside junctions, open to cars, in the largest set in which every edge reaches every other.
+/// Ascending.
 std::vector<core::EdgeIndex> largest_car_component(const Network& network);
 
 }  // namespace clearway::roads

@@ -15,45 +15,50 @@ namespace clearway::roads {
 /// Edges in driving order, internal edges left out: what a navigation system knows.
 using Route = std::span<const core::EdgeIndex>;
 
-/// The cheapest route for cars by free-flow travel time, `from` and `to` included; nothing when `to` cannot be reached.
-/// Ties are broken by edge index, so the answer is deterministic.
+/// The cheapest route for cars by free-flow travel time, `from` and `to` included; nothing when `to` cannot
+/// be reached. Ties are broken by edge index, so the answer is deterministic.
 std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
                                                           core::EdgeIndex to);
 
-/// Length of a route from the start of its first edge to the end of its last one, ways across junctions included.
+/// Length of a route from the start of its first edge to the end of its last one, ways across junctions
+/// included.
 core::Metres route_length(const Network& network, Route route);
 
-/// Where a vehicle is after driving `distance` further along its route from `state`, staying on its lane as long as the
-/// lane continues and taking the nearest lane that continues otherwise. Internal lanes count. Stops at the end of the route:
-/// `past_end` then tells by how much it overshot.
+/// Where a vehicle is after driving `distance` further along its route from `state`, staying on its lane as
+/// long as the lane continues and taking the nearest lane that continues otherwise. Internal lanes count.
+/// Stops at the end of the route: `past_end` then tells by how much it overshot.
 struct Advanced {
     traffic::MotionState state;  ///< Speed is copied from the start.
     core::Metres past_end{0.0};
 };
-Advanced advance(const Network& network, Route route, const traffic::MotionState& state, core::Metres distance);
+Advanced advance(const Network& network, Route route, const traffic::MotionState& state,
+                 core::Metres distance);
 
 /// Distance along the route from `state` to the end of the route.
 core::Metres distance_to_end(const Network& network, Route route, const traffic::MotionState& state);
 
-/// Distance along `route` from `state` (on it) to another vehicle's place, when that place lies on the same edges ahead,
-/// within `horizon`; internal lanes of junctions that the route passes count as on it. Nothing when it is not ahead.
-std::optional<core::Metres> distance_ahead(const Network& network, Route route, const traffic::MotionState& state,
+/// Distance along `route` from `state` (on it) to another vehicle's place, when that place lies on the same
+/// edges ahead, within `horizon`; internal lanes of junctions that the route passes count as on it. Nothing
+/// when it is not ahead.
+std::optional<core::Metres> distance_ahead(const Network& network, Route route,
+                                           const traffic::MotionState& state,
                                            const traffic::MotionState& other, core::Metres horizon);
 
 /// A stop line ahead on a route.
 struct StopLine {
-    core::SignalIndex signal;              ///< None for a junction without signal (not listed by signals_ahead).
-    core::EdgeIndex edge;                  ///< The edge that ends there.
+    core::SignalIndex signal;  ///< None for a junction without signal (not listed by signals_ahead).
+    core::EdgeIndex edge;      ///< The edge that ends there.
     core::EdgeIndex next_edge;
-    std::vector<std::uint16_t> links;      ///< Links of the signal from any lane of `edge` to `next_edge`, ascending.
-    core::Metres distance{0.0};            ///< Along the route from the vehicle's front.
+    std::vector<std::uint16_t>
+        links;                   ///< Links of the signal from any lane of `edge` to `next_edge`, ascending.
+    core::Metres distance{0.0};  ///< Along the route from the vehicle's front.
 };
 /// Signals ahead within `horizon`, nearest first.
 std::vector<StopLine> signals_ahead(const Network& network, Route route, const traffic::MotionState& state,
                                     core::Metres horizon);
 
-/// How far `route` can be followed from the start of lane `lane` (on route[route_edge]) without a lane change, counted from
-/// `lane_position`; the end of the route ends the count, capped at `horizon`.
+/// How far `route` can be followed from the start of lane `lane` (on route[route_edge]) without a lane
+/// change, counted from `lane_position`; the end of the route ends the count, capped at `horizon`.
 core::Metres drivable(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,
                       core::Metres lane_position, core::Metres horizon);
 

@@ -14,20 +14,21 @@ namespace clearway::traffic {
 struct BelievedVehicle {
     core::VehicleKey key;
     VehicleClass vehicle_class = VehicleClass::human;
-    MotionState state;      ///< Believed present state. `lane` may be none.
-    float sigma_m = 0.0F;   ///< Standard deviation of the position along the route, m.
-    float age_s = 0.0F;     ///< Age of the report that the belief rests on, s.
+    MotionState state;     ///< Believed present state. `lane` may be none.
+    float sigma_m = 0.0F;  ///< Standard deviation of the position along the route, m.
+    float age_s = 0.0F;    ///< Age of the report that the belief rests on, s.
 };
 
 /// A link that is believed to exist, seen from one of its ends.
 struct BelievedLink {
     core::VehicleIndex neighbour = 0;
-    float distance_m = 0.0F;     ///< Believed distance.
-    float probability = 1.0F;    ///< That the true distance is below the link radius.
+    float distance_m = 0.0F;   ///< Believed distance.
+    float probability = 1.0F;  ///< That the true distance is below the link radius.
 };
 
-/// Believed states and links: all that a policy sees. It cannot tell whether they are true, observed or repaired.
-/// Vehicles are ordered by key; links are stored both ways in CSR form, each row ordered by neighbour.
+/// Believed states and links: all that a policy sees. It cannot tell whether they are true, observed or
+/// repaired. Vehicles are ordered by key; links are stored both ways in CSR form, each row ordered by
+/// neighbour.
 struct BelievedGraph {
     core::Seconds time;
     std::vector<BelievedVehicle> vehicles;

@@ -9,8 +9,8 @@
 
 namespace clearway::traffic {
 
-// What actuation asks of the simulator. Every command is legal when it gets there: the simulator gateway checks ranges
-// again and throws on a breach, because SUMO would swallow it.
+// What actuation asks of the simulator. Every command is legal when it gets there: the simulator gateway
+// checks ranges again and throws on a breach, because SUMO would swallow it.
 
 /// Drive at most this fast, until ReleaseSpeed.
 struct SetSpeed {
@@ -32,13 +32,15 @@ struct SetLaneChangeFreedom {
     core::VehicleKey vehicle;
     LaneChangeFreedom freedom = LaneChangeFreedom::normal;
 };
-/// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows what it does.
+/// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows
+/// what it does.
 enum class SafetyChecks : std::uint8_t { on, off };
 struct SetSafetyChecks {
     core::VehicleKey vehicle;
     SafetyChecks checks = SafetyChecks::on;
 };
-/// Stand still as soon as braking allows with the usual deceleration, at the latest at `position` of the present lane.
+/// Stand still as soon as braking allows with the usual deceleration, at the latest at `position` of the
+/// present lane.
 struct StopOnLane {
     core::VehicleKey vehicle;
     core::Metres position;
@@ -56,7 +58,7 @@ struct RestoreProgram {
     core::SignalIndex signal;
 };
 
-using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks, StopOnLane,
-                             ResumeFromStop, SetSignalState, RestoreProgram>;
+using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks,
+                             StopOnLane, ResumeFromStop, SetSignalState, RestoreProgram>;
 
 }  // namespace clearway::traffic

@@ -11,7 +11,7 @@ namespace clearway::traffic {
 /// An emergency vehicle that a run adds after the warm-up.
 struct EmergencyDeparture {
     std::string id;
-    std::string type;                ///< SUMO vehicle type, defined in the scenario's files.
+    std::string type;  ///< SUMO vehicle type, defined in the scenario's files.
     VehicleKind kind = VehicleKind::ambulance;
     std::vector<std::string> edges;  ///< Route, by edge id, internal edges left out.
     core::Seconds depart;
@@ -19,8 +19,8 @@ struct EmergencyDeparture {
     std::string depart_speed = "max";
 };
 
-/// Parameters that a scenario writes on a SUMO vehicle type, and that the gateway reads back: `<param key= value=/>`.
-/// A type without them is human and of kind other.
+/// Parameters that a scenario writes on a SUMO vehicle type, and that the gateway reads back: `<param key=
+/// value=/>`. A type without them is human and of kind other.
 inline constexpr const char* class_parameter = "clearway.class";
 inline constexpr const char* kind_parameter = "clearway.kind";
 

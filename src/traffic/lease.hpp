@@ -15,8 +15,8 @@ namespace clearway::traffic {
 struct DriveAt {
     core::MetresPerSecond speed;
 };
-/// Move to the lane with this number on the present edge (0 is the outermost: right where traffic drives on the right) and
-/// stay there while the lease lasts.
+/// Move to the lane with this number on the present edge (0 is the outermost: right where traffic drives on
+/// the right) and stay there while the lease lasts.
 struct ChangeLane {
     std::uint32_t lane_number = 0;
 };
@@ -43,14 +43,16 @@ using Action = std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine
 /// Who a lease is for.
 using Target = std::variant<core::VehicleKey, core::SignalIndex>;
 
-/// One action of a policy: it ends by itself at `expiry`; a policy renews it or lets it lapse, and never releases.
+/// One action of a policy: it ends by itself at `expiry`; a policy renews it or lets it lapse, and never
+/// releases.
 struct Lease {
     Target target;
     Action action;
-    core::Seconds expiry;      ///< Simulation time; later than now.
-    int priority = 0;          ///< Of two leases for one target and one kind of action the higher wins; then the earlier.
-    const char* policy = "";   ///< Name of the part that issued it (static storage).
-    const char* reason = "";   ///< Why, in a few words (static storage).
+    core::Seconds expiry;  ///< Simulation time; later than now.
+    int priority =
+        0;  ///< Of two leases for one target and one kind of action the higher wins; then the earlier.
+    const char* policy = "";       ///< Name of the part that issued it (static storage).
+    const char* reason = "";       ///< Why, in a few words (static storage).
     core::VehicleKey beneficiary;  ///< The emergency vehicle it serves; value 0 for none.
 };
 

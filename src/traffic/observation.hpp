@@ -18,7 +18,8 @@ struct MotionState {
     float speed_mps = 0.0F;
     core::LaneIndex lane;          ///< May be an internal lane of a junction.
     float lane_position_m = 0.0F;  ///< Of the front bumper from the start of the lane.
-    std::uint32_t route_edge = 0;  ///< Position in the route of the last edge outside junctions that was entered.
+    std::uint32_t route_edge =
+        0;  ///< Position in the route of the last edge outside junctions that was entered.
 };
 
 /// Whether the newest report of a vehicle arrived.
@@ -32,7 +33,7 @@ struct ObservedVehicle {
     core::VehicleKey key;
     VehicleClass vehicle_class = VehicleClass::human;
     Freshness freshness = Freshness::fresh;
-    float age_s = 0.0F;         ///< Time since the state below was measured, s.
+    float age_s = 0.0F;             ///< Time since the state below was measured, s.
     float position_sigma_m = 0.0F;  ///< Stated error of the sensor, m; 0 for perfect.
     MotionState state;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> class_names = {"human", "automated", "emergency"};
 constexpr std::array<std::string_view, 3> class_short_names = {"HV", "AV", "EV"};
-constexpr std::array<std::string_view, 8> kind_names = {"car", "van",         "truck",      "bus",
+constexpr std::array<std::string_view, 8> kind_names = {"car",       "van",         "truck",      "bus",
                                                         "ambulance", "fire_engine", "police_car", "other"};
 
 template <class Enum, std::size_t N>
@@ -43,13 +43,15 @@ std::optional<VehicleKind> vehicle_kind_from(std::string_view name) {
 }
 
 void Roster::add(VehicleInfo vehicle) {
-    const auto [entry, is_new] = row_of_.try_emplace(vehicle.key, static_cast<std::uint32_t>(vehicles_.size()));
+    const auto [entry, is_new] =
+        row_of_.try_emplace(vehicle.key, static_cast<std::uint32_t>(vehicles_.size()));
     if (is_new) {
         vehicles_.push_back(std::move(vehicle));
         return;
     }
     VehicleInfo& known = vehicles_[entry->second];
-    if (known.id != vehicle.id) throw std::logic_error("vehicles " + known.id + " and " + vehicle.id + " share one key");
+    if (known.id != vehicle.id)
+        throw std::logic_error("vehicles " + known.id + " and " + vehicle.id + " share one key");
     known = std::move(vehicle);
 }
 

@@ -14,7 +14,8 @@ namespace clearway::traffic {
 
 /// Who decides for a vehicle: a human (HV), an automated system (AV), or an emergency crew (EV).
 enum class VehicleClass : std::uint8_t { human, automated, emergency };
-inline constexpr std::array vehicle_classes = {VehicleClass::human, VehicleClass::automated, VehicleClass::emergency};
+inline constexpr std::array vehicle_classes = {VehicleClass::human, VehicleClass::automated,
+                                               VehicleClass::emergency};
 
 /// What a vehicle is, hence its size and dynamics.
 enum class VehicleKind : std::uint8_t { car, van, truck, bus, ambulance, fire_engine, police_car, other };

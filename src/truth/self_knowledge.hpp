@@ -19,8 +19,8 @@ struct LaneOutlook {
     int best_offset = 0;      ///< Lane changes needed for the route, 0 when it is a best lane.
 };
 
-/// Questions that a vehicle can answer about itself, for `actuation` alone: what it could do now. Answers are nothing
-/// when the vehicle is not on the road.
+/// Questions that a vehicle can answer about itself, for `actuation` alone: what it could do now. Answers are
+/// nothing when the vehicle is not on the road.
 class SelfKnowledge {
   public:
     SelfKnowledge() = default;
@@ -28,7 +28,8 @@ class SelfKnowledge {
     SelfKnowledge& operator=(const SelfKnowledge&) = delete;
     virtual ~SelfKnowledge() = default;
 
-    /// Whether the vehicle could change to the neighbouring lane now: the lane exists, is allowed, and is free beside it.
+    /// Whether the vehicle could change to the neighbouring lane now: the lane exists, is allowed, and is
+    /// free beside it.
     virtual std::optional<bool> could_change_lane(core::VehicleKey vehicle, Neighbour direction) const = 0;
     /// One entry per lane of the present edge, by lane number.
     virtual std::optional<std::vector<LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const = 0;

@@ -7,7 +7,8 @@ namespace clearway::truth {
 void Snapshot::resize(std::size_t rows) {
     key.resize(rows);
     vehicle_class.resize(rows);
-    for (std::vector<float>* column : {&x_m, &y_m, &heading_rad, &speed_mps, &acceleration_mps2, &lane_position_m}) {
+    for (std::vector<float>* column :
+         {&x_m, &y_m, &heading_rad, &speed_mps, &acceleration_mps2, &lane_position_m}) {
         column->resize(rows);
     }
     lane.resize(rows);
