@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace clearway::core {
+
+/// Progress of a long job on standard error: a bar that is redrawn on a terminal, otherwise one line per 10
+/// s, and a last line at the end. Times left are estimated from the work done so far.
+class Progress {
+  public:
+    enum class Style { bar, lines, silent };
+
+    /// `style_for_stderr()` chooses between bar and lines.
+    Progress(std::string label, std::size_t total, Style style);
+    /// The bar if standard error is a terminal, else lines.
+    static Style style_for_stderr();
+
+    /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines).
+    /// `note` is a short extra text, for example the present estimate of the headline metric.
+    void update(std::size_t done, std::size_t failed, const std::string& note = {});
+    /// Prints the final state and ends the line.
+    void finish();
+
+    /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. Pure, for tests.
+    static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
+                                  std::size_t failed, double elapsed_s);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void print(bool final);
+
+    std::string label_;
+    std::size_t total_;
+    Style style_;
+    std::size_t done_ = 0;
+    std::size_t failed_ = 0;
+    std::string note_;
+    Clock::time_point started_ = Clock::now();
+    Clock::time_point printed_{};
+    bool ever_printed_ = false;
+};
+
+/// `0:07`, `12:34`, `1:02:03`.
+std::string clock_text(double seconds);
+
+}  // namespace clearway::core
