@@ -349,6 +349,21 @@ test_command_checks_the_format() {
     expect_equal "$code" 0 'after --fix'
 }
 
+full_test_also_builds_release_and_runs_clang_tidy() {
+    make_tree "$work/tree"
+    printf '#!/bin/sh\necho tidy; exit "$(cat "%s")"\n' "$work/tidy" >"$tree/scripts/check-tidy"
+    chmod +x "$tree/scripts/check-tidy"
+    echo 0 >"$work/tidy"
+    run "$tree/.ci/run"
+    expect_equal "$code" 0
+    expect_equal "$(grep -oE '^tidy$|^100% tests passed' "$work/out" | tr '\n' ' ')" 'tidy 100% tests passed '
+    [[ -x $tree/build/release/bin/clearway ]] || fail 'release was not built'
+    echo 1 >"$work/tidy"
+    run "$tree/.ci/run"
+    expect_equal "$code" 1 'findings'
+    expect_no_line "$work/out" 'tests passed'
+}
+
 package_list_is_well_formed() {
     local name part purpose
     while read -r name part purpose; do
