@@ -351,14 +351,14 @@ test_command_checks_the_format() {
 
 full_test_also_builds_release_and_runs_clang_tidy() {
     make_tree "$work/tree"
-    printf '#!/bin/sh\necho tidy; exit "$(cat "%s")"\n' "$work/tidy" >"$tree/scripts/check-tidy"
+    printf '#!/bin/sh\necho tidy\n. "%s"\n' "$work/tidy" >"$tree/scripts/check-tidy"
     chmod +x "$tree/scripts/check-tidy"
-    echo 0 >"$work/tidy"
+    echo 'exit 0' >"$work/tidy"
     run "$tree/.ci/run"
     expect_equal "$code" 0
     expect_equal "$(grep -oE '^tidy$|^100% tests passed' "$work/out" | tr '\n' ' ')" 'tidy 100% tests passed '
     [[ -x $tree/build/release/bin/clearway ]] || fail 'release was not built'
-    echo 1 >"$work/tidy"
+    echo 'exit 1' >"$work/tidy"
     run "$tree/.ci/run"
     expect_equal "$code" 1 'findings'
     expect_no_line "$work/out" 'tests passed'
