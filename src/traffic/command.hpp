@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -25,6 +26,22 @@ struct RequestLane {
     core::VehicleKey vehicle;
     std::uint32_t lane_number = 0;
     core::Seconds duration;
+};
+/// Ends a RequestLane before its duration is over.
+struct ReleaseLane {
+    core::VehicleKey vehicle;
+};
+/// Where a vehicle drives within its lane (sublane model only).
+enum class LateralAlignment : std::uint8_t { usual, right, left };
+struct SetLateralAlignment {
+    core::VehicleKey vehicle;
+    LateralAlignment alignment = LateralAlignment::usual;
+};
+/// What a vehicle may do at junctions beyond the usual: `pass_red` drives through red slowly and yielding.
+enum class JunctionPrivilege : std::uint8_t { none, pass_red };
+struct SetJunctionPrivilege {
+    core::VehicleKey vehicle;
+    JunctionPrivilege privilege = JunctionPrivilege::none;
 };
 /// How the vehicle itself decides on lane changes (SUMO's laneChangeMode).
 enum class LaneChangeFreedom : std::uint8_t { normal, strategic_only, none };
@@ -54,11 +71,14 @@ struct SetSignalState {
     core::SignalIndex signal;
     std::string state;
 };
+/// Back to the signal's own program: where it would be now, or at the start of phase `phase`.
 struct RestoreProgram {
     core::SignalIndex signal;
+    std::optional<std::uint32_t> phase = std::nullopt;
 };
 
 using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks,
-                             StopOnLane, ResumeFromStop, SetSignalState, RestoreProgram>;
+                             StopOnLane, ResumeFromStop, SetSignalState, RestoreProgram, ReleaseLane,
+                             SetLateralAlignment, SetJunctionPrivilege>;
 
 }  // namespace clearway::traffic

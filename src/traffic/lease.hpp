@@ -37,8 +37,11 @@ struct HoldGreen {
 struct FavourLinks {
     std::vector<std::uint16_t> links;
 };
+/// Pass red signals slowly and yielding, as the law of many countries allows emergency vehicles.
+struct PassRed {};
 
-using Action = std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, FavourLinks>;
+using Action =
+    std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, FavourLinks, PassRed>;
 
 /// Who a lease is for.
 using Target = std::variant<core::VehicleKey, core::SignalIndex>;
@@ -49,8 +52,8 @@ struct Lease {
     Target target;
     Action action;
     core::Seconds expiry;  ///< Simulation time; later than now.
-    int priority =
-        0;  ///< Of two leases for one target and one kind of action the higher wins; then the earlier.
+    /// Of two leases for one target that cannot both be carried out the higher wins; then the earlier.
+    int priority = 0;
     const char* policy = "";       ///< Name of the part that issued it (static storage).
     const char* reason = "";       ///< Why, in a few words (static storage).
     core::VehicleKey beneficiary;  ///< The emergency vehicle it serves; value 0 for none.
