@@ -1,0 +1,372 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/fields.hpp"
+
+namespace clearway::scenario {
+
+/// Named parameter sets of the Intelligent Driver Model; the numbers stand in vehicle_types.cpp.
+enum class IdmPreset { sumo, treiber };
+/// Whether an imported network is cut down to its largest set of edges that all reach each other by car.
+enum class Restriction { none, largest_car_component };
+/// Which lanes a measured vehicle may use: those of its kind, or all (SUMO's class `ignoring`).
+enum class Access { own, unrestricted };
+enum class Variant { standard, dense };
+/// Where the demand of a scenario comes from.
+enum class DemandKind { flows, trips, measured };
+
+/// Spelling of each enumerator in files and on the command line.
+template <class Enum>
+using Spelling = std::pair<Enum, const char*>;
+constexpr auto spellings(IdmPreset) {
+    return std::array{Spelling<IdmPreset>{IdmPreset::sumo, "sumo"},
+                      Spelling<IdmPreset>{IdmPreset::treiber, "treiber"}};
+}
+constexpr auto spellings(Restriction) {
+    return std::array{Spelling<Restriction>{Restriction::none, "none"},
+                      Spelling<Restriction>{Restriction::largest_car_component, "largest_car_component"}};
+}
+constexpr auto spellings(Access) {
+    return std::array{Spelling<Access>{Access::own, "own"},
+                      Spelling<Access>{Access::unrestricted, "unrestricted"}};
+}
+
+/// Table `[network]`: plain XML files for netconvert, or a network file to import. Paths are relative to the
+/// scenario's folder unless they are absolute or start with `$SUMO_HOME`.
+struct NetworkSource {
+    std::string nodes;
+    std::string edges;
+    std::string connections;
+    std::string signals;
+    std::string file;
+    Restriction restrict = Restriction::none;
+    std::string attribution;
+
+    bool plain() const { return file.empty(); }
+    static constexpr auto fields() {
+        using S = NetworkSource;
+        return std::make_tuple(
+            core::Field{"nodes", "", &S::nodes, 0, 0, "Plain XML nodes for netconvert.", "scenario"},
+            core::Field{"edges", "", &S::edges, 0, 0, "Plain XML edges for netconvert.", "scenario"},
+            core::Field{"connections", "", &S::connections, 0, 0, "Plain XML connections; optional.",
+                        "scenario"},
+            core::Field{"signals", "", &S::signals, 0, 0, "Plain XML signal programs; optional.", "scenario"},
+            core::Field{"file", "", &S::file, 0, 0, "A .net.xml or .net.xml.gz to import instead.",
+                        "scenario"},
+            core::Field{"restrict", "", &S::restrict, 0, 0, "none or largest_car_component (imports only).",
+                        "none: the network as it is"},
+            core::Field{"attribution", "", &S::attribution, 0, 0, "Whom the map data must name.", "licence"});
+    }
+};
+
+/// Table `[time]`.
+struct Times {
+    double warm_up_s = 60.0;
+    double window_s = 120.0;
+    double horizon_s = 1800.0;
+    double step_length_s = 0.25;
+
+    static constexpr auto fields() {
+        using S = Times;
+        return std::make_tuple(
+            core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0,
+                        "Emergency vehicles depart at this time or later.",
+                        "60 s: the first vehicles are most of the way through the road"},
+            core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "All vehicles depart in [0, window_s].",
+                        "facts of the project: 100, 120, 200 s"},
+            core::Field{"horizon_s", "s", &S::horizon_s, 1.0, 604800.0,
+                        "A run that is not over by then is cut, and its vehicles count as running at end.",
+                        "assumed: several times the longest free trip"},
+            core::Field{"step_length_s", "s", &S::step_length_s, 0.1, 0.25, "Simulation step.",
+                        "docs/decisions/0001-step-length.md"});
+    }
+};
+
+/// Table `[demand]`. Human and automated vehicles are counted here unless the demand is measured.
+struct Demand {
+    int human = 0;
+    int automated = 0;
+    int emergency = 0;
+    double density = 1.0;
+
+    static constexpr auto fields() {
+        using S = Demand;
+        return std::make_tuple(
+            core::Field{"human", "1", &S::human, 0.0, 100000.0, "Human-driven vehicles.",
+                        "dissertation TABLE I"},
+            core::Field{"automated", "1", &S::automated, 0.0, 100000.0, "Automated vehicles.",
+                        "dissertation TABLE I"},
+            core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
+                        "dissertation TABLE I"},
+            core::Field{"density", "1", &S::density, 0.0, 100.0,
+                        "Factor on the human and automated vehicles; at most 1 for measured demand.",
+                        "1: as counted"});
+    }
+};
+
+/// Table `[dense]`, optional: what the dense variant changes.
+struct Dense {
+    double factor = 1.0;
+    int emergency = 0;
+    double warm_up_s = 0.0;
+    double window_s = 1.0;
+
+    static constexpr auto fields() {
+        using S = Dense;
+        return std::make_tuple(
+            core::Field{"factor", "1", &S::factor, 0.0, 100.0, "Factor on human and automated vehicles.",
+                        "facts of the project: 10, 7, 8"},
+            core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
+                        "facts of the project: 6, 6, 14"},
+            core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0, "See time.warm_up_s.", "scenario"},
+            core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "See time.window_s.",
+                        "facts of the project: 400, 400, 600 s"});
+    }
+};
+
+/// Table `[limits]`. A vehicle's limit is the lower one of its class's and of the road's.
+struct SpeedLimits {
+    double human_kmh = 120.0;
+    double automated_kmh = 140.0;
+    double emergency_kmh = 140.0;
+    double road_kmh = 0.0;
+
+    static constexpr auto fields() {
+        using S = SpeedLimits;
+        return std::make_tuple(
+            core::Field{"human_kmh", "km/h", &S::human_kmh, 1.0, 400.0,
+                        "No human driver goes faster, whatever the road allows.", "dissertation TABLE I"},
+            core::Field{"automated_kmh", "km/h", &S::automated_kmh, 1.0, 400.0,
+                        "No automated vehicle goes faster.", "dissertation TABLE I"},
+            core::Field{"emergency_kmh", "km/h", &S::emergency_kmh, 1.0, 400.0,
+                        "No emergency vehicle goes faster.", "dissertation TABLE I"},
+            core::Field{"road_kmh", "km/h", &S::road_kmh, 0.0, 400.0,
+                        "Faster roads are limited to this; 0 leaves the roads as they are.",
+                        "0: the network's own limits"});
+    }
+};
+
+/// Table `[drivers]`. Desired speed of a human driver = factor x road limit, at most the class limit.
+struct Drivers {
+    IdmPreset idm = IdmPreset::sumo;
+    double speed_factor_mean = 1.0;
+    double speed_factor_deviation = 0.1;
+    double speed_factor_minimum = 0.75;
+    double speed_factor_maximum = 1.25;
+
+    static constexpr auto fields() {
+        using S = Drivers;
+        return std::make_tuple(
+            core::Field{"idm", "", &S::idm, 0, 0, "Parameters of the car-following model: sumo or treiber.",
+                        "docs/decisions/0001-step-length.md"},
+            core::Field{"speed_factor_mean", "1", &S::speed_factor_mean, 0.1, 3.0,
+                        "Human drivers: mean of desired speed over road limit.",
+                        "facts of the project: N(1, 0.1)"},
+            core::Field{"speed_factor_deviation", "1", &S::speed_factor_deviation, 0.0, 1.0,
+                        "Its standard deviation before truncation.", "facts of the project: N(1, 0.1)"},
+            core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0, "Truncated below.",
+                        "facts of the project: [0.75, 1.25]"},
+            core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0, "Truncated above.",
+                        "facts of the project: [0.75, 1.25]"});
+    }
+};
+
+/// Table `[kinds.traffic]`: relative frequency of the kinds among human and automated vehicles of generated
+/// demand.
+struct TrafficKinds {
+    double car = 1.0;
+    double van = 0.0;
+    double truck = 0.0;
+    double bus = 0.0;
+
+    static constexpr auto fields() {
+        using S = TrafficKinds;
+        return std::make_tuple(
+            core::Field{"car", "1", &S::car, 0.0, 1e6, "Weight of cars.", "dissertation: all vehicles alike"},
+            core::Field{"van", "1", &S::van, 0.0, 1e6, "Weight of vans.", "0"},
+            core::Field{"truck", "1", &S::truck, 0.0, 1e6, "Weight of trucks.", "0"},
+            core::Field{"bus", "1", &S::bus, 0.0, 1e6, "Weight of buses.", "0"});
+    }
+};
+
+/// Table `[kinds.emergency]`.
+struct EmergencyKinds {
+    double ambulance = 1.0;
+    double fire_engine = 0.0;
+    double police_car = 0.0;
+
+    static constexpr auto fields() {
+        using S = EmergencyKinds;
+        return std::make_tuple(
+            core::Field{"ambulance", "1", &S::ambulance, 0.0, 1e6, "Weight of ambulances.", "all alike"},
+            core::Field{"fire_engine", "1", &S::fire_engine, 0.0, 1e6, "Weight of fire engines.", "0"},
+            core::Field{"police_car", "1", &S::police_car, 0.0, 1e6, "Weight of police cars.", "0"});
+    }
+};
+
+/// Table `[trips]`: origins and destinations drawn over the whole network, by length of edge.
+struct Trips {
+    double minimum_length_m = 500.0;
+    double emergency_minimum_length_m = 1000.0;
+    double minimum_edge_m = 20.0;
+
+    static constexpr auto fields() {
+        using S = Trips;
+        return std::make_tuple(
+            core::Field{"minimum_length_m", "m", &S::minimum_length_m, 0.0, 1e6,
+                        "Shortest trip of a human or automated vehicle.", "facts of the project"},
+            core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
+                        "Shortest trip of an emergency vehicle.", "facts of the project"},
+            core::Field{"minimum_edge_m", "m", &S::minimum_edge_m, 0.0, 1000.0,
+                        "Trips start and end on edges at least this long.",
+                        "assumed: the longest vehicle, a bus of 12 m, fits"});
+    }
+};
+
+/// One of `[[flow]]`: a share of all vehicles drives the fastest way from an edge to another.
+struct Flow {
+    std::string from;
+    std::string to;
+    double share = 1.0;
+
+    static constexpr auto fields() {
+        using S = Flow;
+        return std::make_tuple(
+            core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
+            core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
+            core::Field{"share", "1", &S::share, 0.0, 1.0,
+                        "Share of the vehicles; the shares of all flows add up to 1.", "scenario"});
+    }
+};
+
+/// One of `[[emergency_trip]]`: an emergency vehicle with a trip of its own, beside those that
+/// `demand.emergency` counts.
+struct EmergencyTrip {
+    std::string from;
+    std::string to;
+    double depart_s = 0.0;
+    std::string kind = "ambulance";
+
+    static constexpr auto fields() {
+        using S = EmergencyTrip;
+        return std::make_tuple(
+            core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
+            core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
+            core::Field{"depart_s", "s", &S::depart_s, 0.0, 604800.0,
+                        "Departure, not before the warm-up ends.", "scenario"},
+            core::Field{"kind", "", &S::kind, 0, 0, "ambulance, fire_engine or police_car.", "ambulance"});
+    }
+};
+
+/// One of `[[measured.type]]`: what a vehicle type of the measured demand becomes.
+struct MeasuredType {
+    std::string id;
+    std::string kind = "car";
+    Access access = Access::own;
+
+    static constexpr auto fields() {
+        using S = MeasuredType;
+        return std::make_tuple(core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
+                               core::Field{"kind", "", &S::kind, 0, 0, "car, van, truck or bus.", "car"},
+                               core::Field{"access", "", &S::access, 0, 0,
+                                           "own: the lanes of its kind; unrestricted: all lanes.", "own"});
+    }
+};
+
+/// Table `[measured]`: route files with measured departures and routes. A share of the cars, chosen by
+/// vehicle id, is automated; nothing else about them changes.
+struct Measured {
+    double automated_share = 0.35;
+    double emergency_minimum_length_m = 1000.0;
+    std::vector<std::string> routes;
+    std::vector<std::string> additional;
+    std::vector<MeasuredType> types;
+
+    static constexpr auto fields() {
+        using S = Measured;
+        return std::make_tuple(
+            core::Field{"automated_share", "1", &S::automated_share, 0.0, 1.0,
+                        "Share of the cars that are automated.", "dissertation TABLE I, city: 26 of 73"},
+            core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
+                        "Emergency vehicles take measured routes of cars at least this long.",
+                        "facts of the project"});
+    }
+};
+
+/// A scenario, complete and checked. Demand and drivers that follow from it depend on nothing but study seed
+/// and replication.
+struct ScenarioConfig {
+    std::string name;
+    std::string version;
+    std::string title;
+    NetworkSource network;
+    Times time;
+    Demand demand;
+    std::optional<Dense> dense;
+    SpeedLimits limits;
+    Drivers drivers;
+    TrafficKinds traffic_kinds;
+    EmergencyKinds emergency_kinds;
+    Trips trips;
+    std::vector<Flow> flows;
+    std::vector<EmergencyTrip> emergency_trips;
+    std::optional<Measured> measured;
+
+    std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.
+    std::map<std::string, std::string>
+        origins;  ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
+
+    DemandKind demand_kind() const;
+    /// Place of a key for messages: file, line and column, or the option that set it, or the key alone.
+    std::string where(const std::string& key) const;
+};
+
+/// What a user changes from the command line. An empty optional leaves the file's value.
+struct Options {
+    Variant variant = Variant::standard;
+    std::optional<double> density;          ///< --density
+    std::optional<double> automated_share;  ///< --av-share, 0 to 1
+    std::optional<double> road_limit_kmh;   ///< --road-limit
+    std::optional<double> warm_up_s;        ///< --warm-up
+    std::optional<double> horizon_s;        ///< --horizon
+    std::optional<double> step_length_s;    ///< --step-length
+    std::optional<IdmPreset> idm;           ///< --idm
+};
+
+/// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks the whole.
+/// Strict: throws core::InputError with every problem found, each with file, line, column, value, what is
+/// allowed and the nearest valid key. Edges are checked later, by `prepare`, when there is a network. Throws
+/// core::EnvironmentError when SUMO_HOME is needed and not set.
+ScenarioConfig load(const std::string& name_or_path, const Options& options = {});
+
+/// The effective configuration as a TOML file, every key written out. Reading it gives the same
+/// configuration.
+std::string to_toml(const ScenarioConfig& config);
+
+/// Content hash of `to_toml` (32 hex digits): two configurations with one hash mean the same.
+std::string configuration_hash(const ScenarioConfig& config);
+
+/// Writes the effective `scenario.toml` and copies the files that it names relative to its folder, so that
+/// `folder` is a scenario of its own.
+void store(const ScenarioConfig& config, const std::filesystem::path& folder);
+
+/// Names of the scenarios that come with Clearway, sorted.
+std::vector<std::string> list();
+
+/// Makes `folder` a copy of scenario `from` (name, folder or file) for the user to edit; its name becomes the
+/// folder's. Throws core::InputError when the folder exists and is not empty.
+void init(const std::filesystem::path& folder, const std::string& from);
+
+/// A path of a scenario: `$SUMO_HOME` replaced, relative ones below `config.folder`.
+/// Throws core::EnvironmentError when SUMO_HOME is needed and not set.
+std::filesystem::path resolve(const ScenarioConfig& config, const std::string& path);
+
+}  // namespace clearway::scenario

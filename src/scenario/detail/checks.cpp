@@ -1,0 +1,255 @@
+#include "scenario/detail/checks.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "scenario/detail/toml_reader.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+using core::Problem;
+using Problems = std::vector<Problem>;
+
+/// Sets a member from an option, with the range of its row in the field table.
+template <class Struct>
+void set(const char* option, const char* field_name, std::optional<double> value, Struct& target,
+         Problems& problems) {
+    if (!value) return;
+    core::for_each_field<Struct>([&](const auto& field) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(target.*field.member)>, double>) {
+            if (std::string(field_name) != field.name) return;
+            if (*value >= field.minimum && *value <= field.maximum) {
+                target.*field.member = *value;
+                return;
+            }
+            problems.push_back({option, fmt::format("{} is out of range", number_text(*value)),
+                                fmt::format("{} to {} {}", number_text(field.minimum),
+                                            number_text(field.maximum), field.unit),
+                                ""});
+        }
+    });
+}
+
+void apply_dense(ScenarioConfig& config, Problems& problems) {
+    if (!config.dense) {
+        problems.push_back({"--dense", fmt::format("scenario {} has no table [dense]", config.name), "",
+                            "add the table, or use --density"});
+        return;
+    }
+    config.demand.density *= config.dense->factor;
+    config.demand.emergency = config.dense->emergency;
+    config.time.warm_up_s = config.dense->warm_up_s;
+    config.time.window_s = config.dense->window_s;
+    for (const auto& [key, source] :
+         {std::pair{"time.warm_up_s", "dense.warm_up_s"}, std::pair{"time.window_s", "dense.window_s"},
+          std::pair{"demand.emergency", "dense.emergency"}, std::pair{"demand.density", "dense.factor"}})
+        config.origins[key] = config.where(source);
+    config.dense.reset();
+}
+
+/// Re-divides the human and automated vehicles of a generated demand; a measured one has the share itself.
+void apply_share(double share, ScenarioConfig& config, Problems& problems) {
+    if (!(share >= 0.0 && share <= 1.0)) {
+        problems.push_back(
+            {"--av-share", fmt::format("{} is out of range", number_text(share)), "0 to 1", ""});
+        return;
+    }
+    if (config.measured) {
+        config.measured->automated_share = share;
+        return;
+    }
+    const int total = config.demand.human + config.demand.automated;
+    config.demand.automated = static_cast<int>(std::lround(share * total));
+    config.demand.human = total - config.demand.automated;
+}
+
+void require_text(const ScenarioConfig& config, const char* key, const std::string& value,
+                  Problems& problems) {
+    if (value.empty()) problems.push_back({config.where(key), "is missing or empty", "text", "set it"});
+}
+
+void check_file(const ScenarioConfig& config, const std::string& key, const std::string& path,
+                Problems& problems) {
+    if (path.empty()) return;
+    for (const std::filesystem::path& part : std::filesystem::path(path)) {
+        if (part != "..") continue;
+        problems.push_back({config.where(key), fmt::format("\"{}\" leaves the scenario's folder", path),
+                            "a path inside it, an absolute path, or $SUMO_HOME/...",
+                            "copy the file beside scenario.toml"});
+        return;
+    }
+    const std::filesystem::path file = resolve(config, path);
+    if (std::filesystem::is_regular_file(file)) return;
+    const bool of_sumo = path.rfind("$SUMO_HOME", 0) == 0;
+    problems.push_back(
+        {config.where(key), fmt::format("no file {}", file.string()), "an existing file",
+         of_sumo ? "install package sumo-tools" : "correct the path, relative to this scenario's folder"});
+}
+
+void check_network(const ScenarioConfig& config, Problems& problems) {
+    const NetworkSource& network = config.network;
+    const bool has_plain = !network.nodes.empty() || !network.edges.empty() || !network.connections.empty() ||
+                           !network.signals.empty();
+    if (!network.file.empty() && has_plain)
+        problems.push_back({config.where("network.file"), "is given beside plain XML files", "either of them",
+                            "remove file, or nodes, edges, connections and signals"});
+    if (network.file.empty() && (network.nodes.empty() || network.edges.empty()))
+        problems.push_back(
+            {config.where("network"), "names no network", "file, or nodes and edges", "add them"});
+    if (network.plain() && network.restrict != Restriction::none)
+        problems.push_back(
+            {config.where("network.restrict"), "applies to imported networks only", "none", ""});
+    check_file(config, "network.nodes", network.nodes, problems);
+    check_file(config, "network.edges", network.edges, problems);
+    check_file(config, "network.connections", network.connections, problems);
+    check_file(config, "network.signals", network.signals, problems);
+    check_file(config, "network.file", network.file, problems);
+}
+
+void check_time(const ScenarioConfig& config, Problems& problems) {
+    const Times& time = config.time;
+    if (time.warm_up_s > time.window_s && config.demand.emergency > 0)
+        problems.push_back({config.where("time.warm_up_s"),
+                            fmt::format("{} is after the last departure", number_text(time.warm_up_s)),
+                            fmt::format("0 to {} (time.window_s)", number_text(time.window_s)),
+                            "emergency vehicles depart in [warm_up_s, window_s]"});
+    if (time.horizon_s < time.window_s)
+        problems.push_back({config.where("time.horizon_s"),
+                            fmt::format("{} is before the last departure", number_text(time.horizon_s)),
+                            fmt::format("{} (time.window_s) or more", number_text(time.window_s)), ""});
+    if (config.dense && config.dense->warm_up_s > config.dense->window_s)
+        problems.push_back(
+            {config.where("dense.warm_up_s"),
+             fmt::format("{} is after the last departure", number_text(config.dense->warm_up_s)),
+             fmt::format("0 to {} (dense.window_s)", number_text(config.dense->window_s)), ""});
+}
+
+void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
+    for (std::size_t row = 0; row < config.emergency_trips.size(); ++row) {
+        const EmergencyTrip& trip = config.emergency_trips[row];
+        const std::string key = fmt::format("emergency_trip[{}]", row);
+        if (trip.depart_s < config.time.warm_up_s || trip.depart_s > config.time.horizon_s)
+            problems.push_back(
+                {config.where(key + ".depart_s"),
+                 fmt::format(
+                     "{} is {}", number_text(trip.depart_s),
+                     trip.depart_s < config.time.warm_up_s ? "before the warm-up ends" : "after the horizon"),
+                 fmt::format("{} (time.warm_up_s) to {} (time.horizon_s)", number_text(config.time.warm_up_s),
+                             number_text(config.time.horizon_s)),
+                 "move the departure, or change the warm-up"});
+        bool known = false;
+        core::for_each_field<EmergencyKinds>([&](const auto& field) { known |= trip.kind == field.name; });
+        if (!known)
+            problems.push_back({config.where(key + ".kind"), fmt::format("\"{}\" is not known", trip.kind),
+                                "ambulance, fire_engine, police_car", ""});
+        if (trip.from.empty() || trip.to.empty())
+            problems.push_back({config.where(key), "has no from or no to", "ids of edges", "set both"});
+    }
+}
+
+void check_flows(const ScenarioConfig& config, Problems& problems) {
+    double sum = 0.0;
+    for (std::size_t row = 0; row < config.flows.size(); ++row) {
+        const Flow& flow = config.flows[row];
+        sum += flow.share;
+        if (flow.from.empty() || flow.to.empty())
+            problems.push_back({config.where(fmt::format("flow[{}]", row)), "has no from or no to",
+                                "ids of edges", "set both"});
+    }
+    constexpr double rounding = 1e-6;
+    if (!config.flows.empty() && std::abs(sum - 1.0) > rounding)
+        problems.push_back({config.where("flow[0].share"), fmt::format("the shares add up to {:.6g}", sum),
+                            "1", "correct the shares of the flows"});
+}
+
+void check_measured(const ScenarioConfig& config, Problems& problems) {
+    if (!config.measured) return;
+    const Measured& measured = *config.measured;
+    if (!config.flows.empty())
+        problems.push_back(
+            {config.where("flow[0]"), "stands beside [measured]", "either of them", "remove one"});
+    if (config.demand.human + config.demand.automated > 0)
+        problems.push_back(
+            {config.where("demand.human"), "counts vehicles beside [measured]", "0",
+             "measured demand brings its own vehicles; use density and measured.automated_share"});
+    if (config.demand.density > 1.0)
+        problems.push_back(
+            {config.where("demand.density"),
+             fmt::format("{} multiplies measured vehicles", number_text(config.demand.density)), "0 to 1",
+             "measured demand can be thinned, not multiplied"});
+    if (measured.routes.empty())
+        problems.push_back({config.where("measured.routes"), "is missing or empty", "route files", "set it"});
+    for (const std::string& path : measured.routes)
+        check_file(config, "measured.routes", path, problems);
+    for (const std::string& path : measured.additional)
+        check_file(config, "measured.additional", path, problems);
+    for (std::size_t row = 0; row < measured.types.size(); ++row) {
+        bool known = false;
+        core::for_each_field<TrafficKinds>(
+            [&](const auto& field) { known |= measured.types[row].kind == field.name; });
+        if (!known)
+            problems.push_back({config.where(fmt::format("measured.type[{}].kind", row)),
+                                fmt::format("\"{}\" is not known", measured.types[row].kind),
+                                "car, van, truck, bus", ""});
+    }
+}
+
+template <class Struct>
+double sum_of_weights(const Struct& weights) {
+    double sum = 0.0;
+    core::for_each_field<Struct>([&](const auto& field) { sum += weights.*field.member; });
+    return sum;
+}
+
+void check_drivers(const ScenarioConfig& config, Problems& problems) {
+    const Drivers& drivers = config.drivers;
+    if (drivers.speed_factor_minimum > drivers.speed_factor_mean ||
+        drivers.speed_factor_mean > drivers.speed_factor_maximum)
+        problems.push_back({config.where("drivers.speed_factor_mean"),
+                            fmt::format("{} is outside [{}, {}]", number_text(drivers.speed_factor_mean),
+                                        number_text(drivers.speed_factor_minimum),
+                                        number_text(drivers.speed_factor_maximum)),
+                            "minimum <= mean <= maximum", ""});
+    if (sum_of_weights(config.traffic_kinds) <= 0.0)
+        problems.push_back({config.where("kinds.traffic"), "all weights are 0", "one above 0", ""});
+    if (sum_of_weights(config.emergency_kinds) <= 0.0)
+        problems.push_back({config.where("kinds.emergency"), "all weights are 0", "one above 0", ""});
+}
+
+}  // namespace
+
+void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
+    if (options.variant == Variant::dense) apply_dense(config, problems);
+    if (options.density) {
+        Demand scaled = config.demand;
+        set("--density", "density", options.density, scaled, problems);
+        config.demand.density *= scaled.density == *options.density ? *options.density : 1.0;
+        config.origins["demand.density"] = "--density";
+    }
+    if (options.automated_share) apply_share(*options.automated_share, config, problems);
+    set("--road-limit", "road_kmh", options.road_limit_kmh, config.limits, problems);
+    set("--warm-up", "warm_up_s", options.warm_up_s, config.time, problems);
+    set("--horizon", "horizon_s", options.horizon_s, config.time, problems);
+    set("--step-length", "step_length_s", options.step_length_s, config.time, problems);
+    if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
+    if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
+    if (options.idm) config.drivers.idm = *options.idm;
+}
+
+void check(const ScenarioConfig& config, Problems& problems) {
+    require_text(config, "name", config.name, problems);
+    require_text(config, "version", config.version, problems);
+    check_network(config, problems);
+    check_time(config, problems);
+    check_flows(config, problems);
+    check_emergency_trips(config, problems);
+    check_measured(config, problems);
+    check_drivers(config, problems);
+}
+
+}  // namespace clearway::scenario::detail

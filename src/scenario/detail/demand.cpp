@@ -1,0 +1,295 @@
+#include "scenario/detail/demand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <span>
+
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "roads/route.hpp"
+#include "scenario/vehicle_types.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+using core::Purpose;
+using traffic::VehicleClass;
+using traffic::VehicleKind;
+using RouteEdges = std::vector<core::EdgeIndex>;
+
+/// Counters of the draws of one vehicle; the destination's counters follow `origin` in pairs. Never
+/// renumbered.
+enum DemandDraw : std::uint64_t { depart = 0, flow = 1, first_trip = 16 };
+enum ClassDraw : std::uint64_t { automated = 0, kind = 1 };
+
+double rounded(double value, double unit) {
+    return std::round(value / unit) * unit;
+}
+
+/// Row drawn by weight, from a uniform number in [0, 1).
+std::size_t pick(std::span<const double> weights, double uniform) {
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    double left = uniform * sum;
+    std::size_t last = 0;
+    for (std::size_t row = 0; row < weights.size(); ++row) {
+        if (weights[row] <= 0.0) continue;
+        last = row;
+        if (left < weights[row]) return row;
+        left -= weights[row];
+    }
+    return last;
+}
+
+template <class Kinds>
+VehicleKind pick_kind(const DemandContext& context, const std::string& id, const Kinds& kinds) {
+    std::vector<double> weights;
+    std::vector<VehicleKind> values;
+    core::for_each_field<Kinds>([&](const auto& field) {
+        weights.push_back(kinds.*field.member);
+        values.push_back(*traffic::vehicle_kind_from(field.name));
+    });
+    const double uniform =
+        context.random.uniform(Purpose::vehicle_class, core::vehicle_key(id).value, ClassDraw::kind);
+    return values[pick(weights, uniform)];
+}
+
+double departure_s(const DemandContext& context, Purpose purpose, const std::string& id, double from_s,
+                   double to_s) {
+    const double uniform = context.random.uniform(purpose, core::vehicle_key(id).value, DemandDraw::depart);
+    return rounded(from_s + uniform * (to_s - from_s), 0.01);
+}
+
+/// The fastest way by car between two edges given by id, or nothing after adding problems to `problems`.
+std::optional<RouteEdges> route_between(const DemandContext& context, const std::string& key,
+                                        const std::string& from, const std::string& to,
+                                        std::vector<core::Problem>& problems) {
+    const auto edge = [&](const char* end, const std::string& id) {
+        const auto found = context.network.find_edge(id);
+        if (!found || context.network.edge(*found).internal) {
+            std::vector<std::string> known;
+            for (const roads::Edge& row : context.network.edges())
+                if (!row.internal) known.push_back(row.id);
+            const std::string near = core::nearest(id, known);
+            problems.push_back({context.config.where(key + "." + end),
+                                fmt::format("the network has no edge \"{}\"", id),
+                                "id of an edge outside junctions",
+                                near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+            return std::optional<core::EdgeIndex>();
+        }
+        return found;
+    };
+    const auto origin = edge("from", from);
+    const auto destination = edge("to", to);
+    if (!origin || !destination) return std::nullopt;
+    auto route = roads::fastest_route(context.network, *origin, *destination);
+    if (!route)
+        problems.push_back(
+            {context.config.where(key + ".to"), fmt::format("no car can reach \"{}\" from \"{}\"", to, from),
+             "an edge downstream by lanes open to cars", "choose other edges, or add connections"});
+    return route;
+}
+
+/// Routes of the configured flows, by row.
+class FlowRoutes {
+  public:
+    explicit FlowRoutes(const DemandContext& context) : context_(context) {
+        std::vector<core::Problem> problems;
+        for (std::size_t row = 0; row < context.config.flows.size(); ++row) {
+            const Flow& flow = context.config.flows[row];
+            auto route = route_between(context, fmt::format("flow[{}]", row), flow.from, flow.to, problems);
+            if (route) routes_.push_back(std::move(*route));
+            shares_.push_back(flow.share);
+        }
+        if (!problems.empty()) throw core::InputError(problems);
+    }
+    const RouteEdges& operator()(Purpose purpose, const std::string& id) const {
+        const double uniform =
+            context_.random.uniform(purpose, core::vehicle_key(id).value, DemandDraw::flow);
+        return routes_[pick(shares_, uniform)];
+    }
+
+  private:
+    const DemandContext& context_;
+    std::vector<RouteEdges> routes_;
+    std::vector<double> shares_;
+};
+
+/// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough.
+class TripRoutes {
+  public:
+    explicit TripRoutes(const DemandContext& context) : context_(context) {
+        for (const core::EdgeIndex edge : roads::largest_car_component(context.network)) {
+            const float length_m = context.network.edge(edge).length_m;
+            if (length_m < context.config.trips.minimum_edge_m) continue;
+            edges_.push_back(edge);
+            reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) + length_m);
+        }
+        if (edges_.empty())
+            throw core::InputError(core::Problem{context.config.where("trips.minimum_edge_m"),
+                                                 "leaves no edge for trips to start and end on",
+                                                 "shorter than the longest edge", "lower it"});
+    }
+    RouteEdges operator()(Purpose purpose, const std::string& id, const char* key, double minimum_m) const {
+        constexpr std::uint64_t tries = 1000;
+        for (std::uint64_t attempt = 0; attempt < tries; ++attempt) {
+            const std::uint64_t counter = DemandDraw::first_trip + 2 * attempt;
+            const auto route = roads::fastest_route(context_.network, edge(purpose, id, counter),
+                                                    edge(purpose, id, counter + 1));
+            if (route && roads::route_length(context_.network, *route).value >= minimum_m) return *route;
+        }
+        throw core::InputError(
+            core::Problem{context_.config.where(fmt::format("trips.{}", key)),
+                          fmt::format("no trip of {} m or more in {} draws", minimum_m, tries),
+                          "shorter trips", "lower it"});
+    }
+
+  private:
+    core::EdgeIndex edge(Purpose purpose, const std::string& id, std::uint64_t counter) const {
+        const double at_m =
+            context_.random.uniform(purpose, core::vehicle_key(id).value, counter) * reached_m_.back();
+        const auto row = std::upper_bound(reached_m_.begin(), reached_m_.end(), at_m) - reached_m_.begin();
+        return edges_[std::min<std::size_t>(row, edges_.size() - 1)];
+    }
+
+    const DemandContext& context_;
+    std::vector<core::EdgeIndex> edges_;
+    std::vector<double> reached_m_;
+};
+
+/// A route source that hides whether routes come from flows or from trips.
+class Routes {
+  public:
+    explicit Routes(const DemandContext& context) : context_(context) {
+        if (context.config.demand_kind() == DemandKind::flows) {
+            flows_.emplace(context);
+        } else {
+            trips_.emplace(context);
+        }
+    }
+    RouteEdges traffic(const std::string& id) const {
+        if (flows_) return (*flows_)(Purpose::demand, id);
+        return (*trips_)(Purpose::demand, id, "minimum_length_m", context_.config.trips.minimum_length_m);
+    }
+    RouteEdges emergency(const std::string& id) const {
+        if (flows_) return (*flows_)(Purpose::emergency, id);
+        return (*trips_)(Purpose::emergency, id, "emergency_minimum_length_m",
+                         context_.config.trips.emergency_minimum_length_m);
+    }
+
+  private:
+    const DemandContext& context_;
+    std::optional<FlowRoutes> flows_;
+    std::optional<TripRoutes> trips_;
+};
+
+PlannedVehicle plan_vehicle(const DemandContext& context, const Routes& routes, VehicleClass vehicle_class,
+                            int number) {
+    PlannedVehicle vehicle;
+    vehicle.id = fmt::format("{}.{}", traffic::name(vehicle_class), number);
+    vehicle.vehicle_class = vehicle_class;
+    vehicle.depart_s = departure_s(context, Purpose::demand, vehicle.id, 0.0, context.config.time.window_s);
+    const VehicleKind kind = pick_kind(context, vehicle.id, context.config.traffic_kinds);
+    vehicle.xml = fmt::format(
+        "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"best\" departSpeed=\"max\" "
+        "speedFactor=\"{:.4f}\">\n        <route edges=\"{}\"/>\n    </vehicle>\n",
+        vehicle.id, type_id(vehicle_class, kind), vehicle.depart_s,
+        speed_factor(context, vehicle.id, vehicle_class),
+        fmt::join(edge_ids(context.network, routes.traffic(vehicle.id)), " "));
+    return vehicle;
+}
+
+traffic::EmergencyDeparture plan_emergency(const DemandContext& context, std::string id, VehicleKind kind,
+                                           double depart_s, const RouteEdges& route) {
+    traffic::EmergencyDeparture departure;
+    departure.id = std::move(id);
+    departure.type = type_id(VehicleClass::emergency, kind);
+    departure.kind = kind;
+    departure.edges = edge_ids(context.network, route);
+    departure.depart = core::Seconds(depart_s);
+    return departure;
+}
+
+}  // namespace
+
+double speed_factor(const DemandContext& context, const std::string& id, VehicleClass vehicle_class) {
+    const Drivers& drivers = context.config.drivers;
+    if (vehicle_class != VehicleClass::human) return 1.0;
+    if (drivers.speed_factor_deviation <= 0.0) return drivers.speed_factor_mean;
+    // By the inverse of the distribution: one draw for each driver, whatever the bounds.
+    const boost::math::normal normal(drivers.speed_factor_mean, drivers.speed_factor_deviation);
+    const double low = boost::math::cdf(normal, drivers.speed_factor_minimum);
+    const double high = boost::math::cdf(normal, drivers.speed_factor_maximum);
+    const double uniform = context.random.uniform(Purpose::driver, core::vehicle_key(id).value);
+    constexpr double least_probability = 1e-12;
+    const double probability =
+        std::clamp(low + uniform * (high - low), least_probability, 1.0 - least_probability);
+    return rounded(std::clamp(boost::math::quantile(normal, probability), drivers.speed_factor_minimum,
+                              drivers.speed_factor_maximum),
+                   0.0001);
+}
+
+double emergency_departure_s(const DemandContext& context, const std::string& id) {
+    return departure_s(context, Purpose::emergency, id, context.config.time.warm_up_s,
+                       context.config.time.window_s);
+}
+
+traffic::VehicleKind emergency_kind(const DemandContext& context, const std::string& id) {
+    return pick_kind(context, id, context.config.emergency_kinds);
+}
+
+std::vector<std::string> edge_ids(const roads::Network& network, const std::vector<core::EdgeIndex>& route) {
+    std::vector<std::string> ids;
+    ids.reserve(route.size());
+    for (const core::EdgeIndex edge : route)
+        ids.push_back(network.edge(edge).id);
+    return ids;
+}
+
+void sort_by_departure(PlannedDemand& demand) {
+    std::sort(demand.vehicles.begin(), demand.vehicles.end(),
+              [](const PlannedVehicle& a, const PlannedVehicle& b) {
+                  return std::tie(a.depart_s, a.id) < std::tie(b.depart_s, b.id);
+              });
+    std::sort(demand.emergency.begin(), demand.emergency.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.depart.value, a.id) < std::tie(b.depart.value, b.id);
+    });
+}
+
+PlannedDemand generate(const DemandContext& context) {
+    const Demand& counts = context.config.demand;
+    const auto scaled = [&](int count) { return static_cast<int>(std::lround(count * counts.density)); };
+    const Routes routes(context);
+    PlannedDemand demand;
+    for (int number = 0; number < scaled(counts.human); ++number)
+        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::human, number));
+    for (int number = 0; number < scaled(counts.automated); ++number)
+        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::automated, number));
+    for (int number = 0; number < counts.emergency; ++number) {
+        const std::string id = fmt::format("emergency.{}", number);
+        demand.emergency.push_back(plan_emergency(context, id, emergency_kind(context, id),
+                                                  emergency_departure_s(context, id), routes.emergency(id)));
+    }
+    return demand;
+}
+
+void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
+    std::vector<core::Problem> problems;
+    for (std::size_t row = 0; row < context.config.emergency_trips.size(); ++row) {
+        const EmergencyTrip& trip = context.config.emergency_trips[row];
+        const auto route =
+            route_between(context, fmt::format("emergency_trip[{}]", row), trip.from, trip.to, problems);
+        if (!route) continue;
+        demand.emergency.push_back(plan_emergency(context, fmt::format("emergency.trip.{}", row),
+                                                  *traffic::vehicle_kind_from(trip.kind), trip.depart_s,
+                                                  *route));
+    }
+    if (!problems.empty()) throw core::InputError(problems);
+}
+
+}  // namespace clearway::scenario::detail

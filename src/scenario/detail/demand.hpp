@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
+#include "traffic/departure.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::scenario::detail {
+
+/// A human or automated vehicle that a route file will hold.
+struct PlannedVehicle {
+    std::string id;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
+    double depart_s = 0.0;
+    std::string xml;  ///< The whole element, indented, with a line end.
+};
+
+/// Everything on the road of one replication.
+struct PlannedDemand {
+    std::vector<PlannedVehicle> vehicles;                ///< By departure, then by id.
+    std::vector<traffic::EmergencyDeparture> emergency;  ///< By departure, then by id.
+};
+
+/// What a demand generator works with.
+struct DemandContext {
+    const ScenarioConfig& config;
+    const roads::Network& network;
+    core::KeyedRandom random;
+};
+
+/// Flows and trips: vehicles `human.0`, `automated.0`, ... counted by the configuration.
+/// Throws core::InputError with every unknown edge and unreachable destination.
+PlannedDemand generate(const DemandContext& context);
+
+/// Measured route files: departures and routes as measured, a share of the cars automated.
+/// Throws core::InputError for what is no route file, and for types that the configuration does not list.
+PlannedDemand read_measured(const DemandContext& context);
+
+/// Emergency vehicles of `[[emergency_trip]]`, appended to `demand`. Throws core::InputError as `generate`
+/// does.
+void add_emergency_trips(const DemandContext& context, PlannedDemand& demand);
+
+/// Departure of emergency vehicle `id`: uniform in [warm_up_s, window_s], to 0.01 s.
+double emergency_departure_s(const DemandContext& context, const std::string& id);
+
+/// Kind of emergency vehicle `id`, by the weights of `[kinds.emergency]`.
+traffic::VehicleKind emergency_kind(const DemandContext& context, const std::string& id);
+
+/// Individual speed factor of a driver: automated 1, human by the truncated normal of `[drivers]`, to 0.0001.
+double speed_factor(const DemandContext& context, const std::string& id, traffic::VehicleClass vehicle_class);
+
+/// Edge ids of a route.
+std::vector<std::string> edge_ids(const roads::Network& network, const std::vector<core::EdgeIndex>& route);
+
+/// By departure, then by id.
+void sort_by_departure(PlannedDemand& demand);
+
+}  // namespace clearway::scenario::detail

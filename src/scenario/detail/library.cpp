@@ -1,0 +1,82 @@
+#include "scenario/detail/library.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/process.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::scenario {
+
+namespace detail {
+
+namespace {
+constexpr const char* file_name = "scenario.toml";
+}
+
+std::filesystem::path library_folder() {
+    const auto is_library = [](const std::filesystem::path& folder) {
+        return std::filesystem::is_regular_file(folder / "merge" / file_name);
+    };
+    if (const char* home = std::getenv("CLEARWAY_HOME"); home != nullptr && *home != '\0') {
+        const std::filesystem::path folder = std::filesystem::path(home) / "scenarios";
+        if (is_library(folder)) return folder;
+        throw core::EnvironmentError(fmt::format("CLEARWAY_HOME is {}, which has no folder scenarios", home));
+    }
+    std::filesystem::path folder = core::program_folder();
+    while (true) {
+        if (is_library(folder / "scenarios")) return folder / "scenarios";
+        if (!folder.has_relative_path()) break;
+        folder = folder.parent_path();
+    }
+    throw core::EnvironmentError(
+        "no folder scenarios above the program. Set CLEARWAY_HOME to the folder that holds Clearway's "
+        "sources");
+}
+
+std::filesystem::path scenario_file(const std::string& name_or_path) {
+    const std::filesystem::path path(name_or_path);
+    if (std::filesystem::is_regular_file(path)) return path;
+    if (std::filesystem::is_regular_file(path / file_name)) return path / file_name;
+    const std::vector<std::string> names = list();
+    if (std::find(names.begin(), names.end(), name_or_path) != names.end())
+        return library_folder() / name_or_path / file_name;
+    std::string known;
+    for (const std::string& name : names)
+        known += (known.empty() ? "" : ", ") + name;
+    const std::string near = core::nearest(name_or_path, names);
+    throw core::InputError(core::Problem{
+        name_or_path, "is neither a scenario, nor a folder with a scenario.toml, nor a file",
+        known + ", a folder or a TOML file", near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char letter : text) {
+        if (letter == '"' || letter == '\\') {
+            result += '\\';
+            result += letter;
+        } else if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+            result += fmt::format("\\u{:04X}", static_cast<unsigned>(letter));
+        } else {
+            result += letter;
+        }
+    }
+    return result + "\"";
+}
+
+}  // namespace detail
+
+std::vector<std::string> list() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(detail::library_folder()))
+        if (std::filesystem::is_regular_file(entry.path() / detail::file_name))
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace clearway::scenario

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clearway::scenario::detail {
+
+/// Folder of the scenarios that come with Clearway: `scenarios` beside one of the folders above the running
+/// program, or below CLEARWAY_HOME when that is set. Throws core::EnvironmentError when there is none.
+std::filesystem::path library_folder();
+
+/// The TOML file of a scenario given as file, folder or name. Throws core::InputError naming the nearest
+/// known name.
+std::filesystem::path scenario_file(const std::string& name_or_path);
+
+/// Text as a TOML string, quotes included.
+std::string quoted(const std::string& text);
+
+}  // namespace clearway::scenario::detail

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include "core/error.hpp"
+#include "roads/route.hpp"
+#include "scenario/detail/demand.hpp"
+#include "scenario/vehicle_types.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+using core::Purpose;
+using traffic::VehicleClass;
+using traffic::VehicleKind;
+
+/// Counters of the draws about a measured vehicle. Never renumbered.
+enum MeasuredDraw : std::uint64_t { automated = 0, thinned = 2 };
+
+struct ElementWriter : pugi::xml_writer {
+    std::string text;
+    void write(const void* data, std::size_t size) override {
+        text.append(static_cast<const char*>(data), size);
+    }
+};
+
+/// Reads the route files of one scenario into planned vehicles.
+class MeasuredReader {
+  public:
+    explicit MeasuredReader(const DemandContext& context)
+        : context_(context), measured_(*context.config.measured) {
+        for (const MeasuredType& type : measured_.types)
+            types_[type.id] = &type;
+    }
+
+    void read(const std::filesystem::path& file) {
+        pugi::xml_document document;
+        const pugi::xml_parse_result result = document.load_file(file.c_str());
+        if (!result)
+            throw core::InputError(core::Problem{fmt::format("{}: byte {}", file.string(), result.offset),
+                                                 result.description(), "a SUMO route file",
+                                                 "correct the file"});
+        for (const pugi::xml_node vehicle : document.document_element().children("vehicle"))
+            take(vehicle, file);
+    }
+
+    PlannedDemand finish() {
+        if (!problems_.empty()) throw core::InputError(problems_);
+        if (demand_.vehicles.empty())
+            throw core::InputError(core::Problem{
+                context_.config.where("measured.routes"), "no vehicle departs in [0, time.window_s]",
+                "<vehicle> elements with routes inside", "choose other route files"});
+        add_emergency();
+        return std::move(demand_);
+    }
+
+  private:
+    void take(pugi::xml_node vehicle, const std::filesystem::path& file) {
+        const std::string id = vehicle.attribute("id").value();
+        const char* depart_text = vehicle.attribute("depart").value();
+        char* end = nullptr;
+        const double depart_s = std::strtod(depart_text, &end);
+        if (end == depart_text || *end != '\0')
+            return problem(file, id, fmt::format("depart is \"{}\"", depart_text), "a time in s");
+        if (depart_s > context_.config.time.window_s) return;
+        const std::uint64_t key = core::vehicle_key(id).value;
+        if (context_.random.uniform(Purpose::demand, key, MeasuredDraw::thinned) >=
+            context_.config.demand.density)
+            return;
+        const auto type = types_.find(vehicle.attribute("type").value());
+        if (type == types_.end()) return unknown_type(file, id, vehicle.attribute("type").value());
+        const VehicleKind kind = *traffic::vehicle_kind_from(type->second->kind);
+        if (!note_route(vehicle, file, id, kind == VehicleKind::car && type->second->access == Access::own))
+            return;
+        add(vehicle, id, depart_s, kind, type->second->access);
+    }
+
+    void add(pugi::xml_node vehicle, const std::string& id, double depart_s, VehicleKind kind,
+             Access access) {
+        PlannedVehicle planned;
+        planned.id = id;
+        planned.depart_s = depart_s;
+        const double uniform = context_.random.uniform(Purpose::vehicle_class, core::vehicle_key(id).value,
+                                                       MeasuredDraw::automated);
+        if (kind == VehicleKind::car && uniform < measured_.automated_share)
+            planned.vehicle_class = VehicleClass::automated;
+        vehicle.attribute("type").set_value(type_id(planned.vehicle_class, kind, access).c_str());
+        vehicle.remove_attribute("color");
+        vehicle.remove_attribute("speedFactor");
+        vehicle.append_attribute("speedFactor")
+            .set_value(fmt::format("{:.4f}", speed_factor(context_, id, planned.vehicle_class)).c_str());
+        ElementWriter writer;
+        vehicle.print(writer, "    ", pugi::format_indent, pugi::encoding_utf8, 1);
+        planned.xml = std::move(writer.text);
+        demand_.vehicles.push_back(std::move(planned));
+    }
+
+    /// Checks the route's edges; remembers it for emergency vehicles when `for_emergency`. False after a
+    /// problem.
+    bool note_route(pugi::xml_node vehicle, const std::filesystem::path& file, const std::string& id,
+                    bool for_emergency) {
+        const std::string edges = vehicle.child("route").attribute("edges").value();
+        std::istringstream words(edges);
+        std::vector<core::EdgeIndex> route;
+        for (std::string word; words >> word;) {
+            const auto edge = context_.network.find_edge(word);
+            if (!edge) {
+                problem(file, id, fmt::format("the network has no edge \"{}\"", word),
+                        "edges of the network");
+                return false;
+            }
+            route.push_back(*edge);
+        }
+        if (route.empty()) {
+            problem(file, id, "has no route inside", "<route edges=\"...\"/>");
+            return false;
+        }
+        if (for_emergency && emergency_routes_.insert(edges).second &&
+            roads::route_length(context_.network, route).value >= measured_.emergency_minimum_length_m)
+            long_routes_.push_back(std::move(route));
+        return true;
+    }
+
+    void add_emergency() {
+        const int count = context_.config.demand.emergency;
+        if (count > 0 && long_routes_.empty())
+            throw core::InputError(core::Problem{context_.config.where("measured.emergency_minimum_length_m"),
+                                                 "no measured route of a car is that long", "shorter",
+                                                 "lower it"});
+        for (int number = 0; number < count; ++number) {
+            traffic::EmergencyDeparture departure;
+            departure.id = fmt::format("emergency.{}", number);
+            departure.kind = emergency_kind(context_, departure.id);
+            departure.type = type_id(VehicleClass::emergency, departure.kind);
+            departure.depart = core::Seconds(emergency_departure_s(context_, departure.id));
+            constexpr std::uint64_t route_draw = 1;
+            const std::uint64_t row = context_.random.below(
+                long_routes_.size(), Purpose::emergency, core::vehicle_key(departure.id).value, route_draw);
+            departure.edges = edge_ids(context_.network, long_routes_[row]);
+            demand_.emergency.push_back(std::move(departure));
+        }
+    }
+
+    void unknown_type(const std::filesystem::path& file, const std::string& id, const std::string& type) {
+        if (!unknown_types_.insert(type).second) return;
+        problem(file, id, fmt::format("type \"{}\" is not listed", type), "a type of [[measured.type]]");
+    }
+
+    void problem(const std::filesystem::path& file, const std::string& id, std::string what,
+                 std::string allowed) {
+        problems_.push_back({fmt::format("{}: vehicle \"{}\"", file.string(), id), std::move(what),
+                             std::move(allowed), "correct the route file, or list the type in the scenario"});
+    }
+
+    const DemandContext& context_;
+    const Measured& measured_;
+    std::map<std::string, const MeasuredType*> types_;
+    std::set<std::string> unknown_types_;
+    std::set<std::string> emergency_routes_;
+    std::vector<std::vector<core::EdgeIndex>> long_routes_;
+    std::vector<core::Problem> problems_;
+    PlannedDemand demand_;
+};
+
+}  // namespace
+
+PlannedDemand read_measured(const DemandContext& context) {
+    MeasuredReader reader(context);
+    for (const std::string& path : context.config.measured->routes)
+        reader.read(resolve(context.config, path));
+    return reader.finish();
+}
+
+}  // namespace clearway::scenario::detail

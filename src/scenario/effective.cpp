@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "scenario/config.hpp"
+#include "scenario/detail/library.hpp"
+#include "scenario/detail/toml_reader.hpp"
+
+namespace clearway::scenario {
+
+namespace {
+
+template <class Member>
+std::string value_text(const Member& value) {
+    if constexpr (std::is_same_v<Member, std::string>) {
+        return detail::quoted(value);
+    } else if constexpr (std::is_enum_v<Member>) {
+        return detail::quoted(detail::spelling(value));
+    } else {
+        return fmt::format("{}", value);
+    }
+}
+
+/// Members of a struct as lines `key = value`; empty texts are left out, for they are the absence of a value.
+template <class Struct>
+std::string members(const Struct& values) {
+    std::string text;
+    core::for_each_field<Struct>([&](const auto& field) {
+        const auto& value = values.*field.member;
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+            if (value.empty()) return;
+        }
+        text += fmt::format("{} = {}\n", field.name, value_text(value));
+    });
+    return text;
+}
+
+std::string text_array(const std::vector<std::string>& values) {
+    std::string text = "[";
+    for (const std::string& value : values)
+        text += (text.size() > 1 ? ", " : "") + detail::quoted(value);
+    return text + "]";
+}
+
+template <class Struct>
+std::string tables(const char* name, const std::vector<Struct>& rows) {
+    std::string text;
+    for (const Struct& row : rows)
+        text += fmt::format("\n[[{}]]\n{}", name, members(row));
+    return text;
+}
+
+std::string measured_text(const Measured& measured) {
+    return fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n{}", members(measured),
+                       text_array(measured.routes), text_array(measured.additional),
+                       tables("measured.type", measured.types));
+}
+
+/// The files that a configuration names relative to its folder.
+std::vector<std::string> own_files(const ScenarioConfig& config) {
+    const NetworkSource& network = config.network;
+    std::vector<std::string> files = {network.nodes, network.edges, network.connections, network.signals,
+                                      network.file};
+    if (config.measured) {
+        files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());
+        files.insert(files.end(), config.measured->additional.begin(), config.measured->additional.end());
+    }
+    std::erase_if(files, [](const std::string& file) {
+        return file.empty() || file.front() == '$' || std::filesystem::path(file).is_absolute();
+    });
+    return files;
+}
+
+void copy_files(const ScenarioConfig& config, const std::filesystem::path& folder) {
+    for (const std::string& file : own_files(config)) {
+        const std::filesystem::path target = folder / file;
+        core::make_folder(target.parent_path());
+        core::write_atomically(target, core::read_file(config.folder / file));
+    }
+}
+
+/// The text with the line of its key `name` replaced; comments and all else stay.
+std::string renamed(const std::string& text, const std::string& name) {
+    const toml::table table = toml::parse(text);
+    const auto line = table.get("name")->source().begin.line;
+    std::size_t start = 0;
+    for (toml::source_index number = 1; number < line; ++number)
+        start = text.find('\n', start) + 1;
+    const std::size_t end = text.find('\n', start);
+    return text.substr(0, start) + "name = " + detail::quoted(name) +
+           (end == std::string::npos ? "\n" : text.substr(end));
+}
+
+}  // namespace
+
+std::string to_toml(const ScenarioConfig& config) {
+    std::string text =
+        fmt::format("name = {}\nversion = {}\n", detail::quoted(config.name), detail::quoted(config.version));
+    if (!config.title.empty()) text += fmt::format("title = {}\n", detail::quoted(config.title));
+    text += "\n[network]\n" + members(config.network);
+    text += "\n[time]\n" + members(config.time);
+    text += "\n[demand]\n" + members(config.demand);
+    if (config.dense) text += "\n[dense]\n" + members(*config.dense);
+    text += "\n[limits]\n" + members(config.limits);
+    text += "\n[drivers]\n" + members(config.drivers);
+    text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);
+    text += "\n[kinds.emergency]\n" + members(config.emergency_kinds);
+    text += "\n[trips]\n" + members(config.trips);
+    text += tables("flow", config.flows);
+    text += tables("emergency_trip", config.emergency_trips);
+    if (config.measured) text += measured_text(*config.measured);
+    return text;
+}
+
+std::string configuration_hash(const ScenarioConfig& config) {
+    return core::content_hash(to_toml(config));
+}
+
+void store(const ScenarioConfig& config, const std::filesystem::path& folder) {
+    core::make_folder(folder);
+    copy_files(config, folder);
+    core::write_atomically(folder / "scenario.toml", to_toml(config));
+}
+
+void init(const std::filesystem::path& folder, const std::string& from) {
+    if (std::filesystem::exists(folder) &&
+        (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)))
+        throw core::InputError(core::Problem{folder.string(), "exists and is not an empty folder",
+                                             "a new or an empty folder", "choose another name"});
+    const std::filesystem::path source = detail::scenario_file(from);
+    const ScenarioConfig config = load(from);
+    core::make_folder(folder);
+    copy_files(config, folder);
+    const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
+    core::write_atomically(folder / "scenario.toml",
+                           renamed(core::read_file(source), named.filename().string()));
+}
+
+}  // namespace clearway::scenario

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::scenario {
+
+/// The network of a scenario on disk and in memory. Built once per scenario and shared by its replications.
+struct BuiltNetwork {
+    std::filesystem::path file;  ///< `network.net.xml`
+    roads::Network network;
+    std::string inputs_hash;  ///< Content of what it was built from, and how.
+};
+
+/// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file, cut
+/// down to its largest car-connected component where the scenario says so and with faster roads limited to
+/// `limits.road_kmh`. The result holds no time stamp and no path, so equal inputs give equal bytes. Throws
+/// core::InputError naming file and cure for what netconvert refuses and for a network without edges open to
+/// cars, core::EnvironmentError when netconvert is missing.
+BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
+
+/// Opens what `build_network` made in `folder`, for example in another process.
+BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder);
+
+/// An edge with more lanes for cars than the dissertation's networks have.
+struct WideEdge {
+    std::string id;
+    std::string name;  ///< Street name or empty; text from a file.
+    int car_lanes = 0;
+};
+/// Edges outside junctions with at least `lanes` lanes for cars, by id.
+std::vector<WideEdge> wide_edges(const roads::Network& network, int lanes = 3);
+
+}  // namespace clearway::scenario

@@ -1,0 +1,143 @@
+#include "scenario/picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace clearway::scenario {
+namespace {
+
+constexpr double picture_width = 960.0;   // user units of the SVG
+constexpr double picture_height = 540.0;  // at most; flat networks get less
+constexpr double margin = 30.0;
+
+/// From the network's metres (y up) to the picture's units (y down).
+struct Frame {
+    double scale = 1.0;
+    double left_m = 0.0;
+    double top_m = 0.0;
+    double height = 0.0;
+
+    double x(double metres) const { return margin + (metres - left_m) * scale; }
+    double y(double metres) const { return margin + (top_m - metres) * scale; }
+};
+
+Frame frame_of(const roads::Network& network) {
+    double left = 1e30;
+    double right = -1e30;
+    double bottom = 1e30;
+    double top = -1e30;
+    for (const roads::Lane& lane : network.lanes()) {
+        for (const roads::Point& point : lane.shape) {
+            left = std::min<double>(left, point.x_m);
+            right = std::max<double>(right, point.x_m);
+            bottom = std::min<double>(bottom, point.y_m);
+            top = std::max<double>(top, point.y_m);
+        }
+    }
+    Frame frame;
+    const double width_m = std::max(1.0, right - left);
+    const double height_m = std::max(1.0, top - bottom);
+    frame.scale = std::min((picture_width - 2 * margin) / width_m, (picture_height - 2 * margin) / height_m);
+    frame.left_m = left;
+    frame.top_m = top;
+    frame.height = height_m * frame.scale + 2 * margin + 20.0;
+    return frame;
+}
+
+void draw_lanes(const roads::Network& network, const Frame& frame, std::string& svg) {
+    auto out = std::back_inserter(svg);
+    for (const roads::Lane& lane : network.lanes()) {
+        const bool internal = network.edge(lane.edge).internal;
+        const double width = std::max(0.7, 0.85 * lane.width_m * frame.scale);
+        fmt::format_to(out, "<polyline class=\"{}\" stroke-width=\"{:.2f}\" points=\"",
+                       internal ? "junction" : "lane", internal ? 0.5 * width : width);
+        for (const roads::Point& point : lane.shape) {
+            fmt::format_to(out, "{:.1f},{:.1f} ", frame.x(point.x_m), frame.y(point.y_m));
+        }
+        fmt::format_to(out, "\"/>\n");
+    }
+}
+
+void draw_signals(const roads::Network& network, const Frame& frame, std::string& svg) {
+    std::set<core::LaneIndex> stop_lines;
+    for (const roads::Signal& signal : network.signals()) {
+        for (const auto& link : signal.links) {
+            for (const roads::SignalLink& way : link) {
+                stop_lines.insert(way.from);
+            }
+        }
+    }
+    for (const core::LaneIndex lane : stop_lines) {
+        const roads::Point end = network.lane(lane).shape.back();
+        fmt::format_to(std::back_inserter(svg),
+                       "<circle class=\"signal\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>\n", frame.x(end.x_m),
+                       frame.y(end.y_m));
+    }
+}
+
+/// The longest of 1, 2, 5 x 10^n metres that takes at most a fifth of the width.
+double scale_bar_m(const Frame& frame) {
+    const double longest = picture_width / 5.0 / frame.scale;
+    const double power = std::pow(10.0, std::floor(std::log10(longest)));
+    for (const double factor : std::array{5.0, 2.0}) {
+        if (factor * power <= longest) return factor * power;
+    }
+    return power;
+}
+
+void draw_scale_bar(const Frame& frame, std::string& svg) {
+    const double metres = scale_bar_m(frame);
+    const double y = frame.height - 14.0;
+    fmt::format_to(std::back_inserter(svg),
+                   "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}h{2:.1f}\"/>"
+                   "<text x=\"{3:.1f}\" y=\"{4:.1f}\">{5:g} m</text>\n",
+                   margin, y, metres * frame.scale, margin + metres * frame.scale + 6.0, y + 4.0, metres);
+}
+
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char letter : text) {
+        switch (letter) {
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '&':
+                result += "&amp;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += letter;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string network_picture(const roads::Network& network, const std::string& title) {
+    const Frame frame = frame_of(network);
+    std::string svg = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" "
+        "class=\"network\">\n"
+        "<title>{}</title>\n<style>.network polyline{{fill:none;stroke:currentColor;stroke-linejoin:round}}"
+        ".network .lane{{opacity:.75}}.network .junction{{opacity:.3}}.network .signal{{fill:#d55e00}}"
+        ".network .bar{{stroke:currentColor;stroke-width:2}}.network text{{font:12px "
+        "sans-serif;fill:currentColor}}</style>\n",
+        picture_width, frame.height, escaped(title));
+    draw_lanes(network, frame, svg);
+    draw_signals(network, frame, svg);
+    draw_scale_bar(frame, svg);
+    return svg + "</svg>\n";
+}
+
+}  // namespace clearway::scenario

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "roads/network.hpp"
+
+namespace clearway::scenario {
+
+/// A picture of the road network as a stand-alone SVG element, north up, with a scale bar: lanes drawn to
+/// scale (at least a hairline), signals as dots. Colours follow `currentColor`, so it reads on light and on
+/// dark pages. `title` is escaped.
+std::string network_picture(const roads::Network& network, const std::string& title);
+
+}  // namespace clearway::scenario

@@ -1,0 +1,86 @@
+#include "scenario/prepare.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "scenario/detail/demand.hpp"
+#include "scenario/vehicle_types.hpp"
+
+namespace clearway::scenario {
+
+namespace {
+
+std::string routes_xml(const std::vector<detail::PlannedVehicle>& vehicles) {
+    std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<routes>\n";
+    for (const detail::PlannedVehicle& vehicle : vehicles)
+        xml += vehicle.xml;
+    return xml + "</routes>\n";
+}
+
+std::string emergency_csv(const std::vector<traffic::EmergencyDeparture>& departures) {
+    std::string text = "id,type,kind,depart_s,depart_lane,depart_speed,edges\n";
+    for (const traffic::EmergencyDeparture& departure : departures)
+        text += fmt::format("{},{},{},{:.2f},{},{},{}\n", departure.id, departure.type,
+                            traffic::name(departure.kind), departure.depart.value, departure.depart_lane,
+                            departure.depart_speed, fmt::join(departure.edges, " "));
+    return text;
+}
+
+int count(const std::vector<detail::PlannedVehicle>& vehicles, traffic::VehicleClass vehicle_class) {
+    return static_cast<int>(std::count_if(
+        vehicles.begin(), vehicles.end(),
+        [&](const detail::PlannedVehicle& vehicle) { return vehicle.vehicle_class == vehicle_class; }));
+}
+
+std::uint64_t simulator_seed(const core::KeyedRandom& random) {
+    constexpr std::uint64_t largest = (std::uint64_t{1} << 31) - 1;
+    return 1 + random.below(largest - 1, core::Purpose::simulator, 0);
+}
+
+/// SUMO separates additional files by commas, so a comma in a path would be taken for two files.
+void refuse_commas(const std::filesystem::path& folder) {
+    if (folder.string().find(',') == std::string::npos) return;
+    throw core::InputError(core::Problem{folder.string(),
+                                         "has a comma in its path, which SUMO takes for a separator",
+                                         "a path without commas", "choose another folder"});
+}
+
+}  // namespace
+
+Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
+                 core::Replication replication, const std::filesystem::path& folder) {
+    refuse_commas(std::filesystem::absolute(folder));
+    const detail::DemandContext context{config, network.network, core::KeyedRandom(seed, replication)};
+    detail::PlannedDemand demand =
+        config.measured ? detail::read_measured(context) : detail::generate(context);
+    detail::add_emergency_trips(context, demand);
+    detail::sort_by_departure(demand);
+
+    const std::string types = vehicle_types_xml(config);
+    const std::string routes = routes_xml(demand.vehicles);
+    const std::string emergency = emergency_csv(demand.emergency);
+    core::make_folder(folder);
+    core::write_atomically(folder / "vehicle_types.add.xml", types);
+    core::write_atomically(folder / "traffic.rou.xml", routes);
+    core::write_atomically(folder / "emergency.csv", emergency);
+
+    Prepared prepared;
+    prepared.network_file = network.file;
+    prepared.route_files = {folder / "traffic.rou.xml"};
+    prepared.additional_files = {folder / "vehicle_types.add.xml"};
+    if (config.measured)
+        for (const std::string& path : config.measured->additional)
+            prepared.additional_files.push_back(resolve(config, path));
+    prepared.human = count(demand.vehicles, traffic::VehicleClass::human);
+    prepared.automated = count(demand.vehicles, traffic::VehicleClass::automated);
+    prepared.emergency = std::move(demand.emergency);
+    prepared.time = config.time;
+    prepared.simulator_seed = simulator_seed(context.random);
+    prepared.demand_hash = core::content_hash(types + routes + emergency);
+    return prepared;
+}
+
+}  // namespace clearway::scenario

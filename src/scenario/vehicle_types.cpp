@@ -1,0 +1,111 @@
+#include "scenario/vehicle_types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "traffic/departure.hpp"
+
+namespace clearway::scenario {
+
+namespace {
+
+using traffic::VehicleClass;
+using traffic::VehicleKind;
+
+// Sizes and dynamics: SUMO 1.15, vClass defaults (passenger, delivery, truck, bus, emergency). The fire
+// engine has the size of a medium pumper (EN 1846: medium class, 8 m assumed) and the dynamics of SUMO's
+// truck, but a top speed of 100 km/h.
+constexpr std::array kinds = {
+    KindProperties{VehicleKind::car, "passenger", "passenger", 5.0, 1.8, 1.5, 2.6, 4.5, 9.0, 200 / 3.6},
+    KindProperties{VehicleKind::van, "delivery", "delivery", 6.5, 2.16, 2.86, 2.6, 4.5, 9.0, 200 / 3.6},
+    KindProperties{VehicleKind::truck, "truck", "truck", 7.1, 2.4, 2.4, 1.3, 4.0, 7.0, 130 / 3.6},
+    KindProperties{VehicleKind::bus, "bus", "bus/city", 12.0, 2.5, 3.4, 1.2, 4.0, 7.0, 85 / 3.6},
+    KindProperties{VehicleKind::ambulance, "emergency", "emergency", 6.5, 2.16, 2.86, 2.6, 4.5, 9.0,
+                   200 / 3.6},
+    KindProperties{VehicleKind::fire_engine, "emergency", "firebrigade", 8.0, 2.5, 3.3, 1.3, 4.0, 7.0,
+                   100 / 3.6},
+    KindProperties{VehicleKind::police_car, "emergency", "police", 5.0, 1.8, 1.5, 2.6, 4.5, 9.0, 200 / 3.6},
+};
+
+// sumo: tau, minGap and delta of SUMO 1.15; accelerations of the kind.
+// treiber: Kesting, Treiber, Helbing 2010, "Enhanced intelligent driver model to access the impact of driving
+// strategies on traffic capacity", table 1: T 1.5 s, s0 2 m, a 1.4 m/s^2, b 2.0 m/s^2.
+constexpr IdmParameters sumo_parameters{1.0, 2.5, 4.0, 100.0, 100.0};
+constexpr IdmParameters treiber_parameters{1.5, 2.0, 4.0, 1.4, 2.0};
+
+double class_limit_kmh(const SpeedLimits& limits, VehicleClass vehicle_class) {
+    switch (vehicle_class) {
+        case VehicleClass::human:
+            return limits.human_kmh;
+        case VehicleClass::automated:
+            return limits.automated_kmh;
+        case VehicleClass::emergency:
+            return limits.emergency_kmh;
+    }
+    throw std::logic_error("vehicle class without a limit");
+}
+
+std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, const KindProperties& kind,
+                     Access access) {
+    const IdmParameters& idm = parameters(config.drivers.idm);
+    const double limit_mps = core::from_kmh(class_limit_kmh(config.limits, vehicle_class)).value;
+    return fmt::format(
+        "    <vType id=\"{}\" vClass=\"{}\" guiShape=\"{}\" length=\"{}\" width=\"{}\" height=\"{}\" "
+        "minGap=\"{}\" "
+        "accel=\"{}\" decel=\"{}\" emergencyDecel=\"{}\" maxSpeed=\"{:.2f}\" speedFactor=\"1\" "
+        "speedDev=\"0\" "
+        "carFollowModel=\"IDM\" tau=\"{}\" delta=\"{}\">\n"
+        "        <param key=\"{}\" value=\"{}\"/>\n        <param key=\"{}\" value=\"{}\"/>\n    </vType>\n",
+        type_id(vehicle_class, kind.kind, access),
+        access == Access::unrestricted ? "ignoring" : kind.vehicle_permission, kind.gui_shape, kind.length_m,
+        kind.width_m, kind.height_m, idm.minimum_gap_m,
+        std::min(kind.acceleration_mps2, idm.acceleration_cap_mps2),
+        std::min(kind.deceleration_mps2, idm.deceleration_cap_mps2), kind.emergency_deceleration_mps2,
+        std::min(limit_mps, kind.maximum_speed_mps), idm.time_headway_s, idm.exponent,
+        traffic::class_parameter, traffic::name(vehicle_class), traffic::kind_parameter,
+        traffic::name(kind.kind));
+}
+
+bool is_emergency(const KindProperties& kind) {
+    return std::string_view(kind.vehicle_permission) == "emergency";
+}
+
+}  // namespace
+
+const KindProperties& properties(VehicleKind kind) {
+    for (const KindProperties& row : kinds)
+        if (row.kind == kind) return row;
+    throw std::logic_error("no properties for this kind of vehicle");
+}
+
+const IdmParameters& parameters(IdmPreset preset) {
+    return preset == IdmPreset::sumo ? sumo_parameters : treiber_parameters;
+}
+
+std::string type_id(VehicleClass vehicle_class, VehicleKind kind, Access access) {
+    return fmt::format("{}_{}{}", traffic::name(vehicle_class), traffic::name(kind),
+                       access == Access::unrestricted ? "_unrestricted" : "");
+}
+
+std::string vehicle_types_xml(const ScenarioConfig& config) {
+    std::vector<Access> accesses = {Access::own};
+    if (config.measured) accesses.push_back(Access::unrestricted);
+    std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<additional>\n";
+    for (const Access access : accesses) {
+        for (const KindProperties& kind : kinds) {
+            if (is_emergency(kind)) continue;
+            xml += type_xml(config, VehicleClass::human, kind, access);
+            xml += type_xml(config, VehicleClass::automated, kind, access);
+        }
+    }
+    for (const KindProperties& kind : kinds)
+        if (is_emergency(kind)) xml += type_xml(config, VehicleClass::emergency, kind, Access::own);
+    return xml + "</additional>\n";
+}
+
+}  // namespace clearway::scenario

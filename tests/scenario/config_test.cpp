@@ -1,0 +1,229 @@
+#include "scenario/config.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/files.hpp"
+#include "scratch.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::Field;
+using ::testing::HasSubstr;
+
+class Config : public ScratchTest {
+  protected:
+    void SetUp() override {
+        ScratchTest::SetUp();
+        write("line.nod.xml", line_nodes);
+        write("line.edg.xml", line_edges);
+    }
+    ScenarioConfig load_text(const std::string& rest, const Options& options = {}) const {
+        return load(write("scenario.toml", line_head + rest).string(), options);
+    }
+    core::Problem only_problem(const std::string& rest, const Options& options = {}) const {
+        const auto problems = problems_of([&] { load_text(rest, options); });
+        EXPECT_EQ(problems.size(), 1U);
+        return problems.empty() ? core::Problem{} : problems.front();
+    }
+};
+
+TEST_F(Config, shipped_scenarios_are_listed_and_load) {
+    EXPECT_THAT(list(), ElementsAre("bologna", "city", "intersection", "merge"));
+    for (const std::string& name : list()) {
+        const ScenarioConfig config = load(name);
+        EXPECT_EQ(config.name, name);
+        EXPECT_EQ(config.version, "v1");
+    }
+}
+
+TEST_F(Config, counts_and_limits_are_those_of_table_1) {
+    struct Row {
+        const char* name;
+        int human, automated, emergency;
+        double fast_kmh, human_kmh, window_s;
+    };
+    for (const Row& row :
+         {Row{"merge", 23, 14, 3, 140, 120, 100}, Row{"intersection", 26, 16, 2, 140, 120, 120},
+          Row{"city", 47, 26, 7, 120, 100, 200}}) {
+        const ScenarioConfig config = load(row.name);
+        EXPECT_EQ(config.demand.human, row.human);
+        EXPECT_EQ(config.demand.automated, row.automated);
+        EXPECT_EQ(config.demand.emergency, row.emergency);
+        EXPECT_EQ(config.limits.emergency_kmh, row.fast_kmh);
+        EXPECT_EQ(config.limits.automated_kmh, row.fast_kmh);
+        EXPECT_EQ(config.limits.human_kmh, row.human_kmh);
+        EXPECT_EQ(config.time.window_s, row.window_s);
+    }
+}
+
+TEST_F(Config, dense_variant_multiplies_traffic_and_widens_the_window) {
+    Options options;
+    options.variant = Variant::dense;
+    const ScenarioConfig config = load("intersection", options);
+    EXPECT_EQ(config.demand.density, 7.0);
+    EXPECT_EQ(config.demand.emergency, 6);
+    EXPECT_EQ(config.time.window_s, 400.0);
+    EXPECT_FALSE(config.dense);
+}
+
+TEST_F(Config, options_change_the_configuration) {
+    Options options;
+    options.density = 2.0;
+    options.automated_share = 0.5;
+    options.road_limit_kmh = 70.0;
+    options.step_length_s = 0.1;
+    options.idm = IdmPreset::treiber;
+    const ScenarioConfig config = load("merge", options);
+    EXPECT_EQ(config.demand.density, 2.0);
+    EXPECT_EQ(config.demand.human + config.demand.automated, 37);
+    EXPECT_EQ(config.demand.automated, 19);
+    EXPECT_EQ(config.limits.road_kmh, 70.0);
+    EXPECT_EQ(config.time.step_length_s, 0.1);
+    EXPECT_EQ(config.drivers.idm, IdmPreset::treiber);
+}
+
+TEST_F(Config, unknown_key_is_reported_with_line_column_and_nearest_key) {
+    const core::Problem problem = only_problem("[time]\nwarm_up = 10.0\n");
+    EXPECT_THAT(problem.where, EndsWith("scenario.toml:7:1: time.warm_up"));
+    EXPECT_THAT(problem.what, HasSubstr("unknown key"));
+    EXPECT_THAT(problem.allowed, HasSubstr("window_s"));
+    EXPECT_THAT(problem.cure, HasSubstr("warm_up_s"));
+}
+
+TEST_F(Config, negative_count_is_refused) {
+    const core::Problem problem = only_problem("[demand]\nhuman = -3\n");
+    EXPECT_THAT(problem.where, EndsWith("scenario.toml:7:1: demand.human"));
+    EXPECT_THAT(problem.what, HasSubstr("-3 is negative"));
+    EXPECT_EQ(problem.allowed, "0 to 100000");
+}
+
+TEST_F(Config, fractional_count_is_refused) {
+    EXPECT_EQ(only_problem("[demand]\nhuman = 1.5\n").allowed, "a whole number");
+}
+
+TEST_F(Config, step_out_of_range_is_refused_in_file_and_option) {
+    EXPECT_THAT(only_problem("[time]\nstep_length_s = 0.5\n"),
+                AllOf(Field(&core::Problem::what, HasSubstr("0.5 is out of range")),
+                      Field(&core::Problem::allowed, "0.1 to 0.25")));
+    Options options;
+    options.step_length_s = 1.0;
+    EXPECT_EQ(only_problem("", options).where, "--step-length");
+}
+
+TEST_F(Config, not_a_number_is_refused) {
+    EXPECT_THAT(only_problem("[time]\nstep_length_s = nan\n").what, HasSubstr("nan is out of range"));
+}
+
+TEST_F(Config, emergency_departure_before_the_warm_up_is_refused) {
+    const core::Problem problem = only_problem(
+        "[time]\nwarm_up_s = 60.0\n[[emergency_trip]]\nfrom = \"first\"\nto = \"second\"\ndepart_s = 5.0\n");
+    EXPECT_THAT(problem.where, EndsWith("scenario.toml:11:1: emergency_trip[0].depart_s"));
+    EXPECT_THAT(problem.what, HasSubstr("5 is before the warm-up ends"));
+}
+
+TEST_F(Config, warm_up_after_the_window_names_the_option_that_set_it) {
+    Options options;
+    options.warm_up_s = 500.0;
+    const core::Problem problem = only_problem("[demand]\nemergency = 1\n", options);
+    EXPECT_EQ(problem.where, "--warm-up");
+    EXPECT_THAT(problem.what, HasSubstr("500"));
+}
+
+TEST_F(Config, missing_network_file_is_named) {
+    std::filesystem::remove(folder() / "line.edg.xml");
+    const core::Problem problem = only_problem("");
+    EXPECT_THAT(problem.where, EndsWith("scenario.toml:5:1: network.edges"));
+    EXPECT_THAT(problem.what, HasSubstr("line.edg.xml"));
+}
+
+TEST_F(Config, path_out_of_the_folder_is_refused) {
+    const auto problems = problems_of([&] {
+        load(write("scenario.toml", "name = \"x\"\nversion = \"1\"\n[network]\nfile = \"../other.net.xml\"\n")
+                 .string());
+    });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].what, HasSubstr("leaves the scenario's folder"));
+}
+
+TEST_F(Config, shares_must_add_up) {
+    const core::Problem problem = only_problem("[[flow]]\nfrom = \"first\"\nto = \"second\"\nshare = 0.9\n");
+    EXPECT_THAT(problem.where, HasSubstr(":9:1: flow[0].share"));
+    EXPECT_THAT(problem.what, HasSubstr("0.9"));
+}
+
+TEST_F(Config, every_problem_is_reported_at_once) {
+    const auto problems = problems_of([&] {
+        load_text("[demand]\nhuman = -1\nautomated = \"ten\"\n[drivers]\nidm = \"wiedemann\"\nspeed = 3\n");
+    });
+    ASSERT_EQ(problems.size(), 4U);
+    EXPECT_THAT(problems[2].what, HasSubstr("\"wiedemann\""));
+    EXPECT_EQ(problems[2].allowed, "sumo, treiber");
+}
+
+TEST_F(Config, broken_toml_is_reported_with_its_line) {
+    const core::Problem problem = only_problem("[time\n");
+    EXPECT_THAT(problem.where, HasSubstr("scenario.toml:6:"));
+}
+
+TEST_F(Config, unknown_scenario_suggests_the_nearest) {
+    const auto problems = problems_of([] { load("intersecton"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].cure, HasSubstr("intersection"));
+}
+
+TEST_F(Config, density_above_one_is_refused_for_measured_demand) {
+    Options options;
+    options.density = 2.0;
+    const auto problems = problems_of([&] { load("bologna", options); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "--density");
+}
+
+TEST_F(Config, variant_without_a_table_is_refused) {
+    Options options;
+    options.variant = Variant::dense;
+    EXPECT_EQ(only_problem("", options).where, "--dense");
+}
+
+TEST_F(Config, effective_configuration_reads_back_as_itself) {
+    for (const std::string& name : list()) {
+        Options options;
+        options.horizon_s = 4321.5;
+        const ScenarioConfig config = load(name, options);
+        store(config, folder() / name);
+        const ScenarioConfig again = load((folder() / name).string());
+        EXPECT_EQ(to_toml(again), to_toml(config));
+        EXPECT_EQ(configuration_hash(again), configuration_hash(config));
+        EXPECT_EQ(again.time.horizon_s, 4321.5);
+    }
+    EXPECT_NE(configuration_hash(load("merge")), configuration_hash(load("city")));
+}
+
+TEST_F(Config, text_of_the_file_survives_quoting) {
+    ScenarioConfig config = load_text("");
+    config.title = "a \"b\" \\ \n\x01 ü";
+    write("again.toml", to_toml(config));
+    EXPECT_EQ(load((folder() / "again.toml").string()).title, config.title);
+}
+
+TEST_F(Config, init_makes_a_scenario_to_edit) {
+    init(folder() / "mine", "intersection");
+    const ScenarioConfig config = load((folder() / "mine").string());
+    EXPECT_EQ(config.name, "mine");
+    EXPECT_EQ(config.demand.human, 26);
+    EXPECT_THAT(core::read_file(folder() / "mine" / "scenario.toml"), HasSubstr("# Arms alike"));
+    EXPECT_THROW(init(folder() / "mine", "merge"), core::InputError);
+}
+
+TEST_F(Config, sumo_home_is_needed_only_by_scenarios_that_refer_to_it) {
+    unsetenv("SUMO_HOME");
+    EXPECT_NO_THROW(load("merge"));
+    EXPECT_THROW(load("city"), core::EnvironmentError);
+}
+
+}  // namespace
+}  // namespace clearway::scenario
