@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "prediction/weights.hpp"
+
+namespace clearway::prediction {
+
+/// Where messages come from, in CSR form by receiver: row i receives from source[first[i]] ... source[first[i
+/// + 1] - 1]. A source that stands twice counts twice in the mean, as in PyTorch Geometric.
+struct MessageGraph {
+    std::vector<std::uint32_t> first = {0};
+    std::vector<std::uint32_t> source;
+};
+
+/// From an edge list as PyTorch Geometric has it: a message flows from `sources[e]` to `targets[e]`. Keeps
+/// the order of the list within a row. Indices must be below `row_count`.
+void message_graph_from(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
+                        std::size_t row_count, MessageGraph& graph);
+
+/// Two rows whose link is scored. The score does not depend on their order.
+struct RowPair {
+    std::uint32_t left = 0;
+    std::uint32_t right = 0;
+    auto operator<=>(const RowPair&) const = default;
+};
+
+/// Which machine code runs. Both give the same bits: they add in one order and round after every operation.
+enum class Kernel { scalar, avx2 };
+/// The fastest that this processor has.
+Kernel best_kernel();
+
+/// Sizes of the dissertation's net; hidden 10 and output 5 there.
+struct GraphSageDimensions {
+    std::uint32_t input = 2;
+    std::uint32_t hidden = 10;
+    std::uint32_t output = 5;
+    auto operator<=>(const GraphSageDimensions&) const = default;
+};
+
+/// The dissertation's GraphSAGENet (chapters 5.1 and 5.2), for inference without torch:
+///
+///     h_i = W1l mean_{j -> i} x_j + b1 + W1r x_i        (SAGEConv with mean aggregation, Hamilton et al.
+///     2017; z_i = W2l mean_{j -> i} h_j + b2 + W2r h_i         as published: no activation between the two)
+///     logit_ij = w4 . relu(W3 (z_i * z_j) + b3) + b4     (* is the elementwise product)
+///
+/// A row that receives nothing has mean 0. Tensors by PyTorch Geometric's names:
+/// `graphsage.conv1.lin_l.weight` (W1l),
+/// `.lin_l.bias`, `.lin_r.weight`, `graphsage.conv2...`, `nn.fc1.weight`, `nn.fc1.bias`, `nn.fc2.weight`,
+/// `nn.fc2.bias`. Held to libtorch by a test of the training module. Single precision; no allocation once
+/// buffers have grown; one object, one thread.
+class GraphSageNet {
+  public:
+    static constexpr const char* architecture = "graphsage_net";
+
+    /// Throws core::InputError when the weights are not such a net for `features`.
+    GraphSageNet(const Weights& weights, const FeatureSchema& features, Kernel kernel = best_kernel());
+
+    const GraphSageDimensions& dimensions() const { return dimensions_; }
+
+    /// Writes one logit per pair. `features` is row-major, rows x dimensions().input. Graph and pairs refer
+    /// to its rows.
+    void logits(std::span<const float> features, const MessageGraph& graph, std::span<const RowPair> pairs,
+                std::vector<float>& logits);
+    /// The embeddings z of the last call to `logits`, row-major, rows x embedding_stride(); the first
+    /// dimensions().output of a row count.
+    std::span<const float> embeddings() const { return embeddings_; }
+    std::size_t embedding_stride() const;
+
+  private:
+    struct Convolution {
+        std::vector<float> neighbour;  ///< [inputs][padded outputs]
+        std::vector<float> own;        ///< [inputs][padded outputs]
+        std::vector<float> bias;       ///< [padded outputs]
+        std::uint32_t inputs = 0;
+        std::uint32_t outputs = 0;
+    };
+    static Convolution convolution_from(const Weights& weights, const std::string& name, std::uint32_t inputs,
+                                        std::uint32_t outputs);
+    void convolve(const Convolution& convolution, std::span<const float> rows, const MessageGraph& graph,
+                  std::vector<float>& result);
+    void decode(std::span<const RowPair> pairs, std::vector<float>& logits);
+
+    GraphSageDimensions dimensions_;
+    Kernel kernel_;
+    Convolution first_, second_;
+    std::vector<float> decoder_weight_, decoder_bias_, output_weight_;
+    float output_bias_ = 0.0F;
+    std::vector<float> padded_, hidden_, embeddings_, mean_;
+};
+
+/// The logistic function: the probability that belongs to a logit.
+float probability_from_logit(float logit);
+
+}  // namespace clearway::prediction

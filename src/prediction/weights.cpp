@@ -1,0 +1,254 @@
+#include "prediction/weights.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+constexpr std::string_view magic = "clearway-weights";
+constexpr std::size_t value_limit = 20'000'000;
+
+std::string shape_text(const std::vector<std::uint32_t>& shape) {
+    return fmt::format("{}", fmt::join(shape, " x "));
+}
+
+std::size_t value_count(const std::vector<std::uint32_t>& shape) {
+    std::size_t product = 1;
+    for (const std::uint32_t size : shape) {
+        product = std::min(product * size, value_limit + 1);
+    }
+    return product;
+}
+
+void append_values(const Tensor& tensor, std::string& text) {
+    const std::size_t row = tensor.shape.empty() ? 1 : tensor.shape.back();
+    char buffer[32];
+    for (std::size_t at = 0; at < tensor.values.size(); ++at) {
+        const auto end = std::to_chars(buffer, buffer + sizeof buffer, tensor.values[at]);
+        text.append(buffer, end.ptr);
+        text += (at + 1) % row == 0 ? '\n' : ' ';
+    }
+}
+
+/// Walks over the lines of a weights text and says where a problem stands.
+class Reader {
+  public:
+    Reader(std::string_view text, const std::string& source) : rest_(text), source_(source) {}
+
+    /// The next line, without its break; nothing at the end.
+    std::optional<std::string_view> line() {
+        if (rest_.empty()) return std::nullopt;
+        const std::size_t stop = rest_.find('\n');
+        const std::string_view found = rest_.substr(0, stop);
+        rest_.remove_prefix(stop == std::string_view::npos ? rest_.size() : stop + 1);
+        ++number_;
+        return found;
+    }
+
+    [[noreturn]] void fail(const std::string& what, const std::string& allowed = "") const {
+        throw core::InputError({fmt::format("{}:{}", source_, number_), what, allowed,
+                                "export the net again with `clearway train`"});
+    }
+
+  private:
+    std::string_view rest_;
+    std::string source_;
+    std::size_t number_ = 0;
+};
+
+/// Cuts the first word off `line`.
+std::string_view next_word(std::string_view& line) {
+    const std::size_t start = std::min(line.find_first_not_of(" \r"), line.size());
+    line.remove_prefix(start);
+    const std::string_view word = line.substr(0, line.find_first_of(" \r"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::uint32_t parse_count(std::string_view word, const Reader& reader) {
+    std::uint32_t value = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || end.ec != std::errc{} || end.ptr != word.data() + word.size()) {
+        reader.fail(fmt::format("'{}' is not a number", word), "a whole number, 0 or more");
+    }
+    return value;
+}
+
+float parse_value(std::string_view word, const Reader& reader) {
+    float value = 0.0F;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (end.ec != std::errc{} || end.ptr != word.data() + word.size() || !std::isfinite(value)) {
+        reader.fail(fmt::format("'{}' is not a finite number", word), "a decimal number");
+    }
+    return value;
+}
+
+Tensor parse_tensor(std::string_view rest, Reader& reader) {
+    Tensor tensor;
+    tensor.name = next_word(rest);
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+        tensor.shape.push_back(parse_count(word, reader));
+    }
+    const std::size_t count = value_count(tensor.shape);
+    if (tensor.name.empty() || tensor.shape.empty() || count == 0 || count > value_limit) {
+        reader.fail("a tensor without a name or with an impossible shape", "tensor NAME SIZE [SIZE]");
+    }
+    tensor.values.reserve(count);
+    const std::size_t row = tensor.shape.back();
+    while (tensor.values.size() < count) {
+        std::optional<std::string_view> line = reader.line();
+        if (!line) reader.fail(fmt::format("the file ends inside tensor {}", tensor.name));
+        const std::size_t before = tensor.values.size();
+        for (std::string_view word = next_word(*line); !word.empty(); word = next_word(*line)) {
+            tensor.values.push_back(parse_value(word, reader));
+        }
+        if (tensor.values.size() - before != row) {
+            reader.fail(
+                fmt::format("{} values in a row of tensor {}", tensor.values.size() - before, tensor.name),
+                fmt::format("{} values", row));
+        }
+    }
+    return tensor;
+}
+
+void check_magic(Reader& reader) {
+    std::optional<std::string_view> line = reader.line();
+    const std::string allowed = fmt::format("{} {}", magic, weights_format_version);
+    if (!line || next_word(*line) != magic) reader.fail("not a weights file", allowed);
+    const std::string_view version = next_word(*line);
+    if (version != std::to_string(weights_format_version)) {
+        reader.fail(fmt::format("the file has format version {}, this program reads version {}", version,
+                                weights_format_version),
+                    allowed);
+    }
+}
+
+template <class Items>
+void refuse_twice(const Items& items, const Reader& reader) {
+    for (std::size_t at = 0; at + 1 < items.size(); ++at) {
+        if (items[at].name == items.back().name)
+            reader.fail(fmt::format("{} stands twice", items.back().name));
+    }
+}
+
+/// Takes one line after the first. False at `end`.
+bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
+    const std::string_view word = next_word(line);
+    if (word == "end") return false;
+    if (word == "architecture") {
+        weights.architecture = next_word(line);
+    } else if (word == "features") {
+        weights.features.name = next_word(line);
+        weights.features.version = parse_count(next_word(line), reader);
+        weights.features.width = parse_count(next_word(line), reader);
+    } else if (word == "dimension") {
+        const std::string name(next_word(line));
+        weights.dimensions.push_back({name, parse_count(next_word(line), reader)});
+        refuse_twice(weights.dimensions, reader);
+    } else if (word == "note") {
+        weights.notes.emplace_back(line.empty() ? line : line.substr(1));
+    } else if (word == "tensor") {
+        weights.tensors.push_back(parse_tensor(line, reader));
+        refuse_twice(weights.tensors, reader);
+    } else {
+        reader.fail(fmt::format("'{}' is unknown here", word),
+                    "architecture, features, dimension, note, tensor, end");
+    }
+    return true;
+}
+
+std::string schema_text(const FeatureSchema& schema) {
+    return fmt::format("{} version {} ({} inputs)", schema.name, schema.version, schema.width);
+}
+
+}  // namespace
+
+std::uint32_t Weights::dimension(std::string_view name) const {
+    const auto found = std::ranges::find(dimensions, name, &Dimension::name);
+    if (found == dimensions.end()) {
+        throw core::InputError(
+            {source, fmt::format("dimension {} is missing", name), "", "use another model file"});
+    }
+    return found->value;
+}
+
+const Tensor& Weights::tensor(std::string_view name, const std::vector<std::uint32_t>& shape) const {
+    const auto found = std::ranges::find(tensors, name, &Tensor::name);
+    if (found == tensors.end()) {
+        throw core::InputError(
+            {source, fmt::format("tensor {} is missing", name), "", "use another model file"});
+    }
+    if (found->shape != shape) {
+        throw core::InputError({source, fmt::format("tensor {} is {}", name, shape_text(found->shape)),
+                                shape_text(shape), "use another model file"});
+    }
+    return *found;
+}
+
+void Weights::require(std::string_view wanted_architecture, const FeatureSchema& wanted_features) const {
+    std::vector<core::Problem> problems;
+    if (architecture != wanted_architecture) {
+        problems.push_back({source, fmt::format("the net is a {}", architecture),
+                            std::string(wanted_architecture), "use a model file of this predictor"});
+    }
+    if (features != wanted_features) {
+        problems.push_back({source,
+                            fmt::format("the net was trained on features {}, this program computes {}",
+                                        schema_text(features), schema_text(wanted_features)),
+                            schema_text(wanted_features),
+                            "train it again, or use a model file of this version"});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+std::string format_weights(const Weights& weights) {
+    std::string text = fmt::format("{} {}\narchitecture {}\nfeatures {} {} {}\n", magic,
+                                   weights_format_version, weights.architecture, weights.features.name,
+                                   weights.features.version, weights.features.width);
+    for (const Dimension& dimension : weights.dimensions) {
+        text += fmt::format("dimension {} {}\n", dimension.name, dimension.value);
+    }
+    for (const std::string& note : weights.notes) {
+        assert(note.find('\n') == std::string::npos);
+        text += fmt::format("note {}\n", note);
+    }
+    for (const Tensor& tensor : weights.tensors) {
+        assert(tensor.values.size() == value_count(tensor.shape));
+        text += fmt::format("tensor {} {}\n", tensor.name, fmt::join(tensor.shape, " "));
+        append_values(tensor, text);
+    }
+    return text + "end\n";
+}
+
+Weights parse_weights(std::string_view text, const std::string& source) {
+    Reader reader(text, source);
+    check_magic(reader);
+    Weights weights;
+    weights.source = source;
+    while (true) {
+        const std::optional<std::string_view> line = reader.line();
+        if (!line) reader.fail("the file is cut off: no end line");
+        if (!parse_item(*line, reader, weights)) break;
+    }
+    return weights;
+}
+
+void write_weights(const std::filesystem::path& file, const Weights& weights) {
+    core::write_atomically(file, format_weights(weights));
+}
+
+Weights read_weights(const std::filesystem::path& file) {
+    return parse_weights(core::read_file(file), file.string());
+}
+
+}  // namespace clearway::prediction
