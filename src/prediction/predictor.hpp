@@ -12,8 +12,9 @@
 
 namespace clearway::prediction {
 
-/// Repair: from what was reported to what is believed. Called at every step; the observation changes its content at report
-/// rounds and its ages between them. Deterministic; keeps state and buffers; one thread. Never sees the truth.
+/// Repair: from what was reported to what is believed. Called at every step; the observation changes its
+/// content at report rounds and its ages between them. Deterministic; keeps state and buffers; one thread.
+/// Never sees the truth.
 class Predictor {
   public:
     Predictor() = default;
@@ -22,8 +23,8 @@ class Predictor {
     virtual ~Predictor() = default;
 
     virtual std::string_view name() const = 0;
-    /// Fills `belief` (buffers reused): vehicles ordered by key, links by the candidate rule common to all predictors,
-    /// each with its probability, own states, signals and roster copied from the observation.
+    /// Fills `belief` (buffers reused): vehicles ordered by key, links by the candidate rule common to all
+    /// predictors, each with its probability, own states, signals and roster copied from the observation.
     virtual void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) = 0;
 };
 

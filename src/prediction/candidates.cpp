@@ -1,0 +1,126 @@
+#include "prediction/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway::prediction {
+namespace {
+
+float distance_m(const std::vector<float>& x_m, const std::vector<float>& y_m, RowPair pair) {
+    const float across = x_m[pair.left] - x_m[pair.right];
+    const float along = y_m[pair.left] - y_m[pair.right];
+    return std::sqrt(across * across + along * along);
+}
+
+/// Row of a vehicle, or the number of rows.
+std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) {
+    const auto found = std::ranges::lower_bound(tracks.key, key);
+    return found != tracks.key.end() && *found == key ? static_cast<std::uint32_t>(found - tracks.key.begin())
+                                                      : static_cast<std::uint32_t>(tracks.size());
+}
+
+/// Calls `visit(right)` once for every neighbour right > left of either row, ascending.
+template <class Visit>
+void for_each_in_either(std::span<const core::VehicleIndex> some, std::span<const core::VehicleIndex> others,
+                        std::uint32_t left, const Visit& visit) {
+    auto one = std::ranges::upper_bound(some, left);
+    auto other = std::ranges::upper_bound(others, left);
+    while (one != some.end() || other != others.end()) {
+        if (other == others.end() || (one != some.end() && *one <= *other)) {
+            if (other != others.end() && *one == *other) ++other;
+            visit(*one++);
+        } else {
+            visit(*other++);
+        }
+    }
+}
+
+}  // namespace
+
+void PairList::clear() {
+    rows.clear();
+    last_seen_m.clear();
+    dead_reckoned_m.clear();
+}
+
+void PairList::add(RowPair pair, float last_seen_distance_m, float dead_reckoned_distance_m) {
+    rows.push_back(pair);
+    last_seen_m.push_back(last_seen_distance_m);
+    dead_reckoned_m.push_back(dead_reckoned_distance_m);
+}
+
+SceneBuilder::SceneBuilder(const roads::Network& network, const graph::LinkRules& rules)
+    : network_(network), rules_(rules) {}
+
+void SceneBuilder::build(const traffic::Observation& observation, Scene& scene) {
+    dead_reckon(observation, network_, scene.tracks);
+    scene.known.clear();
+    scene.detected.clear();
+    scene.candidates.clear();
+    collect_detected(observation, scene);
+    sort_pairs(scene);
+}
+
+void SceneBuilder::collect_detected(const traffic::Observation& observation, Scene& scene) {
+    detected_.clear();
+    const Tracks& tracks = scene.tracks;
+    for (const traffic::DetectedLink& link : observation.detected_links) {
+        const std::uint32_t from = row_of(tracks, link.from);
+        const std::uint32_t to = row_of(tracks, link.to);
+        if (from == tracks.size() || to == tracks.size() || from == to) continue;
+        detected_.push_back({std::min(from, to), std::max(from, to)});
+    }
+    std::ranges::sort(detected_);
+    detected_.erase(std::unique(detected_.begin(), detected_.end()), detected_.end());
+    for (const RowPair pair : detected_) {
+        scene.detected.add(pair, distance_m(tracks.last_x_m, tracks.last_y_m, pair),
+                           distance_m(tracks.x_m, tracks.y_m, pair));
+    }
+}
+
+void SceneBuilder::sort_pairs(Scene& scene) {
+    const Tracks& tracks = scene.tracks;
+    graph::LinkRules rules = rules_;
+    // Where all is known, nothing beyond the link radius matters.
+    if (!tracks.all_known) rules.radius_m = std::max(candidate_radius_m, rules_.radius_m);
+    builder_.build({tracks.x_m, tracks.y_m, tracks.vehicle_class}, rules, near_now_);
+    if (!tracks.all_current) {
+        builder_.build({tracks.last_x_m, tracks.last_y_m, tracks.vehicle_class}, rules, near_last_);
+    }
+    const graph::ProximityGraph& near_last = tracks.all_current ? near_now_ : near_last_;
+    for (std::uint32_t left = 0; left < tracks.size(); ++left) {
+        for_each_in_either(near_now_.neighbours_of(left), near_last.neighbours_of(left), left,
+                           [&](std::uint32_t right) {
+                               take({left, right}, scene);
+                           });
+    }
+}
+
+void SceneBuilder::take(RowPair pair, Scene& scene) {
+    const Tracks& tracks = scene.tracks;
+    const float last_m = distance_m(tracks.last_x_m, tracks.last_y_m, pair);
+    const float now_m = tracks.all_current ? last_m : distance_m(tracks.x_m, tracks.y_m, pair);
+    if (tracks.known[pair.left] != 0 && tracks.known[pair.right] != 0) {
+        const auto radius_m = static_cast<float>(rules_.radius_m);
+        if (std::min(last_m, now_m) < radius_m) scene.known.add(pair, last_m, now_m);
+        return;
+    }
+    if (!std::ranges::binary_search(detected_, pair)) scene.candidates.add(pair, last_m, now_m);
+}
+
+void ObservedMessages::build(const Scene& scene, const graph::LinkRules& rules, MessageGraph& graph) {
+    sources_.clear();
+    targets_.clear();
+    const auto add = [&](RowPair pair) {
+        sources_.insert(sources_.end(), {pair.left, pair.right});
+        targets_.insert(targets_.end(), {pair.right, pair.left});
+    };
+    const auto radius_m = static_cast<float>(rules.radius_m);
+    for (std::size_t at = 0; at < scene.known.size(); ++at) {
+        if (scene.known.dead_reckoned_m[at] < radius_m) add(scene.known.rows[at]);
+    }
+    std::ranges::for_each(scene.detected.rows, add);
+    message_graph_from(sources_, targets_, scene.tracks.size(), graph);
+}
+
+}  // namespace clearway::prediction

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "roads/network.hpp"
+#include "traffic/observation.hpp"
+
+namespace clearway::prediction {
+
+/// Every vehicle of an observation twice: where it was last seen, and where it would be now had it kept its
+/// speed along its route (dead reckoning). One row a vehicle, ordered by key, the rows of the observation. A
+/// structure of arrays.
+struct Tracks {
+    std::vector<core::VehicleKey> key;
+    std::vector<traffic::VehicleClass> vehicle_class;
+    std::vector<float> last_x_m, last_y_m;    ///< As reported.
+    std::vector<float> x_m, y_m;              ///< Dead-reckoned to now.
+    std::vector<float> age_s;                 ///< Of the report.
+    std::vector<float> sensor_sigma_m;        ///< As the sensor states it.
+    std::vector<traffic::MotionState> last;   ///< As reported.
+    std::vector<traffic::MotionState> state;  ///< Dead-reckoned; the speed is the reported one.
+    std::vector<float> past_end_m;  ///< > 0: dead reckoning took it past the end of its route: it left.
+    std::vector<traffic::Freshness> freshness;
+    /// 1 where nothing needs to be predicted: the newest report arrived, states no error and is at most one
+    /// report interval old.
+    std::vector<std::uint8_t> known;
+
+    bool all_known = true;
+    bool all_current = true;  ///< Every age is 0: both positions are the same.
+
+    std::size_t size() const { return key.size(); }
+    void resize(std::size_t rows);
+};
+
+/// A fresh report is at most this old, s, to count as known: reports come at 1 Hz or faster, so that only
+/// latency makes them older.
+inline constexpr float known_age_s = 1.0F;
+
+/// Fills `tracks`. A vehicle goes on at its reported speed along its route (roads::advance); one whose route
+/// is not on the roster goes straight on. No allocation once buffers have grown, save what roads::advance
+/// needs.
+void dead_reckon(const traffic::Observation& observation, const roads::Network& network, Tracks& tracks);
+
+}  // namespace clearway::prediction
