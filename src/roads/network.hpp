@@ -31,6 +31,7 @@ struct Lane {
     bool allows_cars = true;       ///< vClass passenger may use it.
     bool allows_emergency = true;  ///< vClass emergency may use it.
     std::vector<Point> shape;      ///< At least two points.
+    float shape_length_m = 0.0F;   ///< Length of `shape`; positions along the lane are stretched to it.
     std::uint32_t first_connection = 0;
     std::uint32_t connection_count = 0;
 };
@@ -56,7 +57,9 @@ struct Connection {
     core::LaneIndex via;       ///< First internal lane, or none.
     core::SignalIndex signal;  ///< Or none.
     std::uint16_t signal_link = 0;
-    char direction = 's';  ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
+    char direction = 's';          ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
+    bool allows_cars = true;       ///< Both lanes, the way between them and the connection itself do.
+    bool allows_emergency = true;  ///< Likewise for vClass emergency.
 };
 
 struct Phase {
@@ -71,12 +74,17 @@ struct SignalLink {
     core::LaneIndex via;
 };
 
-/// A traffic signal and the program that it starts with.
+/// A traffic signal and the program that it starts with: of several programs the last in the file, as SUMO
+/// does. Signals and crossings of railways are left out: they have no program, and nothing may pre-empt them.
 struct Signal {
     std::string id;
-    std::vector<std::vector<SignalLink>> links;  ///< By link number; several connections may share one.
+    /// By link number, as many as the letters of a phase; several connections may share one, some have none.
+    /// Crossings for pedestrians are links too.
+    std::vector<std::vector<SignalLink>> links;
     std::vector<Phase> program;
-    std::vector<std::vector<bool>> foes;  ///< foes[a][b]: the ways of links a and b cross or merge.
+    /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.
+    /// Symmetric, false on the diagonal and between links of different junctions.
+    std::vector<std::vector<bool>> foes;
 };
 
 /// How a network file lies on the globe, for the way back to WGS 84.
@@ -103,12 +111,14 @@ class Network {
     const Signal& signal(core::SignalIndex index) const { return signals_[index.value]; }
     const Location& location() const { return location_; }
 
-    /// Nothing when there is no such id.
+    /// By SUMO's id. Nothing when there is no such id.
     std::optional<core::LaneIndex> find_lane(std::string_view id) const;
     std::optional<core::EdgeIndex> find_edge(std::string_view id) const;
     std::optional<core::SignalIndex> find_signal(std::string_view id) const;
 
+    /// Lane `number` of an edge; none when the edge has fewer lanes.
     core::LaneIndex lane_of(core::EdgeIndex edge, std::uint32_t number) const;
+    /// In the order of the file, which is that of SUMO's link numbers.
     std::span<const Connection> connections_from(core::LaneIndex lane) const;
     /// Edges outside junctions that can be reached directly from `edge` by a car, without repetition,
     /// ascending.
@@ -129,7 +139,13 @@ class Network {
     std::vector<Connection> connections_;
     std::vector<core::EdgeIndex> successors_;
     std::vector<std::uint32_t> first_successor_;
-    std::unordered_map<std::string, std::uint32_t> lane_rows_, edge_rows_, signal_rows_;
+    /// Lets a map of strings be asked with a view.
+    struct TextHash {
+        using is_transparent = void;
+        std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+    };
+    using Rows = std::unordered_map<std::string, std::uint32_t, TextHash, std::equal_to<>>;
+    Rows lane_rows_, edge_rows_, signal_rows_;
     Location location_;
 };
 

@@ -12,21 +12,28 @@
 
 namespace clearway::roads {
 
+// Functions that take a route and a state expect `state.route_edge` within the route and `state.lane` to
+// exist (on that edge, or inside the junction behind it); they throw std::invalid_argument otherwise. They
+// walk the lanes as `advance` says, so their answers agree with each other. A route that the network does not
+// join ends where it breaks. Cost: linear in the lanes passed; no allocation unless stated.
+
 /// Edges in driving order, internal edges left out: what a navigation system knows.
 using Route = std::span<const core::EdgeIndex>;
 
 /// The cheapest route for cars by free-flow travel time, `from` and `to` included; nothing when `to` cannot
-/// be reached. Ties are broken by edge index, so the answer is deterministic.
+/// be reached or one of the two is closed to cars. Time on the ways across junctions counts. Dijkstra (1959)
+/// on edges; ties are broken by edge index, so the answer is deterministic. Allocates.
 std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
                                                           core::EdgeIndex to);
 
 /// Length of a route from the start of its first edge to the end of its last one, ways across junctions
-/// included.
+/// included, 0 for the empty route.
 core::Metres route_length(const Network& network, Route route);
 
 /// Where a vehicle is after driving `distance` further along its route from `state`, staying on its lane as
 /// long as the lane continues and taking the nearest lane that continues otherwise. Internal lanes count.
-/// Stops at the end of the route: `past_end` then tells by how much it overshot.
+/// Stops at the end of the route: `past_end` then tells by how much it overshot. `distance` >= 0, or
+/// std::invalid_argument.
 struct Advanced {
     traffic::MotionState state;  ///< Speed is copied from the start.
     core::Metres past_end{0.0};
@@ -38,8 +45,8 @@ Advanced advance(const Network& network, Route route, const traffic::MotionState
 core::Metres distance_to_end(const Network& network, Route route, const traffic::MotionState& state);
 
 /// Distance along `route` from `state` (on it) to another vehicle's place, when that place lies on the same
-/// edges ahead, within `horizon`; internal lanes of junctions that the route passes count as on it. Nothing
-/// when it is not ahead.
+/// edges ahead, within `horizon`; internal lanes of junctions that the route passes count as on it. 0 when
+/// the two are level on one edge; nothing when the other is not ahead or has no lane.
 std::optional<core::Metres> distance_ahead(const Network& network, Route route,
                                            const traffic::MotionState& state,
                                            const traffic::MotionState& other, core::Metres horizon);
@@ -53,7 +60,7 @@ struct StopLine {
         links;                   ///< Links of the signal from any lane of `edge` to `next_edge`, ascending.
     core::Metres distance{0.0};  ///< Along the route from the vehicle's front.
 };
-/// Signals ahead within `horizon`, nearest first.
+/// Signals ahead within `horizon`, nearest first. Allocates.
 std::vector<StopLine> signals_ahead(const Network& network, Route route, const traffic::MotionState& state,
                                     core::Metres horizon);
 

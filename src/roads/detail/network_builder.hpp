@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "core/error.hpp"
+#include "roads/detail/xml_stream.hpp"
+#include "roads/network.hpp"
+
+namespace clearway::roads {
+
+/// Turns the elements of a network file into a Network. Elements must come in SUMO's order: edges, signal
+/// programs, junctions, connections. Problems are collected (at most 20) and thrown at the end.
+class NetworkBuilder : public detail::XmlHandler {
+  public:
+    explicit NetworkBuilder(const std::filesystem::path& file) : file_(file.string()) {}
+
+    void start(std::string_view element, const detail::XmlAttributes& attributes,
+               unsigned long line) override;
+    void end(std::string_view element) override;
+    /// Everything that needs the whole file. Throws core::InputError with all problems met.
+    Network finish();
+
+  private:
+    /// A junction with a signal, kept until its links are known.
+    struct Junction {
+        std::vector<std::string> incoming_lanes;
+        std::vector<std::string> inner_lanes;  ///< One per request, empty in files without internal lanes.
+        std::vector<std::string> foes;         ///< By request; the rightmost letter is request 0.
+        unsigned long line = 0;
+    };
+    struct LinkPlace {
+        core::SignalIndex signal;
+        std::uint16_t link = 0;
+    };
+
+    void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
+    /// A required number; reports a missing, malformed or out-of-range one and answers 0.
+    double number(const detail::XmlAttributes& attributes, const char* name, double minimum, double maximum);
+    double number_or(const detail::XmlAttributes& attributes, const char* name, double minimum,
+                     double maximum, double missing);
+    std::string text(const detail::XmlAttributes& attributes, const char* name);
+    std::vector<Point> shape(const detail::XmlAttributes& attributes);
+
+    void read_location(const detail::XmlAttributes& attributes);
+    void read_edge(const detail::XmlAttributes& attributes);
+    void read_lane(const detail::XmlAttributes& attributes);
+    void end_edge();
+    void read_program(const detail::XmlAttributes& attributes);
+    void read_phase(const detail::XmlAttributes& attributes);
+    void end_program();
+    void read_junction(const detail::XmlAttributes& attributes);
+    void read_request(const detail::XmlAttributes& attributes);
+    void read_connection(const detail::XmlAttributes& attributes);
+    void set_signal(const detail::XmlAttributes& attributes, Connection& connection);
+    core::LaneIndex connection_end(const detail::XmlAttributes& attributes, const char* edge_name,
+                                   const char* lane_name);
+
+    void group_connections();
+    void list_successors();
+    void list_signal_links();
+    void list_foes();
+    std::vector<LinkPlace> links_by_request(const Junction& junction) const;
+    std::vector<LinkPlace> links_by_incoming_order(const Junction& junction) const;
+    core::LaneIndex inner_lane_of(const Connection& connection) const;
+
+    std::string file_;
+    Network network_;
+    std::vector<core::Problem> problems_;
+    unsigned long line_ = 0;
+    int depth_ = 0;
+    bool in_edge_ = false;
+    bool in_program_ = false;
+    bool in_junction_ = false;
+    Signal* program_signal_ = nullptr;
+    std::vector<Phase> phases_;
+    std::vector<Junction> junctions_;
+    std::unordered_set<std::string> railway_signals_;
+};
+
+}  // namespace clearway::roads

@@ -1,0 +1,28 @@
+#include "roads/detail/permissions.hpp"
+
+#include "roads/detail/numbers.hpp"
+
+namespace clearway::roads::detail {
+namespace {
+
+Permissions listed(std::string_view classes) {
+    Permissions result{false, false};
+    for_each_word(classes, ' ', [&](std::string_view word) {
+        result.cars |= word == "passenger" || word == "all";
+        result.emergency |= word == "emergency" || word == "all";
+    });
+    return result;
+}
+
+}  // namespace
+
+Permissions permissions_of(const XmlAttributes& attributes) {
+    const auto allow = attributes.find("allow");
+    if (allow && !allow->empty()) return listed(*allow);
+    const auto disallow = attributes.find("disallow");
+    if (!disallow) return {};
+    const Permissions forbidden = listed(*disallow);
+    return {!forbidden.cars, !forbidden.emergency};
+}
+
+}  // namespace clearway::roads::detail

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "roads/detail/xml_stream.hpp"
+
+namespace clearway::roads::detail {
+
+/// Who of those that matter here may use a lane or a connection.
+struct Permissions {
+    bool cars = true;       ///< vClass passenger.
+    bool emergency = true;  ///< vClass emergency.
+};
+
+/// SUMO's rule: `allow` alone counts when it is there, else everybody but those of `disallow`.
+Permissions permissions_of(const XmlAttributes& attributes);
+
+}  // namespace clearway::roads::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace clearway::roads::detail {
+
+/// The attributes of one element, valid while it is handled.
+class XmlAttributes {
+  public:
+    explicit XmlAttributes(const char** pairs) : pairs_(pairs) {}
+    /// Nothing when the element has no such attribute.
+    std::optional<std::string_view> find(std::string_view name) const;
+
+  private:
+    const char** pairs_;
+};
+
+/// Receives the elements of a document in their order.
+class XmlHandler {
+  public:
+    XmlHandler() = default;
+    XmlHandler(const XmlHandler&) = delete;
+    XmlHandler& operator=(const XmlHandler&) = delete;
+    virtual ~XmlHandler() = default;
+
+    /// `line` is that of the element's first letter, from 1. Whatever this throws leaves `stream_xml`.
+    virtual void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) = 0;
+    virtual void end(std::string_view element) = 0;
+};
+
+/// Reads an XML file, packed with gzip or not, through `handler` with a fixed amount of memory. Throws
+/// core::InputError naming file and line when it is missing, damaged or not XML.
+void stream_xml(const std::filesystem::path& file, XmlHandler& handler);
+
+}  // namespace clearway::roads::detail

@@ -1,0 +1,262 @@
+#include "roads/network.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include "core/error.hpp"
+#include "crossing_network.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::roads {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class NetworkTest : public ::testing::Test {
+  protected:
+    Network read(const std::string& text) { return Network::read(folder_.write("test.net.xml", text)); }
+    Network crossing() { return read(crossing_network()); }
+    /// The crossing with the first `from` replaced.
+    std::string altered(const std::string& from, const std::string& to) {
+        std::string text = crossing_network();
+        const std::size_t place = text.find(from);
+        EXPECT_NE(place, std::string::npos) << from;
+        return text.replace(place, from.size(), to);
+    }
+    std::string complaint(const std::string& text) {
+        try {
+            read(text);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "no complaint";
+    }
+
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(NetworkTest, ReadsEdgesAndLanes) {
+    const Network network = crossing();
+    EXPECT_EQ(network.edges().size(), 10u);
+    EXPECT_EQ(network.lanes().size(), 13u);
+    const Edge& west = network.edge(*network.find_edge("west"));
+    EXPECT_EQ(west.name, "High & Low Street");
+    EXPECT_EQ(west.type, "primary");
+    EXPECT_EQ(west.from_junction, "W");
+    EXPECT_EQ(west.to_junction, "J");
+    EXPECT_EQ(west.priority, 3);
+    EXPECT_EQ(west.lane_count, 2u);
+    EXPECT_FLOAT_EQ(west.length_m, 100.0F);
+    EXPECT_FALSE(west.internal);
+    EXPECT_TRUE(network.edge(*network.find_edge(":J_0")).internal);
+    const Lane& lane = network.lane(*network.find_lane("west_1"));
+    EXPECT_EQ(lane.number, 1u);
+    EXPECT_FLOAT_EQ(lane.speed_limit_mps, 20.0F);
+    EXPECT_FLOAT_EQ(lane.width_m, 3.5F);
+    EXPECT_FLOAT_EQ(network.lane(*network.find_lane("west_0")).width_m, 3.2F);
+    EXPECT_EQ(network.lane_of(lane.edge, 1), network.find_lane("west_1"));
+    EXPECT_FALSE(network.lane_of(lane.edge, 2).exists());
+    EXPECT_FALSE(network.find_edge("nowhere").has_value());
+    EXPECT_FALSE(network.find_lane("west_2").has_value());
+    EXPECT_FALSE(network.find_signal("K").has_value());
+}
+
+TEST_F(NetworkTest, ReadsThePlaceOnTheGlobe) {
+    const Location location = crossing().location();
+    EXPECT_DOUBLE_EQ(location.offset_x_m, -10.5);
+    EXPECT_DOUBLE_EQ(location.offset_y_m, 20.25);
+    EXPECT_EQ(location.projection, "+proj=utm +zone=33");
+    EXPECT_DOUBLE_EQ(location.x_maximum_m, 310.0);
+    EXPECT_DOUBLE_EQ(location.y_minimum_m, -60.0);
+}
+
+TEST_F(NetworkTest, KnowsWhoMayUseALane) {
+    struct Case {
+        std::string attribute;
+        bool cars, emergency;
+    };
+    for (const Case& each :
+         {Case{"", true, true}, Case{R"(allow="all")", true, true},
+          Case{R"(allow="bus passenger")", true, false}, Case{R"(allow="emergency authority")", false, true},
+          Case{R"(allow="pedestrian")", false, false}, Case{R"(disallow="all")", false, false},
+          Case{R"(disallow="passenger")", false, true}, Case{R"(disallow="tram emergency")", true, false},
+          Case{R"(allow="passenger" disallow="all")", true, false}}) {
+        const Network network = read(altered(R"(allow="pedestrian")", each.attribute));
+        const Lane& lane = network.lane(*network.find_lane("path_0"));
+        EXPECT_EQ(lane.allows_cars, each.cars) << each.attribute;
+        EXPECT_EQ(lane.allows_emergency, each.emergency) << each.attribute;
+    }
+}
+
+TEST_F(NetworkTest, ListsConnectionsByLaneInTheOrderOfTheFile) {
+    const Network network = crossing();
+    const auto ways = network.connections_from(*network.find_lane("south_0"));
+    ASSERT_EQ(ways.size(), 2u);
+    EXPECT_EQ(network.lane(ways[0].to).id, "east_0");
+    EXPECT_EQ(network.lane(ways[1].to).id, "north_0");
+    EXPECT_EQ(network.lane(ways[1].via).id, ":J_3_0");
+    EXPECT_EQ(ways[1].signal, network.find_signal("J"));
+    EXPECT_EQ(ways[1].signal_link, 3);
+    EXPECT_EQ(ways[0].direction, 'r');
+    EXPECT_TRUE(ways[0].allows_cars);
+    const auto emergency_way = network.connections_from(*network.find_lane("west_1"));
+    ASSERT_EQ(emergency_way.size(), 1u);
+    EXPECT_FALSE(emergency_way[0].allows_cars);
+    EXPECT_TRUE(emergency_way[0].allows_emergency);
+    const auto unsignalled = network.connections_from(*network.find_lane("back_0"));
+    EXPECT_FALSE(unsignalled[0].signal.exists());
+    EXPECT_FALSE(unsignalled[0].via.exists());
+}
+
+TEST_F(NetworkTest, SuccessorsAreOpenToCarsAndAscending) {
+    const Network network = crossing();
+    EXPECT_THAT(network.successors(*network.find_edge("south")),
+                ElementsAre(*network.find_edge("east"), *network.find_edge("north")));
+    EXPECT_THAT(network.successors(*network.find_edge("back")), ElementsAre(*network.find_edge("west")));
+    EXPECT_THAT(network.successors(*network.find_edge("north")), ElementsAre());
+    // With its car lane closed, west leads nowhere for cars.
+    const Network closed = read(altered(R"(disallow="pedestrian tram")", R"(disallow="passenger")"));
+    EXPECT_THAT(closed.successors(*closed.find_edge("west")), ElementsAre());
+}
+
+TEST_F(NetworkTest, TakesTheLastProgramOfASignal) {
+    const Network network = crossing();
+    ASSERT_EQ(network.signals().size(), 1u);
+    const Signal& signal = network.signal(*network.find_signal("J"));
+    ASSERT_EQ(signal.program.size(), 2u);
+    EXPECT_DOUBLE_EQ(signal.program[1].duration_s, 9.5);
+    EXPECT_EQ(signal.program[0].state, "GGgr");
+    ASSERT_EQ(signal.links.size(), 4u);
+    ASSERT_EQ(signal.links[3].size(), 1u);
+    EXPECT_EQ(network.lane(signal.links[3][0].from).id, "south_0");
+    EXPECT_EQ(network.lane(signal.links[3][0].to).id, "north_0");
+    EXPECT_EQ(network.lane(signal.links[3][0].via).id, ":J_3_0");
+}
+
+std::string foes_of(const Signal& signal) {
+    std::string rows;
+    for (const auto& row : signal.foes) {
+        for (const bool foe : row) {
+            rows += foe ? '1' : '0';
+        }
+        rows += ' ';
+    }
+    return rows;
+}
+
+TEST_F(NetworkTest, MapsRightOfWayToSignalLinks) {
+    // 0 and 1 run side by side; 2 merges with 0; 3 crosses both; 2 and 3 share a stop line.
+    EXPECT_EQ(foes_of(crossing().signals()[0]), "0011 0001 1000 1100 ");
+}
+
+TEST_F(NetworkTest, MapsRightOfWayWhenLinkNumbersDifferFromRequests) {
+    // Swap the link numbers of west_0 -> east_0 and south_0 -> north_0.
+    std::string text = altered(R"(tl="J" linkIndex="3")", R"(tl="J" linkIndex="X")");
+    text.replace(text.find(R"(tl="J" linkIndex="0")"), 20, R"(tl="J" linkIndex="3")");
+    text.replace(text.find(R"(linkIndex="X")"), 13, R"(linkIndex="0")");
+    EXPECT_EQ(foes_of(read(text).signals()[0]), "0101 1000 0001 1010 ");
+}
+
+TEST_F(NetworkTest, MapsRightOfWayWithoutInternalLanes) {
+    std::string text = altered(R"(intLanes=":J_0_0 :J_0_1 :J_2_0 :J_4_0")", R"(intLanes="")");
+    EXPECT_EQ(foes_of(read(text).signals()[0]), "0011 0001 1000 1100 ");
+}
+
+TEST_F(NetworkTest, LinksThatShareANumberShareTheirFoes) {
+    // Both lanes of west get number 1; number 0 is left without a connection.
+    const std::string text = altered(R"(tl="J" linkIndex="0")", R"(tl="J" linkIndex="1")");
+    const Network network = read(text);
+    EXPECT_EQ(network.signals()[0].links[0].size(), 0u);
+    EXPECT_EQ(network.signals()[0].links[1].size(), 2u);
+    EXPECT_EQ(foes_of(network.signals()[0]), "0000 0011 0100 0100 ");
+}
+
+TEST_F(NetworkTest, LeavesOutSignalsOfRailways) {
+    std::string text = altered(R"(type="traffic_light")", R"(type="rail_crossing")");
+    const std::size_t first = text.find("    <tlLogic");
+    text.erase(first, text.find("    <junction") - first);
+    const Network network = read(text);
+    EXPECT_TRUE(network.signals().empty());
+    EXPECT_FALSE(network.connections_from(*network.find_lane("west_0"))[0].signal.exists());
+}
+
+TEST_F(NetworkTest, StretchesPositionsToTheShape) {
+    const Network network = crossing();
+    // back_0 is stated as 300 m and drawn with 310 m, to the left.
+    const Point half = network.point_at(*network.find_lane("back_0"), core::Metres(150.0));
+    EXPECT_NEAR(half.x_m, 155.0, 1e-3);
+    EXPECT_NEAR(network.heading_at(*network.find_lane("back_0"), core::Metres(1.0)), std::numbers::pi, 1e-6);
+    const core::LaneIndex north = *network.find_lane("north_0");
+    EXPECT_NEAR(network.heading_at(north, core::Metres(10.0)), std::numbers::pi / 2, 1e-6);
+    EXPECT_NEAR(network.heading_at(north, core::Metres(30.0)), 0.0, 1e-6);
+    EXPECT_NEAR(network.point_at(north, core::Metres(50.0)).x_m, 135.0, 1e-3);
+    EXPECT_NEAR(network.point_at(north, core::Metres(-5.0)).y_m, 0.0, 1e-3);
+    EXPECT_NEAR(network.point_at(north, core::Metres(500.0)).x_m, 145.0, 1e-3);
+}
+
+TEST_F(NetworkTest, ReadsGzip) {
+    const std::string text = crossing_network();
+    const auto file = folder_.path() / "test.net.xml.gz";
+    gzFile out = gzopen(file.c_str(), "wb");
+    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(out);
+    EXPECT_EQ(Network::read(file).lanes().size(), 13u);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    EXPECT_THROW(Network::read(file), core::InputError);
+}
+
+TEST_F(NetworkTest, LargestComponentIsTheRoundTrip) {
+    const Network network = crossing();
+    EXPECT_THAT(
+        largest_car_component(network),
+        ElementsAre(*network.find_edge("west"), *network.find_edge("east"), *network.find_edge("back")));
+}
+
+TEST_F(NetworkTest, NamesFileAndLineOfWhatIsWrong) {
+    EXPECT_THAT(complaint("<routes/>"), HasSubstr("test.net.xml:1: is not a SUMO network"));
+    EXPECT_THAT(complaint("<net version=\"1.9\"></net>"), HasSubstr("has no edges"));
+    EXPECT_THAT(complaint(""), HasSubstr("is not valid XML"));
+    EXPECT_THAT(complaint("<net>\n<edge id=\"a\">\n"), HasSubstr("test.net.xml:3: is not valid XML"));
+    EXPECT_THAT(complaint(altered(R"(length="200.00")", R"(length="long")")),
+                HasSubstr("test.net.xml:22: length=\"long\" (allowed: a number from 0"));
+    EXPECT_THAT(complaint(altered(R"(length="200.00")", R"(length="nan")")), HasSubstr("length=\"nan\""));
+    EXPECT_THAT(complaint(altered(R"(linkIndex="3")", R"(linkIndex="4")")),
+                HasSubstr("linkIndex=\"4\" of signal \"J\" (allowed: 0 to 3"));
+    EXPECT_THAT(complaint(altered(R"(to="north" fromLane)", R"(to="moon" fromLane)")),
+                HasSubstr("to=\"moon\" is no edge above this line"));
+    EXPECT_THAT(complaint(altered(R"(toLane="1")", R"(toLane="7")")),
+                HasSubstr("toLane=\"7\" of edge \"east\" (allowed: 0 to 1)"));
+    EXPECT_THAT(complaint(altered(R"(via=":J_3_0")", R"(via=":J_9_0")")), HasSubstr("via=\":J_9_0\""));
+    EXPECT_THAT(complaint(altered(R"(<edge id="south")", R"(<edge id="west")")),
+                HasSubstr("edge \"west\" is there twice"));
+    EXPECT_THAT(complaint(altered(R"(state="rrGG")", R"(state="rrG")")), HasSubstr("4 letters"));
+    EXPECT_THAT(complaint(altered(R"(tl="J")", R"(tl="Q")")), HasSubstr("tl=\"Q\" is no signal"));
+    EXPECT_THAT(complaint(altered(R"(shape="0.00,-4.80 100.00,-4.80")", R"(shape="0.00,-4.80")")),
+                HasSubstr("two or more points"));
+    EXPECT_THAT(complaint(altered(R"( :J_4_0")", R"(")")), HasSubstr("junction has 4 requests"));
+    EXPECT_THROW(Network::read(folder_.path() / "missing.net.xml"), core::InputError);
+    EXPECT_THROW(Network::read(folder_.path()), core::InputError);
+}
+
+TEST_F(NetworkTest, CollectsAllProblemsUpToALimit) {
+    std::string text = altered(R"(speed="5.00")", R"(speed="-5")");
+    text.replace(text.find(R"(speed="2.00")"), 12, R"(speed="two")");
+    const std::string both = complaint(text);
+    EXPECT_THAT(both, HasSubstr("speed=\"-5\""));
+    EXPECT_THAT(both, HasSubstr("speed=\"two\""));
+    std::string many = "<net>\n";
+    for (int edge = 0; edge < 100; ++edge) {
+        many += "<edge id=\"a\" from=\"x\" to=\"y\"/>\n";
+    }
+    const std::string limited = complaint(many + "</net>");
+    EXPECT_EQ(std::count(limited.begin(), limited.end(), '\n'), 20);
+    EXPECT_THAT(limited, HasSubstr("has more problems"));
+}
+
+}  // namespace
+}  // namespace clearway::roads

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "roads/network.hpp"
+#include "roads/route.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::testing {
+
+/// Two signalised crossings A and B, 300 m apart, on a road from west to east; see data/two_crossings.net.xml.
+inline const roads::Network& two_crossings() {
+    static const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
+    return network;
+}
+
+/// A vehicle of a scene.
+struct SceneVehicle {
+    std::string id;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
+    std::vector<std::string> route;  ///< It is on the first edge.
+    std::uint32_t lane_number = 0;
+    double position_m = 0.0;
+    double speed_mps = 0.0;
+};
+
+/// Vehicles on the two crossings, and what is believed of them when sensors are perfect.
+class CrossingScene {
+  public:
+    explicit CrossingScene(double time_s = 100.0) { belief_.time = core::Seconds(time_s); }
+
+    core::VehicleKey add(const SceneVehicle& vehicle) {
+        const roads::Network& network = two_crossings();
+        std::vector<core::EdgeIndex> edges;
+        for (const std::string& edge : vehicle.route) edges.push_back(network.find_edge(edge).value());
+        traffic::VehicleInfo info;
+        info.key = core::vehicle_key(vehicle.id);
+        info.id = vehicle.id;
+        info.vehicle_class = vehicle.vehicle_class;
+        info.route = roster_.add_route(edges);
+        roster_.add(info);
+        traffic::BelievedVehicle believed;
+        believed.key = info.key;
+        believed.vehicle_class = vehicle.vehicle_class;
+        believed.state.lane = network.lane_of(edges.front(), vehicle.lane_number);
+        believed.state.lane_position_m = static_cast<float>(vehicle.position_m);
+        believed.state.speed_mps = static_cast<float>(vehicle.speed_mps);
+        const roads::Point point = network.point_at(believed.state.lane, core::Metres(vehicle.position_m));
+        believed.state.x_m = point.x_m;
+        believed.state.y_m = point.y_m;
+        believed.state.heading_rad =
+            static_cast<float>(network.heading_at(believed.state.lane, core::Metres(vehicle.position_m)));
+        belief_.vehicles.push_back(believed);
+        if (vehicle.vehicle_class == traffic::VehicleClass::emergency) belief_.own_states.push_back(believed);
+        return info.key;
+    }
+
+    /// The belief with links between all pairs of the dissertation's classes nearer than 50 m, and signals that show
+    /// `signals` (both alike), or the first phase of their program.
+    traffic::BelievedGraph& belief(const std::optional<std::string>& signals = std::nullopt) {
+        std::ranges::sort(belief_.vehicles, {}, &traffic::BelievedVehicle::key);
+        std::ranges::sort(belief_.own_states, {}, &traffic::BelievedVehicle::key);
+        belief_.first_link.assign(1, 0);
+        belief_.links.clear();
+        for (const traffic::BelievedVehicle& left : belief_.vehicles) {
+            for (std::uint32_t row = 0; row < belief_.vehicles.size(); ++row) link(left, row);
+            belief_.first_link.push_back(static_cast<std::uint32_t>(belief_.links.size()));
+        }
+        belief_.signals.state.clear();
+        for (const roads::Signal& signal : two_crossings().signals()) {
+            belief_.signals.state.push_back(signals.value_or(signal.program.front().state));
+        }
+        belief_.roster = &roster_;
+        return belief_;
+    }
+    traffic::Roster& roster() { return roster_; }
+
+  private:
+    void link(const traffic::BelievedVehicle& left, std::uint32_t row) {
+        const traffic::BelievedVehicle& right = belief_.vehicles[row];
+        if (left.key == right.key || left.vehicle_class == right.vehicle_class) return;
+        const float distance = std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
+        if (distance < 50.0F) belief_.links.push_back({row, distance, 1.0F});
+    }
+
+    traffic::Roster roster_;
+    traffic::BelievedGraph belief_;
+};
+
+}  // namespace clearway::testing
