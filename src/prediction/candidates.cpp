@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace clearway::prediction {
 namespace {
@@ -56,25 +57,30 @@ void SceneBuilder::build(const traffic::Observation& observation, Scene& scene) 
     dead_reckon(observation, network_, scene.tracks);
     scene.known.clear();
     scene.detected.clear();
+    scene.detected_range_m.clear();
     scene.candidates.clear();
     collect_detected(observation, scene);
     sort_pairs(scene);
 }
 
 void SceneBuilder::collect_detected(const traffic::Observation& observation, Scene& scene) {
-    detected_.clear();
+    detections_.clear();
     const Tracks& tracks = scene.tracks;
     for (const traffic::DetectedLink& link : observation.detected_links) {
         const std::uint32_t from = row_of(tracks, link.from);
         const std::uint32_t to = row_of(tracks, link.to);
         if (from == tracks.size() || to == tracks.size() || from == to) continue;
-        detected_.push_back({std::min(from, to), std::max(from, to)});
+        detections_.push_back({{std::min(from, to), std::max(from, to)}, link.range_m});
     }
-    std::ranges::sort(detected_);
-    detected_.erase(std::unique(detected_.begin(), detected_.end()), detected_.end());
-    for (const RowPair pair : detected_) {
-        scene.detected.add(pair, distance_m(tracks.last_x_m, tracks.last_y_m, pair),
-                           distance_m(tracks.x_m, tracks.y_m, pair));
+    // Where both ends detect each other, the larger range stays: one that was measured beats none.
+    std::ranges::sort(detections_, std::greater<>{});
+    const auto surplus = std::ranges::unique(detections_, {}, &Detection::rows);
+    detections_.erase(surplus.begin(), surplus.end());
+    std::ranges::reverse(detections_);
+    for (const Detection& detection : detections_) {
+        scene.detected.add(detection.rows, distance_m(tracks.last_x_m, tracks.last_y_m, detection.rows),
+                           distance_m(tracks.x_m, tracks.y_m, detection.rows));
+        scene.detected_range_m.push_back(detection.range_m);
     }
 }
 
@@ -105,7 +111,7 @@ void SceneBuilder::take(RowPair pair, Scene& scene) {
         if (std::min(last_m, now_m) < radius_m) scene.known.add(pair, last_m, now_m);
         return;
     }
-    if (!std::ranges::binary_search(detected_, pair)) scene.candidates.add(pair, last_m, now_m);
+    if (!std::ranges::binary_search(scene.detected.rows, pair)) scene.candidates.add(pair, last_m, now_m);
 }
 
 void ObservedMessages::build(const Scene& scene, const graph::LinkRules& rules, MessageGraph& graph) {

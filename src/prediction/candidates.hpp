@@ -23,9 +23,10 @@ struct PairList {
 /// What any predictor starts from: tracks, and the allowed pairs in three groups that do not overlap.
 struct Scene {
     Tracks tracks;
-    PairList known;       ///< Both ends known, and within the link radius by one of the two distances.
-    PairList detected;    ///< One end still detects the other: linked whatever is believed of the places.
-    PairList candidates;  ///< To be predicted.
+    PairList known;     ///< Both ends known, and within the link radius by one of the two distances.
+    PairList detected;  ///< One end still detects the other: linked whatever is believed of the places.
+    std::vector<float> detected_range_m;  ///< One a detected pair; negative where only presence is known.
+    PairList candidates;                  ///< To be predicted.
 };
 
 /// The candidate rule, the same for every predictor and independent of it: a pair of classes that may be
@@ -50,7 +51,12 @@ class SceneBuilder {
     graph::LinkRules rules_;
     graph::ProximityBuilder builder_;
     graph::ProximityGraph near_last_, near_now_;
-    std::vector<RowPair> detected_;
+    struct Detection {
+        RowPair rows;
+        float range_m = -1.0F;
+        auto operator<=>(const Detection&) const = default;
+    };
+    std::vector<Detection> detections_;
 };
 
 /// Messages of the observed graph: along every known link, by dead-reckoned distance, and every detected one,

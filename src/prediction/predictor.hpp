@@ -1,16 +1,26 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "core/fields.hpp"
 #include "graph/proximity.hpp"
+#include "prediction/candidates.hpp"
 #include "roads/network.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/observation.hpp"
 
 namespace clearway::prediction {
+
+/// What a predictor said of every candidate at the last call, listed or not: what evaluation scores.
+struct CandidateScores {
+    const Scene* scene = nullptr;        ///< Rows of the candidates are those of the observation.
+    std::span<const float> probability;  ///< One a candidate of `scene->candidates`, in its order.
+};
 
 /// Repair: from what was reported to what is believed. Called at every step; the observation changes its
 /// content at report rounds and its ages between them. Deterministic; keeps state and buffers; one thread.
@@ -26,6 +36,20 @@ class Predictor {
     /// Fills `belief` (buffers reused): vehicles ordered by key, links by the candidate rule common to all
     /// predictors, each with its probability, own states, signals and roster copied from the observation.
     virtual void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) = 0;
+    /// Valid until the next call of `predict`.
+    virtual CandidateScores scores() const = 0;
+};
+
+/// Settings that all predictors share.
+struct PredictionConfig {
+    double link_threshold = 0.5;
+
+    static constexpr auto fields() {
+        return std::make_tuple(
+            core::Field{"link_threshold", "1", &PredictionConfig::link_threshold, 0.0, 1.0,
+                        "A candidate is listed as a link when its probability is at least this",
+                        "even odds; F1 on validation seeds may favour another value"});
+    }
 };
 
 /// What a predictor needs beside the observation. References outlive the predictor.
@@ -33,9 +57,17 @@ struct PredictorContext {
     const roads::Network& network;
     graph::LinkRules rules;
     std::string model_file;  ///< For the learned ones; empty: the model shipped with the program.
+    PredictionConfig config = {};
 };
 
-/// Names that `make_predictor` takes, in the order of the documentation.
+/// A predictor that can be asked for by name.
+struct PredictorEntry {
+    std::string name;
+    std::string summary;  ///< A line for listings.
+};
+/// In the order of the documentation.
+std::vector<PredictorEntry> predictors();
+/// Their names alone.
 std::vector<std::string> predictor_names();
 
 /// Throws core::InputError for an unknown name (naming the nearest) or an unreadable or unfit model file.

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "prediction/candidates.hpp"
+#include "prediction/predictor.hpp"
+
+namespace clearway::prediction::detail {
+
+/// What a repair believes of one row of the tracks.
+struct RowBelief {
+    traffic::MotionState state;
+    float sigma_m = 0.0F;
+    bool present = true;  ///< False: left out of the belief with all its links.
+};
+
+/// Dead-reckoned states with the sigma of kinematic.hpp; those past the end of their route are absent.
+void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs);
+
+/// Frame of every predictor that judges vehicles one by one and candidates pair by pair: builds the scene,
+/// asks the derived class for both, and writes the believed graph. Known pairs are linked when their
+/// *believed* distance is below the link radius, detected pairs always, candidates from the threshold up.
+class PairwisePredictor : public Predictor {
+  public:
+    explicit PairwisePredictor(const PredictorContext& context);
+
+    void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) final;
+    CandidateScores scores() const final;
+
+  protected:
+    const roads::Network& network() const { return network_; }
+    const graph::LinkRules& rules() const { return rules_; }
+
+  private:
+    /// Writes one belief a row; `beliefs` has the right size and default values.
+    virtual void believe(const Scene& scene, std::vector<RowBelief>& beliefs) = 0;
+    /// Writes one probability a candidate; `probabilities` has the right size and holds zeros.
+    virtual void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+                       std::vector<float>& probabilities) = 0;
+
+    struct Link {
+        RowPair rows;
+        float distance_m = 0.0F;
+        float probability = 1.0F;
+    };
+    void place_vehicles(traffic::BelievedGraph& belief);
+    void collect_links();
+    void collect_detected();
+    void write_links(traffic::BelievedGraph& belief);
+    float believed_distance_m(RowPair pair) const;
+    bool both_present(RowPair pair) const;
+
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    float threshold_;
+    SceneBuilder builder_;
+    Scene scene_;
+    std::vector<RowBelief> beliefs_;
+    std::vector<float> probabilities_;
+    std::vector<core::VehicleIndex> believed_row_;
+    std::vector<Link> links_;
+};
+
+}  // namespace clearway::prediction::detail

@@ -1,0 +1,129 @@
+#include "prediction/kinematic.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "prediction/detail/pairwise.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using detail::PairwisePredictor;
+using detail::RowBelief;
+
+constexpr float start_speed_mps = 2.0F;
+constexpr float speed_change_mps = 2.5F;
+
+/// P(d < radius) by the distances in `distances_m` and the sigmas of both ends.
+void score_by_distance(const Scene& scene, const std::vector<RowBelief>& beliefs,
+                       const std::vector<float>& distances_m, double radius_m,
+                       std::vector<float>& probabilities) {
+    for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+        const RowPair pair = scene.candidates.rows[at];
+        const float sigma_m = std::hypot(beliefs[pair.left].sigma_m, beliefs[pair.right].sigma_m);
+        if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
+        probabilities[at] = probability_within(static_cast<float>(radius_m), distances_m[at], sigma_m);
+    }
+}
+
+class NoRepair final : public PairwisePredictor {
+  public:
+    using PairwisePredictor::PairwisePredictor;
+    std::string_view name() const override { return "none"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            beliefs[row] = {tracks.last[row], tracks.sensor_sigma_m[row],
+                            tracks.freshness[row] == traffic::Freshness::fresh};
+        }
+    }
+    /// Fresh reports with a stated error are candidates: linked by the measured distance as it stands.
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const RowPair pair = scene.candidates.rows[at];
+            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
+            probabilities[at] = probability_within(static_cast<float>(rules().radius_m),
+                                                   scene.candidates.last_seen_m[at], 0.0F);
+        }
+    }
+};
+
+class LastSeen final : public PairwisePredictor {
+  public:
+    using PairwisePredictor::PairwisePredictor;
+    std::string_view name() const override { return "last_seen"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            beliefs[row] = {
+                tracks.last[row],
+                held_sigma_m(tracks.sensor_sigma_m[row], tracks.last[row].speed_mps, tracks.age_s[row]),
+                true};
+        }
+    }
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        score_by_distance(scene, beliefs, scene.candidates.last_seen_m, rules().radius_m, probabilities);
+    }
+};
+
+class DeadReckoning final : public PairwisePredictor {
+  public:
+    using PairwisePredictor::PairwisePredictor;
+    std::string_view name() const override { return "dead_reckoning"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        detail::believe_dead_reckoned(scene.tracks, beliefs);
+    }
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        score_by_distance(scene, beliefs, scene.candidates.dead_reckoned_m, rules().radius_m, probabilities);
+    }
+};
+
+}  // namespace
+
+namespace detail {
+
+void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs) {
+    for (std::size_t row = 0; row < tracks.size(); ++row) {
+        beliefs[row] = {tracks.state[row],
+                        dead_reckoned_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row]),
+                        tracks.past_end_m[row] <= 0.0F};
+    }
+}
+
+}  // namespace detail
+
+float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s) {
+    return std::hypot(sensor_sigma_m, (speed_mps + start_speed_mps) * age_s);
+}
+
+float dead_reckoned_sigma_m(float sensor_sigma_m, float age_s) {
+    return std::hypot(sensor_sigma_m, speed_change_mps * age_s);
+}
+
+float probability_within(float radius_m, float distance_m, float sigma_m) {
+    if (sigma_m <= 0.0F) return distance_m < radius_m ? 1.0F : 0.0F;
+    const float score = (radius_m - distance_m) / sigma_m;
+    return 0.5F * std::erfc(-score / std::numbers::sqrt2_v<float>);
+}
+
+std::unique_ptr<Predictor> make_no_repair(const PredictorContext& context) {
+    return std::make_unique<NoRepair>(context);
+}
+std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context) {
+    return std::make_unique<LastSeen>(context);
+}
+std::unique_ptr<Predictor> make_dead_reckoning(const PredictorContext& context) {
+    return std::make_unique<DeadReckoning>(context);
+}
+
+}  // namespace clearway::prediction

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+
+#include "prediction/predictor.hpp"
+
+namespace clearway::prediction {
+
+/// The dissertation's net, as it was used: on coordinates where vehicles were last seen (2 or 5 inputs, as
+/// the model file says), messages along the listed pairs themselves, from the first of a pair to the second,
+/// as chapter 5.2 passes `edge_index`. Its logits hardly depend on distance (AUC about 0.5 in our
+/// measurements); it is kept to show that.
+std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& context);
+
+/// The same architecture with what was wrong put right: inputs in which distance can be measured
+/// (features.hpp, `corrected`), messages along observed links only, trained with negatives from the
+/// candidates. Believed states are dead-reckoned; pairs out of the kernel's reach have probability 0.
+std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context);
+
+}  // namespace clearway::prediction
