@@ -15,7 +15,8 @@
 
 namespace clearway::testing {
 
-/// Two signalised crossings A and B, 300 m apart, on a road from west to east; see data/two_crossings.net.xml.
+/// Two signalised crossings A and B, 300 m apart, on a road from west to east; see
+/// data/two_crossings.net.xml.
 inline const roads::Network& two_crossings() {
     static const roads::Network network =
         roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
@@ -40,7 +41,8 @@ class CrossingScene {
     core::VehicleKey add(const SceneVehicle& vehicle) {
         const roads::Network& network = two_crossings();
         std::vector<core::EdgeIndex> edges;
-        for (const std::string& edge : vehicle.route) edges.push_back(network.find_edge(edge).value());
+        for (const std::string& edge : vehicle.route)
+            edges.push_back(network.find_edge(edge).value());
         traffic::VehicleInfo info;
         info.key = core::vehicle_key(vehicle.id);
         info.id = vehicle.id;
@@ -63,15 +65,16 @@ class CrossingScene {
         return info.key;
     }
 
-    /// The belief with links between all pairs of the dissertation's classes nearer than 50 m, and signals that show
-    /// `signals` (both alike), or the first phase of their program.
+    /// The belief with links between all pairs of the dissertation's classes nearer than 50 m, and signals
+    /// that show `signals` (both alike), or the first phase of their program.
     traffic::BelievedGraph& belief(const std::optional<std::string>& signals = std::nullopt) {
         std::ranges::sort(belief_.vehicles, {}, &traffic::BelievedVehicle::key);
         std::ranges::sort(belief_.own_states, {}, &traffic::BelievedVehicle::key);
         belief_.first_link.assign(1, 0);
         belief_.links.clear();
         for (const traffic::BelievedVehicle& left : belief_.vehicles) {
-            for (std::uint32_t row = 0; row < belief_.vehicles.size(); ++row) link(left, row);
+            for (std::uint32_t row = 0; row < belief_.vehicles.size(); ++row)
+                link(left, row);
             belief_.first_link.push_back(static_cast<std::uint32_t>(belief_.links.size()));
         }
         belief_.signals.state.clear();
