@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "actuation/actuator_config.hpp"
+#include "actuation/lease_counts.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
@@ -17,43 +19,53 @@
 
 namespace clearway::actuation {
 
-/// Per part and action: how many leases were issued, refused (with the reason), renewed, and how many ended by expiry.
-struct LeaseCounts {
-    std::uint64_t issued = 0;
-    std::uint64_t renewed = 0;
-    std::uint64_t expired = 0;
-    std::map<std::string, std::uint64_t> refused;  ///< Reason -> count.
-};
-
-/// Turns leases into commands: the only place that judges feasibility (as the vehicle itself would), lets leases expire,
-/// runs signal transitions (yellow, all-red, hold cap, cool-down, back to the program) and restores what was changed on every way
-/// out. One per run; one thread.
+/// Turns leases into commands: the only place that judges feasibility (as the vehicle itself would), lets
+/// leases expire, runs signal transitions (yellow, all-red, hold cap, cool-down, back to the program) and
+/// restores what was changed on every way out. One per run; one thread.
+///
+/// Of the leases for one target that cannot be carried out together (one speed, one lane, one set of links
+/// that do not conflict) the one of higher priority wins, then the earlier; the others wait and are counted
+/// as `outranked`. What is not feasible now is judged again at every step until its expiry, and counted once
+/// for each reason:
+///
+/// | reason | meaning |
+/// |---|---|
+/// | `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
+/// `no_such_signal`, `wrong_target` | never legal | | `vehicle_gone`, `signal_gone`,
+/// `vehicle_does_not_answer` | the target is not there (any more) | | `not_controllable`,
+/// `not_an_emergency_vehicle` | human drivers take no leases; only emergency vehicles pass red | |
+/// `above_allowed_speed` | faster than road limit and vehicle allow | | `cannot_stop_comfortably` | a stop
+/// that needs more than the vehicle's usual deceleration | | `on_a_junction`, `no_such_lane`,
+/// `lane_not_allowed` | the lane is not there for this vehicle | | `lane_does_not_continue` | neither a best
+/// lane for its route nor drivable for over 300 m | | `no_room_beside` | the vehicle itself would not change
+/// now | | `needs_sublane_model` | lateral positions without the sublane model | | `outranked`, `hold_cap`,
+/// `cool_down`, `no_phase_serves` | see Config; a favour that no phase can grant |
+///
+/// A speed lease never brakes harder than the vehicle's usual deceleration: SUMO bounds the change of every
+/// step while the safety checks are on.
 class Actuator {
   public:
-    struct Config {
-        double yellow_s = 3.0;      ///< facts: 3 s.
-        double all_red_s = 1.5;     ///< facts: 1.5 s.
-        double hold_cap_s = 60.0;   ///< Longest hold of one signal without a break.
-        double cool_down_s = 10.0;  ///< Own program runs at least this long between holds.
-        traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    };
+    using Config = ActuatorConfig;
 
+    /// The network outlives the actuator.
     Actuator(const roads::Network& network, Config config);
     ~Actuator();
     Actuator(const Actuator&) = delete;
     Actuator& operator=(const Actuator&) = delete;
 
-    /// Takes new leases (renewals of running ones included).
+    /// Takes new leases and renewals. A lease of the same part for the same target, beneficiary and kind of
+    /// thing renews the running one.
     void accept(std::span<const traffic::Lease> leases, core::Seconds now);
 
-    /// Commands for this step. `snapshot` and `self` are the vehicles' knowledge of themselves.
-    void step(const truth::Snapshot& snapshot, const traffic::Roster& roster, const truth::SelfKnowledge& self,
-              std::vector<traffic::Command>& commands);
+    /// Appends the commands for this step, ordered by vehicle key, then by signal. `snapshot` and `self` are
+    /// the vehicles' knowledge of themselves. Called once for every step, in order of time.
+    void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+              const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands);
 
-    /// Commands that give back everything still held; afterwards nothing is.
+    /// Appends the commands that give back everything still held; afterwards nothing is.
     void restore_all(std::vector<traffic::Command>& commands);
 
-    /// Number of leases in force.
+    /// Number of leases in force, waiting ones included.
     std::size_t active() const;
     /// By `part/action`.
     const std::map<std::string, LeaseCounts>& counts() const;

@@ -1,0 +1,127 @@
+#include "actuation/actuator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "actuation/detail/lease_queue.hpp"
+#include "actuation/detail/signal_control.hpp"
+#include "actuation/detail/vehicle_control.hpp"
+
+namespace clearway::actuation {
+namespace {
+
+/// Why a lease can never be carried out, or null.
+const char* check_vehicle_action(const traffic::Action& action) {
+    if (std::holds_alternative<traffic::HoldGreen>(action) ||
+        std::holds_alternative<traffic::FavourLinks>(action))
+        return "wrong_target";
+    if (const auto* drive = std::get_if<traffic::DriveAt>(&action)) {
+        if (!std::isfinite(drive->speed.value)) return "speed_not_finite";
+        if (drive->speed.value < 0.0) return "speed_negative";
+    }
+    return nullptr;
+}
+
+const char* check_signal_action(const roads::Network& network, core::SignalIndex signal,
+                                const traffic::Action& action) {
+    if (signal.value >= network.signals().size()) return "no_such_signal";
+    const std::vector<std::uint16_t>* links = nullptr;
+    if (const auto* hold = std::get_if<traffic::HoldGreen>(&action)) links = &hold->links;
+    if (const auto* favour = std::get_if<traffic::FavourLinks>(&action)) links = &favour->links;
+    if (links == nullptr) return "wrong_target";
+    if (links->empty()) return "no_links";
+    const std::size_t count = network.signal(signal).links.size();
+    const bool legal = std::ranges::all_of(*links, [&](std::uint16_t link) { return link < count; });
+    return legal ? nullptr : "no_such_link";
+}
+
+}  // namespace
+
+struct Actuator::State {
+    const roads::Network& network;
+    Config config;
+    detail::Ledger ledger;
+    std::map<core::VehicleKey, detail::VehicleControl> vehicles;
+    std::map<core::SignalIndex, detail::SignalControl> signals;
+    std::optional<core::Seconds> last_step;
+
+    const char* check(const traffic::Lease& lease, core::Seconds now) const {
+        if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return "expired_on_arrival";
+        if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target))
+            return check_signal_action(network, *signal, lease.action);
+        return check_vehicle_action(lease.action);
+    }
+    void take(const traffic::Lease& lease) {
+        if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
+            vehicles.try_emplace(*vehicle, *vehicle).first->second.offer(lease, ledger);
+        } else {
+            const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
+            signals.try_emplace(signal, signal, network.signal(signal)).first->second.offer(lease, ledger);
+        }
+    }
+};
+
+Actuator::Actuator(const roads::Network& network, Config config)
+    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, std::nullopt})) {}
+
+Actuator::~Actuator() = default;
+
+void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now) {
+    for (const traffic::Lease& lease : leases) {
+        const char* reason = state_->check(lease, now);
+        if (reason == nullptr) {
+            state_->take(lease);
+            continue;
+        }
+        LeaseCounts& counts = state_->ledger.of(lease);
+        ++counts.issued;
+        ++counts.refused[reason];
+    }
+}
+
+void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                    const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
+    State& state = *state_;
+    const core::Seconds now = snapshot.time;
+    const core::Seconds step = state.last_step ? now - *state.last_step : core::Seconds(0.0);
+    state.last_step = now;
+    const detail::VehicleSurroundings around{
+        state.network, snapshot, roster, self, state.config.safety_checks, state.config.lateral_model, step,
+    };
+    for (auto& [key, vehicle] : state.vehicles)
+        vehicle.step(around, state.ledger, commands);
+    const detail::SignalTiming timing{state.config.yellow_s, state.config.all_red_s, state.config.hold_cap_s,
+                                      state.config.cool_down_s};
+    for (auto& [index, signal] : state.signals) {
+        const bool known = index.value < snapshot.signals.state.size();
+        const std::string none;
+        signal.step(now, known ? snapshot.signals.state[index.value] : none, timing, state.ledger, commands);
+    }
+    std::erase_if(state.vehicles, [&](const auto& entry) { return entry.second.is_idle(now); });
+    std::erase_if(state.signals, [&](const auto& entry) { return entry.second.is_idle(now); });
+}
+
+void Actuator::restore_all(std::vector<traffic::Command>& commands) {
+    for (auto& [key, vehicle] : state_->vehicles)
+        vehicle.restore(commands);
+    for (auto& [index, signal] : state_->signals)
+        signal.restore(commands);
+    state_->vehicles.clear();
+    state_->signals.clear();
+}
+
+std::size_t Actuator::active() const {
+    std::size_t sum = 0;
+    for (const auto& [key, vehicle] : state_->vehicles)
+        sum += vehicle.active();
+    for (const auto& [index, signal] : state_->signals)
+        sum += signal.active();
+    return sum;
+}
+
+const std::map<std::string, LeaseCounts>& Actuator::counts() const {
+    return state_->ledger.counts();
+}
+
+}  // namespace clearway::actuation

@@ -1,0 +1,63 @@
+#include "actuation/detail/lease_queue.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace clearway::actuation::detail {
+
+LeaseCounts& Ledger::of(const traffic::Lease& lease) {
+    std::string key(lease.policy);
+    key += '/';
+    key += traffic::name(lease.action);
+    return counts_[key];
+}
+
+void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
+    const auto same = std::ranges::find_if(held_, [&](const HeldLease& held) {
+        return held.lease.beneficiary == lease.beneficiary &&
+               std::string_view(held.lease.policy) == lease.policy;
+    });
+    LeaseCounts& counts = ledger.of(lease);
+    if (same != held_.end()) {
+        const bool same_kind = same->lease.action.index() == lease.action.index();
+        ++(same_kind ? counts.renewed : counts.issued);
+        if (!same_kind) same->counted_refusals.clear();
+        same->edge = core::EdgeIndex::none();
+        same->lease = lease;
+    } else {
+        ++counts.issued;
+        held_.push_back({lease, core::EdgeIndex::none(), core::EdgeIndex::none(), {}});
+    }
+    std::ranges::stable_sort(held_, [](const HeldLease& left, const HeldLease& right) {
+        return left.lease.priority > right.lease.priority;
+    });
+}
+
+void LeaseQueue::expire(core::Seconds now, Ledger& ledger) {
+    std::erase_if(held_, [&](const HeldLease& held) {
+        if (held.lease.expiry.value > now.value + time_tolerance_s) return false;
+        ++ledger.of(held.lease).expired;
+        return true;
+    });
+}
+
+void LeaseQueue::refuse(HeldLease& held, const char* reason, Ledger& ledger) {
+    const auto known = std::ranges::find_if(
+        held.counted_refusals, [&](const char* counted) { return std::string_view(counted) == reason; });
+    if (known != held.counted_refusals.end()) return;
+    held.counted_refusals.push_back(reason);
+    ++ledger.of(held.lease).refused[reason];
+}
+
+void LeaseQueue::drop_all(const char* reason, Ledger& ledger) {
+    for (HeldLease& held : held_)
+        refuse(held, reason, ledger);
+    held_.clear();
+}
+
+void LeaseQueue::end_best(Ledger& ledger) {
+    ++ledger.of(held_.front().lease).expired;
+    held_.erase(held_.begin());
+}
+
+}  // namespace clearway::actuation::detail

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "actuation/lease_counts.hpp"
+#include "core/ids.hpp"
+#include "core/units.hpp"
+#include "traffic/lease.hpp"
+
+namespace clearway::actuation::detail {
+
+/// Counts of a run by `part/action`.
+class Ledger {
+  public:
+    LeaseCounts& of(const traffic::Lease& lease);
+    const std::map<std::string, LeaseCounts>& counts() const { return counts_; }
+
+  private:
+    std::map<std::string, LeaseCounts> counts_;
+};
+
+/// A lease in force.
+struct HeldLease {
+    traffic::Lease lease;
+    /// Edge on which a lease about a lane or its line was first judged since the last renewal: it means
+    /// nothing on another.
+    core::EdgeIndex edge;
+    core::EdgeIndex granted_on;                 ///< A stop that was found feasible stays so on that edge.
+    std::vector<const char*> counted_refusals;  ///< Each reason is counted once a lease.
+};
+
+/// Leases in force for one target, of which only one kind of thing can be done at a time, best first: by
+/// priority, then by age. A lease of the same part for the same beneficiary is a renewal and keeps its place.
+class LeaseQueue {
+  public:
+    void offer(const traffic::Lease& lease, Ledger& ledger);
+    /// Ends the leases whose expiry has come.
+    void expire(core::Seconds now, Ledger& ledger);
+    /// Counts a refusal, once for each lease and reason. The lease stays and is judged again.
+    static void refuse(HeldLease& held, const char* reason, Ledger& ledger);
+    /// Counts a refusal and ends all leases.
+    void drop_all(const char* reason, Ledger& ledger);
+    /// Ends the best lease without counting a refusal: what it asked for is over.
+    void end_best(Ledger& ledger);
+    void clear() { held_.clear(); }
+
+    HeldLease* best() { return held_.empty() ? nullptr : &held_.front(); }
+    std::vector<HeldLease>& all() { return held_; }
+    std::size_t size() const { return held_.size(); }
+    bool empty() const { return held_.empty(); }
+
+  private:
+    std::vector<HeldLease> held_;
+};
+
+/// Expiries are compared with this tolerance, because step times are sums of decimal fractions.
+inline constexpr double time_tolerance_s = 1e-6;
+
+}  // namespace clearway::actuation::detail

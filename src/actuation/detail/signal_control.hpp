@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actuation/detail/lease_queue.hpp"
+#include "actuation/detail/signal_states.hpp"
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "traffic/command.hpp"
+
+namespace clearway::actuation::detail {
+
+/// Times of a signal's transitions, s.
+struct SignalTiming {
+    double yellow_s;
+    double all_red_s;
+    double hold_cap_s;
+    double cool_down_s;
+};
+
+/// The leases of one signal and where it is on the way between its own program and what they hold.
+///
+/// own program -> (yellow) -> (all red) -> hold -> yellow -> all red -> own program. Yellow is shown where a
+/// link loses green, all red wherever a link gains it; links that keep green keep it all the way. A request
+/// that changes on the way starts the way again from what is shown now. Simulated steps decide when a stage
+/// ends: it never is shorter than asked.
+class SignalControl {
+  public:
+    SignalControl(core::SignalIndex index, const roads::Signal& signal) : index_(index), signal_(signal) {}
+
+    void offer(const traffic::Lease& lease, Ledger& ledger);
+    /// `state` is what the signal shows now; empty when there is no such signal any more.
+    void step(core::Seconds now, const std::string& state, const SignalTiming& timing, Ledger& ledger,
+              std::vector<traffic::Command>& commands);
+    void restore(std::vector<traffic::Command>& commands);
+
+    std::size_t active() const { return holds_.size() + favours_.size(); }
+    /// Nothing is held, and a new hold would be accepted at once.
+    bool is_idle(core::Seconds now) const;
+
+  private:
+    enum class Stage : std::uint8_t { own_program, yellow, all_red, hold };
+
+    Links requested(Ledger& ledger);
+    Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
+    void begin_way(const Links& links, core::Seconds now, std::vector<traffic::Command>& commands);
+    void proceed(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
+                 std::vector<traffic::Command>& commands);
+    void enter(Stage stage, const std::string& state, core::Seconds now,
+               std::vector<traffic::Command>& commands);
+    void return_to_program(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
+                           std::vector<traffic::Command>& commands);
+
+    core::SignalIndex index_;
+    const roads::Signal& signal_;
+    LeaseQueue holds_;
+    LeaseQueue favours_;
+    Stage stage_ = Stage::own_program;
+    core::Seconds stage_since_;
+    core::Seconds taken_since_;  ///< When the signal last left its own program.
+    core::Seconds cool_until_{-1e9};
+    bool capped_ = false;  ///< Held for the cap: on the way back whatever is asked.
+    std::string shown_;
+    std::string target_;
+    Links links_;  ///< What `target_` serves; empty on the way back.
+};
+
+}  // namespace clearway::actuation::detail

@@ -1,0 +1,107 @@
+#include "actuation/detail/signal_states.hpp"
+
+#include <algorithm>
+
+#include "traffic/signal.hpp"
+
+namespace clearway::actuation::detail {
+namespace {
+
+bool is_yellow(char letter) {
+    return letter == 'y' || letter == 'Y';
+}
+
+bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
+    return signal.foes[left][right] || signal.foes[right][left];
+}
+
+bool is_foe_of_any(const roads::Signal& signal, std::size_t link, const Links& links) {
+    return std::ranges::any_of(links, [&](std::uint16_t other) { return are_foes(signal, link, other); });
+}
+
+const roads::Phase* phase_serving_all(const roads::Signal& signal, const Links& links) {
+    for (const roads::Phase& phase : signal.program) {
+        if (std::ranges::all_of(links, [&](std::uint16_t link) {
+                return link < phase.state.size() && traffic::is_green(phase.state[link]);
+            }))
+            return &phase;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links) {
+    std::string state(shown.size(), 'r');
+    for (std::size_t link = 0; link < shown.size(); ++link) {
+        const bool known = link < signal.links.size() && !signal.links[link].empty();
+        if (known && traffic::is_green(shown[link]) && !is_foe_of_any(signal, link, links))
+            state[link] = shown[link];
+    }
+    const roads::Phase* phase = phase_serving_all(signal, links);
+    Links earlier;
+    for (const std::uint16_t link : links) {
+        state[link] = 'G';
+        if (is_foe_of_any(signal, link, links)) {
+            if (phase != nullptr)
+                state[link] = phase->state[link];
+            else if (is_foe_of_any(signal, link, earlier))
+                state[link] = 'g';
+        }
+        earlier.push_back(link);
+    }
+    return state;
+}
+
+std::string yellow_state(const std::string& shown, const std::string& target) {
+    std::string state = all_red_state(shown, target);
+    for (std::size_t link = 0; link < shown.size(); ++link) {
+        const bool loses = traffic::is_green(shown[link]) && !traffic::is_green(target[link]);
+        if (loses || is_yellow(shown[link])) state[link] = 'y';
+    }
+    return state;
+}
+
+std::string all_red_state(const std::string& shown, const std::string& target) {
+    std::string state(shown.size(), 'r');
+    for (std::size_t link = 0; link < shown.size(); ++link) {
+        if (traffic::is_green(shown[link]) && traffic::is_green(target[link])) state[link] = shown[link];
+    }
+    return state;
+}
+
+bool needs_yellow(const std::string& shown, const std::string& target) {
+    for (std::size_t link = 0; link < shown.size(); ++link) {
+        if (is_yellow(shown[link])) return true;
+        if (traffic::is_green(shown[link]) && !traffic::is_green(target[link])) return true;
+    }
+    return false;
+}
+
+bool needs_all_red(const std::string& shown, const std::string& target) {
+    for (std::size_t link = 0; link < shown.size(); ++link) {
+        if (traffic::is_green(target[link]) && !traffic::is_green(shown[link])) return true;
+    }
+    return false;
+}
+
+bool conflict(const roads::Signal& signal, const Links& left, const Links& right) {
+    return std::ranges::any_of(left, [&](std::uint16_t link) { return is_foe_of_any(signal, link, right); });
+}
+
+std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links& links) {
+    std::optional<std::uint32_t> best;
+    long most = 0;
+    for (std::uint32_t row = 0; row < signal.program.size(); ++row) {
+        const std::string& state = signal.program[row].state;
+        const long served = std::ranges::count_if(
+            links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
+        if (served > most) {
+            most = served;
+            best = row;
+        }
+    }
+    return best;
+}
+
+}  // namespace clearway::actuation::detail

@@ -1,0 +1,269 @@
+#include "actuation/detail/vehicle_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway::actuation::detail {
+namespace {
+
+/// A lease may ask for this much more than is allowed, m/s: rounding, not speeding. The command stays below.
+constexpr double speed_tolerance_mps = 0.01;
+/// Speeds nearer to each other than this are not sent again, m/s.
+constexpr double speed_resolution_mps = 1e-3;
+/// A lane other than a best one must be drivable for longer than this (facts: 300 m).
+constexpr float least_drivable_m = 300.0F;
+/// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
+constexpr double stop_line_gap_m = 1.0;
+/// Longest single lane request: a request that outlives its lease by a fault binds the vehicle no longer
+/// (facts: 3 s).
+constexpr double longest_lane_request_s = 3.0;
+/// A lane request is prolonged when it has less than this left: longer than the longest step (1 s).
+constexpr double prolong_lane_request_s = 1.5;
+/// A vehicle off the road for longer than this does not come back (SUMO teleports for 300 s of jam at most).
+constexpr double longest_absence_s = 600.0;
+
+bool is_best_or_long(const truth::LaneOutlook& outlook) {
+    return outlook.best_offset == 0 || outlook.drivable_m > least_drivable_m;
+}
+
+/// Greatest speed of the next step after which the vehicle can still stop within `distance` with
+/// `deceleration`.
+double braking_speed(double distance_m, double deceleration_mps2, double step_s) {
+    const double lost = deceleration_mps2 * step_s;
+    return std::max(0.0,
+                    -lost + std::sqrt(lost * lost + 2.0 * deceleration_mps2 * std::max(0.0, distance_m)));
+}
+
+}  // namespace
+
+bool VehicleSettings::is_default() const {
+    return !speed && !lane && freedom == traffic::LaneChangeFreedom::normal &&
+           alignment == traffic::LateralAlignment::usual && privilege == traffic::JunctionPrivilege::none &&
+           checks == traffic::SafetyChecks::on;
+}
+
+VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action) {
+    if (std::holds_alternative<traffic::DriveAt>(action) ||
+        std::holds_alternative<traffic::StopAtLine>(action))
+        return speed;
+    return std::holds_alternative<traffic::PassRed>(action) ? privilege : lateral;
+}
+
+void VehicleControl::offer(const traffic::Lease& lease, Ledger& ledger) {
+    queues_[channel_of(lease.action)].offer(lease, ledger);
+}
+
+std::size_t VehicleControl::active() const {
+    std::size_t sum = 0;
+    for (const LeaseQueue& queue : queues_)
+        sum += queue.size();
+    return sum;
+}
+
+bool VehicleControl::is_idle(core::Seconds now) const {
+    if (active() > 0) return false;
+    return applied_.is_default() || (away_since_ && (now - *away_since_).value > longest_absence_s);
+}
+
+void VehicleControl::drop_all(const char* reason, Ledger& ledger) {
+    for (LeaseQueue& queue : queues_)
+        queue.drop_all(reason, ledger);
+}
+
+void VehicleControl::step(const VehicleSurroundings& around, Ledger& ledger,
+                          std::vector<traffic::Command>& commands) {
+    const core::Seconds now = around.snapshot.time;
+    for (LeaseQueue& queue : queues_)
+        queue.expire(now, ledger);
+    const auto row = around.snapshot.row_of(vehicle_);
+    const traffic::VehicleInfo* info = around.roster.find(vehicle_);
+    if (!row || info == nullptr) {
+        drop_all("vehicle_gone", ledger);
+        if (!away_since_) away_since_ = now;
+        return;
+    }
+    away_since_.reset();
+    if (info->vehicle_class == traffic::VehicleClass::human) drop_all("not_controllable", ledger);
+    apply(judge(around, {*row, *info}, ledger), now, commands);
+}
+
+VehicleSettings VehicleControl::judge(const VehicleSurroundings& around, const Place& place, Ledger& ledger) {
+    VehicleSettings settings;
+    for (LeaseQueue& queue : queues_) {
+        for (std::size_t row = 1; row < queue.size(); ++row) {
+            LeaseQueue::refuse(queue.all()[row], "outranked", ledger);
+        }
+    }
+    judge_speed(around, place, settings, ledger);
+    judge_lateral(around, place, settings, ledger);
+    if (HeldLease* held = queues_[privilege].best()) {
+        if (place.info.vehicle_class == traffic::VehicleClass::emergency)
+            settings.privilege = traffic::JunctionPrivilege::pass_red;
+        else
+            LeaseQueue::refuse(*held, "not_an_emergency_vehicle", ledger);
+    }
+    if (around.safety_checks == traffic::SafetyChecks::off) {
+        settings.freedom = traffic::LaneChangeFreedom::normal;
+        if (active() > 0) settings.checks = traffic::SafetyChecks::off;
+    }
+    return settings;
+}
+
+void VehicleControl::judge_speed(const VehicleSurroundings& around, const Place& place,
+                                 VehicleSettings& settings, Ledger& ledger) {
+    HeldLease* held = queues_[speed].best();
+    if (held == nullptr) return;
+    if (std::holds_alternative<traffic::StopAtLine>(held->lease.action) &&
+        has_left_edge(around, place, *held)) {
+        queues_[speed].end_best(ledger);
+        return;
+    }
+    const auto allowed = around.self.allowed_speed(vehicle_);
+    if (!allowed) {
+        LeaseQueue::refuse(*held, "vehicle_does_not_answer", ledger);
+        return;
+    }
+    if (const auto* drive = std::get_if<traffic::DriveAt>(&held->lease.action)) {
+        if (drive->speed.value > allowed->value + speed_tolerance_mps)
+            LeaseQueue::refuse(*held, "above_allowed_speed", ledger);
+        else
+            settings.speed = std::min(drive->speed, *allowed);
+        return;
+    }
+    if (const auto stop = stop_speed(around, place, *held, ledger))
+        settings.speed = std::min(*stop, *allowed);
+}
+
+/// Whether the edge that the lease meant lies behind. The first call ties the lease to the present edge.
+bool VehicleControl::has_left_edge(const VehicleSurroundings& around, const Place& place, HeldLease& held) {
+    const core::EdgeIndex edge = around.network.lane(around.snapshot.lane[place.row]).edge;
+    if (!held.edge.exists()) held.edge = edge;
+    return held.edge != edge;
+}
+
+/// Speed on the way to a stop at the line. A stop that needs more than the usual deceleration is refused.
+std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleSurroundings& around,
+                                                                const Place& place, HeldLease& held,
+                                                                Ledger& ledger) const {
+    const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
+    if (around.network.edge(lane.edge).internal) {
+        LeaseQueue::refuse(held, "on_a_junction", ledger);
+        return std::nullopt;
+    }
+    const double room = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
+    const double now_mps = around.snapshot.speed_mps[place.row];
+    const double deceleration = place.info.deceleration_mps2;
+    const bool fits = now_mps <= speed_tolerance_mps || now_mps * now_mps <= 2.0 * deceleration * room;
+    if (held.granted_on != lane.edge && !fits) {
+        LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+        return std::nullopt;
+    }
+    held.granted_on = lane.edge;
+    return core::MetresPerSecond(braking_speed(room, deceleration, around.step.value));
+}
+
+void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Place& place,
+                                   VehicleSettings& settings, Ledger& ledger) {
+    HeldLease* held = queues_[lateral].best();
+    if (held == nullptr) return;
+    if (std::holds_alternative<traffic::HoldLane>(held->lease.action)) {
+        settings.freedom = traffic::LaneChangeFreedom::strategic_only;
+    } else if (const auto* aside = std::get_if<traffic::PullAside>(&held->lease.action)) {
+        if (around.lateral_model == LateralModel::lane) {
+            LeaseQueue::refuse(*held, "needs_sublane_model", ledger);
+            return;
+        }
+        settings.freedom = traffic::LaneChangeFreedom::none;
+        settings.alignment = aside->side == traffic::Side::right ? traffic::LateralAlignment::right
+                                                                 : traffic::LateralAlignment::left;
+    } else {
+        if (has_left_edge(around, place, *held))
+            queues_[lateral].end_best(ledger);
+        else
+            settings.lane = judge_lane(around, place, *held, ledger);
+    }
+}
+
+std::optional<LaneRequest> VehicleControl::judge_lane(const VehicleSurroundings& around, const Place& place,
+                                                      HeldLease& held, Ledger& ledger) const {
+    const auto refuse = [&](const char* reason) {
+        LeaseQueue::refuse(held, reason, ledger);
+        return std::nullopt;
+    };
+    const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
+    const roads::Edge& edge = around.network.edge(lane.edge);
+    const std::uint32_t target = std::get<traffic::ChangeLane>(held.lease.action).lane_number;
+    if (edge.internal) return refuse("on_a_junction");
+    if (target >= edge.lane_count) return refuse("no_such_lane");
+    const roads::Lane& target_lane = around.network.lane(around.network.lane_of(lane.edge, target));
+    const bool is_emergency = place.info.vehicle_class == traffic::VehicleClass::emergency;
+    if (!(is_emergency ? target_lane.allows_emergency : target_lane.allows_cars))
+        return refuse("lane_not_allowed");
+    const bool checked = around.safety_checks == traffic::SafetyChecks::on;
+    if (checked) {
+        const auto outlook = around.self.lane_outlook(vehicle_);
+        if (!outlook || target >= outlook->size()) return refuse("vehicle_does_not_answer");
+        if (!is_best_or_long((*outlook)[target])) return refuse("lane_does_not_continue");
+    }
+    if (target == lane.number) return LaneRequest{target, held.lease.expiry};
+    const bool higher = target > lane.number;
+    const auto direction = higher ? truth::Neighbour::higher : truth::Neighbour::lower;
+    if (checked && !around.self.could_change_lane(vehicle_, direction).value_or(false))
+        return refuse("no_room_beside");
+    return LaneRequest{higher ? lane.number + 1 : lane.number - 1, held.lease.expiry};
+}
+
+void VehicleControl::apply(const VehicleSettings& wanted, core::Seconds now,
+                           std::vector<traffic::Command>& commands) {
+    if (wanted.checks != applied_.checks)
+        commands.push_back(traffic::SetSafetyChecks{vehicle_, wanted.checks});
+    if (wanted.speed) {
+        const bool same =
+            applied_.speed && std::abs((*wanted.speed - *applied_.speed).value) < speed_resolution_mps;
+        if (!same) {
+            commands.push_back(traffic::SetSpeed{vehicle_, *wanted.speed});
+            applied_.speed = wanted.speed;
+        }
+    } else if (applied_.speed) {
+        commands.push_back(traffic::ReleaseSpeed{vehicle_});
+        applied_.speed.reset();
+    }
+    if (wanted.freedom != applied_.freedom)
+        commands.push_back(traffic::SetLaneChangeFreedom{vehicle_, wanted.freedom});
+    if (wanted.alignment != applied_.alignment)
+        commands.push_back(traffic::SetLateralAlignment{vehicle_, wanted.alignment});
+    if (wanted.privilege != applied_.privilege)
+        commands.push_back(traffic::SetJunctionPrivilege{vehicle_, wanted.privilege});
+    applied_.checks = wanted.checks;
+    applied_.freedom = wanted.freedom;
+    applied_.alignment = wanted.alignment;
+    applied_.privilege = wanted.privilege;
+    apply_lane(wanted, now, commands);
+}
+
+void VehicleControl::apply_lane(const VehicleSettings& wanted, core::Seconds now,
+                                std::vector<traffic::Command>& commands) {
+    std::optional<LaneRequest>& applied = applied_.lane;
+    if (!wanted.lane) {
+        if (applied && applied->until.value > now.value + time_tolerance_s)
+            commands.push_back(traffic::ReleaseLane{vehicle_});
+        applied.reset();
+        return;
+    }
+    const bool same_lane = applied && applied->lane_number == wanted.lane->lane_number;
+    if (same_lane && (applied->until.value >= wanted.lane->until.value ||
+                      applied->until.value - now.value >= prolong_lane_request_s))
+        return;
+    const core::Seconds duration(std::min((wanted.lane->until - now).value, longest_lane_request_s));
+    commands.push_back(traffic::RequestLane{vehicle_, wanted.lane->lane_number, duration});
+    applied = LaneRequest{wanted.lane->lane_number, now + duration};
+}
+
+void VehicleControl::restore(std::vector<traffic::Command>& commands) {
+    for (LeaseQueue& queue : queues_)
+        queue.clear();
+    if (!away_since_) apply(VehicleSettings{}, core::Seconds(0.0), commands);
+    applied_ = VehicleSettings{};
+}
+
+}  // namespace clearway::actuation::detail

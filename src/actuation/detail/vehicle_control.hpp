@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "actuation/actuator_config.hpp"
+#include "actuation/detail/lease_queue.hpp"
+#include "roads/network.hpp"
+#include "traffic/command.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/self_knowledge.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::actuation::detail {
+
+/// What judging a vehicle's leases needs to know.
+struct VehicleSurroundings {
+    const roads::Network& network;
+    const truth::Snapshot& snapshot;
+    const traffic::Roster& roster;
+    const truth::SelfKnowledge& self;
+    traffic::SafetyChecks safety_checks;
+    LateralModel lateral_model;
+    core::Seconds step;  ///< Time since the last step; 0 at the first.
+};
+
+/// A lane that a vehicle is kept on.
+struct LaneRequest {
+    std::uint32_t lane_number = 0;
+    core::Seconds until;
+};
+
+/// How a vehicle differs from one that nobody controls. The default is such a vehicle.
+struct VehicleSettings {
+    std::optional<core::MetresPerSecond> speed;
+    std::optional<LaneRequest> lane;
+    traffic::LaneChangeFreedom freedom = traffic::LaneChangeFreedom::normal;
+    traffic::LateralAlignment alignment = traffic::LateralAlignment::usual;
+    traffic::JunctionPrivilege privilege = traffic::JunctionPrivilege::none;
+    traffic::SafetyChecks checks = traffic::SafetyChecks::on;
+
+    bool is_default() const;
+};
+
+/// The leases of one vehicle and what they made of it. Each step compares how the vehicle should be set with
+/// how it is set and sends the difference, so whatever was set is given back exactly once.
+class VehicleControl {
+  public:
+    explicit VehicleControl(core::VehicleKey vehicle) : vehicle_(vehicle) {}
+
+    void offer(const traffic::Lease& lease, Ledger& ledger);
+    void step(const VehicleSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    /// Gives everything back, when the vehicle was on the road at the last step.
+    void restore(std::vector<traffic::Command>& commands);
+
+    std::size_t active() const;
+    /// Nothing is held and nothing is owed to a vehicle that may come back.
+    bool is_idle(core::Seconds now) const;
+
+  private:
+    enum Channel : std::size_t { speed, lateral, privilege, channel_count };
+    struct Place {
+        core::VehicleIndex row;
+        const traffic::VehicleInfo& info;
+    };
+    static Channel channel_of(const traffic::Action& action);
+
+    void drop_all(const char* reason, Ledger& ledger);
+    VehicleSettings judge(const VehicleSurroundings& around, const Place& place, Ledger& ledger);
+    void judge_speed(const VehicleSurroundings& around, const Place& place, VehicleSettings& settings,
+                     Ledger& ledger);
+    static bool has_left_edge(const VehicleSurroundings& around, const Place& place, HeldLease& held);
+    std::optional<core::MetresPerSecond> stop_speed(const VehicleSurroundings& around, const Place& place,
+                                                    HeldLease& held, Ledger& ledger) const;
+    void judge_lateral(const VehicleSurroundings& around, const Place& place, VehicleSettings& settings,
+                       Ledger& ledger);
+    std::optional<LaneRequest> judge_lane(const VehicleSurroundings& around, const Place& place,
+                                          HeldLease& held, Ledger& ledger) const;
+    void apply(const VehicleSettings& wanted, core::Seconds now, std::vector<traffic::Command>& commands);
+    void apply_lane(const VehicleSettings& wanted, core::Seconds now,
+                    std::vector<traffic::Command>& commands);
+
+    core::VehicleKey vehicle_;
+    std::array<LeaseQueue, channel_count> queues_;
+    VehicleSettings applied_;
+    std::optional<core::Seconds> away_since_;  ///< Off the road, with settings that it may come back with.
+};
+
+}  // namespace clearway::actuation::detail

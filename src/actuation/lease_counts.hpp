@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace clearway::actuation {
+
+/// What became of the leases of one part and action.
+struct LeaseCounts {
+    std::uint64_t issued = 0;  ///< New leases, refused ones included, renewals not.
+    std::uint64_t renewed =
+        0;  ///< Leases that prolonged or changed one of the same part, target and beneficiary.
+    std::uint64_t expired =
+        0;  ///< Ended by themselves: by time, or because the lane they named was left behind.
+    std::map<std::string, std::uint64_t> refused;  ///< Reason -> leases refused for it at least once.
+};
+
+}  // namespace clearway::actuation

@@ -1,0 +1,199 @@
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "actuation/fakes.hpp"
+
+namespace clearway::testing {
+namespace {
+
+const core::SignalIndex signal_a{0};
+const std::vector<std::uint16_t> west = {12, 13, 14, 15};
+const std::vector<std::uint16_t> north = {0, 1, 2, 3};
+const std::vector<std::uint16_t> south_straight = {9, 10};
+
+/// What a signal showed and for how long.
+struct Shown {
+    std::string state;
+    double from_s;
+};
+
+/// Drives the bench, renewing holds while `renew` says so, and notes every change of the signal.
+template <class Renew>
+std::vector<Shown> watch(ActuationBench& bench, double until_s, const Renew& renew) {
+    std::vector<Shown> history = {{bench.shown[0], 0.0}};
+    while (bench.now.value < until_s - 1e-9) {
+        renew(bench);
+        bench.step();
+        if (bench.shown[0] != history.back().state) history.push_back({bench.shown[0], bench.now.value});
+    }
+    return history;
+}
+
+auto hold_until(const std::vector<std::uint16_t>& links, double end_s) {
+    return [=](ActuationBench& bench) {
+        if (bench.now.value < end_s) bench.offer(signal_a, traffic::HoldGreen{links}, 2.0);
+    };
+}
+
+class SignalLease : public ::testing::TestWithParam<double> {};
+
+TEST_P(SignalLease, clears_with_yellow_and_all_red_holds_and_comes_back_the_same_way) {
+    const double step_s = GetParam();
+    ActuationBench bench(step_s);
+    const auto history = watch(bench, 40.0, hold_until(west, 15.0));
+    ASSERT_EQ(history.size(), 7U);
+    EXPECT_EQ(history[1].state, "Gyyyrrrryyyyrrrr") << "the right turn from the north crosses nobody";
+    EXPECT_EQ(history[2].state, "Grrrrrrrrrrrrrrr");
+    EXPECT_EQ(history[3].state, "GrrrrrrrrrrrGGGG");
+    EXPECT_EQ(history[4].state, "yrrrrrrrrrrryyyy");
+    EXPECT_EQ(history[5].state, "rrrrrrrrrrrrrrrr");
+    EXPECT_EQ(history[6].state, history[0].state);
+    const auto lasted = [&](int row) { return history[row + 1].from_s - history[row].from_s; };
+    for (const int yellow : {1, 4}) {
+        EXPECT_GE(lasted(yellow), 3.0 - 1e-9);
+        EXPECT_LT(lasted(yellow), 3.0 + step_s - 1e-9);
+    }
+    for (const int red : {2, 5}) {
+        EXPECT_GE(lasted(red), 1.5 - 1e-9);
+        EXPECT_LT(lasted(red), 1.5 + step_s - 1e-9);
+    }
+    EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, SignalLease, ::testing::Values(0.1, 0.25, 1.0));
+
+TEST(SignalHold, of_what_is_green_already_starts_at_once) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{{1, 2}}, 2.0);
+    const std::string before = bench.shown[0];
+    const auto first = bench.only<traffic::SetSignalState>(bench.step());
+    ASSERT_EQ(first.size(), 1U);
+    EXPECT_EQ(first[0].state, "GGGgrrrrGGGyrrrr") << "only the left turn across it clears";
+    EXPECT_EQ(before, "GGGgrrrrGGGgrrrr");
+}
+
+TEST(SignalHold, that_nothing_conflicts_with_changes_no_letter) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{{0}}, 1.0);
+    bench.shown[0] = "GGGrrrrrGGGrrrrr";
+    const auto history = watch(bench, 0.75, [](ActuationBench&) {});
+    EXPECT_EQ(history.size(), 1U);
+}
+
+TEST(SignalHold, that_lapses_during_the_yellow_still_clears_before_the_program_returns) {
+    ActuationBench bench;
+    const auto history = watch(bench, 20.0, hold_until(west, 0.5));
+    for (const Shown& shown : history) {
+        EXPECT_EQ(shown.state.find("GGGG"), std::string::npos) << "never granted";
+    }
+    EXPECT_EQ(history.back().state, history.front().state);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_the_cool_down) {
+    ActuationBench bench;
+    const auto history = watch(bench, 90.0, hold_until(west, 1000.0));
+    double left_s = 0.0;
+    double returned_s = 0.0;
+    double again_s = 0.0;
+    for (const Shown& shown : history) {
+        if (left_s == 0.0 && shown.state == "yrrrrrrrrrrryyyy") left_s = shown.from_s;
+        if (left_s > 0.0 && returned_s == 0.0 && shown.state == history[0].state) returned_s = shown.from_s;
+        if (returned_s > 0.0 && again_s == 0.0 && shown.from_s > returned_s) again_s = shown.from_s;
+    }
+    EXPECT_NEAR(left_s, 60.25, 0.3);
+    EXPECT_NEAR(returned_s, left_s + 4.5, 0.3);
+    EXPECT_NEAR(again_s, returned_s + 10.0, 0.3);
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("hold_cap"), 1U);
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("cool_down"), 1U);
+}
+
+TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_other) {
+    ActuationBench bench;
+    const core::VehicleKey first{1};
+    const core::VehicleKey second{2};
+    const auto history = watch(bench, 30.0, [&](ActuationBench& b) {
+        if (b.now.value < 8.0) b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "part", first);
+        if (b.now.value < 18.0) b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "part", second);
+    });
+    std::vector<std::string> greens;
+    for (const Shown& shown : history) {
+        if (shown.state == "GrrrrrrrrrrrGGGG" || shown.state == "GGGGrrrrrrrrrrrr")
+            greens.push_back(shown.state);
+    }
+    ASSERT_EQ(greens.size(), 2U);
+    EXPECT_EQ(greens[0], "GrrrrrrrrrrrGGGG");
+    EXPECT_EQ(greens[1], "GGGGrrrrrrrrrrrr");
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+}
+
+TEST(SignalHold, of_higher_priority_wins_over_an_earlier_one) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{west}, 20.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{north}, 20.0, 5, "part", core::VehicleKey{2});
+    bench.run_until(10.0);
+    EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr");
+}
+
+TEST(SignalHold, serves_requests_together_that_do_not_conflict) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{{1, 2}}, 20.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 20.0, 0, "part", core::VehicleKey{2});
+    bench.run_until(10.0);
+    EXPECT_EQ(bench.shown[0].substr(1, 2), "GG");
+    EXPECT_EQ(bench.shown[0].substr(9, 2), "GG");
+    EXPECT_EQ(bench.counts("part/hold_green").refused.size(), 0U);
+}
+
+TEST(SignalHold, for_links_that_do_not_exist_is_refused) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{{16}});
+    bench.offer(signal_a, traffic::HoldGreen{{}});
+    bench.offer(core::SignalIndex{99}, traffic::HoldGreen{{0}});
+    bench.offer(core::SignalIndex::none(), traffic::HoldGreen{{0}});
+    EXPECT_TRUE(bench.step().empty());
+    const auto& refused = bench.counts("part/hold_green").refused;
+    EXPECT_EQ(refused.at("no_such_link"), 1U);
+    EXPECT_EQ(refused.at("no_links"), 1U);
+    EXPECT_EQ(refused.at("no_such_signal"), 2U);
+}
+
+TEST(SignalHold, at_a_signal_that_is_gone_is_dropped) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{west}, 20.0);
+    bench.step();
+    bench.shown.clear();
+    EXPECT_TRUE(bench.step().empty());
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("signal_gone"), 1U);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+TEST(SignalHold, writes_only_states_of_legal_length_and_letters) {
+    ActuationBench bench(1.0);
+    const std::string legal = "GgyrRuosO";
+    watch(bench, 60.0, [&](ActuationBench& b) {
+        const bool even = static_cast<int>(b.now.value) / 3 % 2 == 0;
+        b.offer(signal_a, traffic::HoldGreen{even ? west : north}, 2.5);
+        EXPECT_EQ(b.shown[0].size(), 16U);
+        EXPECT_EQ(b.shown[0].find_first_not_of(legal), std::string::npos);
+    });
+}
+
+TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+    std::vector<traffic::RestoreProgram> restored;
+    for (int step = 0; step < 80; ++step) {
+        if (step < 30) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
+        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step())) {
+            restored.push_back(restore);
+        }
+    }
+    ASSERT_EQ(restored.size(), 1U);
+    EXPECT_EQ(restored[0].phase, 2U);
+}
+
+}  // namespace
+}  // namespace clearway::testing

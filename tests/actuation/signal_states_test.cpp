@@ -1,0 +1,78 @@
+#include "actuation/detail/signal_states.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/crossing_scene.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using actuation::detail::all_red_state;
+using actuation::detail::best_phase;
+using actuation::detail::hold_state;
+using actuation::detail::needs_all_red;
+using actuation::detail::needs_yellow;
+using actuation::detail::yellow_state;
+
+/// Link 0 crosses 1 and 2; 1 and 2 go together; link 3 is a pedestrian crossing.
+roads::Signal small_signal() {
+    roads::Signal signal;
+    signal.id = "small";
+    signal.links = {{{}}, {{}}, {{}}, {}};
+    signal.foes = {{false, true, true, false},
+                   {true, false, false, false},
+                   {true, false, false, false},
+                   {false, false, false, false}};
+    signal.program = {{30.0, "GrrG"}, {3.0, "yrrr"}, {30.0, "rGgr"}, {3.0, "ryyr"}};
+    return signal;
+}
+
+TEST(HoldState, is_green_for_the_request_and_red_for_what_crosses_it) {
+    EXPECT_EQ(hold_state(small_signal(), "GrrG", {1}), "rGrr");
+}
+
+TEST(HoldState, leaves_green_what_does_not_conflict) {
+    EXPECT_EQ(hold_state(small_signal(), "rGgr", {1}), "rGgr");
+    EXPECT_EQ(hold_state(small_signal(), "rGgr", {2}), "rGGr");
+}
+
+TEST(HoldState, of_an_approach_at_the_crossing_is_protected) {
+    const roads::Signal& signal = two_crossings().signal(two_crossings().find_signal("A").value());
+    EXPECT_EQ(hold_state(signal, signal.program[0].state, {12, 13, 14, 15}), "GrrrrrrrrrrrGGGG");
+    EXPECT_EQ(hold_state(signal, signal.program[2].state, {12, 13, 14, 15}), "rrrrGrrrrrrrGGGG")
+        << "right turns that cross nobody go on";
+}
+
+TEST(HoldState, takes_letters_of_conflicting_requests_from_the_phase_that_serves_them_all) {
+    roads::Signal signal = small_signal();
+    signal.foes[1][2] = signal.foes[2][1] = true;
+    EXPECT_EQ(hold_state(signal, "GrrG", {1, 2}), "rGgr");
+    signal.program.clear();
+    EXPECT_EQ(hold_state(signal, "GrrG", {1, 2}), "rGgr");
+}
+
+TEST(Transition, shows_yellow_to_those_who_lose_green_and_keeps_the_others) {
+    EXPECT_EQ(yellow_state("GGrr", "rGGr"), "yGrr");
+    EXPECT_EQ(yellow_state("yrrr", "rGrr"), "yrrr");
+    EXPECT_EQ(all_red_state("GGrr", "rGGr"), "rGrr");
+}
+
+TEST(Transition, needs_no_stage_that_changes_nothing) {
+    EXPECT_FALSE(needs_yellow("rGgr", "rGgr"));
+    EXPECT_FALSE(needs_all_red("rGgr", "rGgr"));
+    EXPECT_TRUE(needs_yellow("GGrr", "rGrr"));
+    EXPECT_TRUE(needs_yellow("yGrr", "rGrr"));
+    EXPECT_TRUE(needs_all_red("rrrr", "rGrr"));
+    EXPECT_FALSE(needs_all_red("GGrr", "rGrr"));
+}
+
+TEST(BestPhase, serves_most_of_the_links) {
+    EXPECT_EQ(best_phase(small_signal(), {1, 2}), 2U);
+    EXPECT_EQ(best_phase(small_signal(), {0}), 0U);
+    roads::Signal silent = small_signal();
+    silent.program = {{30.0, "rrrr"}};
+    EXPECT_FALSE(best_phase(silent, {0}).has_value());
+}
+
+}  // namespace
+}  // namespace clearway::testing
