@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,11 +29,11 @@ struct SessionConfig {
     std::filesystem::path network;
     std::vector<std::filesystem::path> route_files;
     std::vector<std::filesystem::path> additional_files;
-    std::filesystem::path folder;   ///< Receives tripinfo.xml and sumo.log.
+    std::filesystem::path folder;  ///< Receives tripinfo.xml and sumo.log.
     core::Seconds begin{0.0};
-    core::Seconds step_length{0.25};  ///< [0.01, 1].
-    std::uint64_t seed = 1;           ///< SUMO's own generator; reduced to 31 bits.
-    core::Seconds time_to_teleport{300.0};  ///< Negative: never.
+    core::Seconds step_length{0.25};           ///< [0.01, 1].
+    std::uint64_t seed = 1;                    ///< SUMO's own generator; reduced to 31 bits.
+    core::Seconds time_to_teleport{300.0};     ///< Negative: never.
     std::vector<std::string> extra_arguments;  ///< As on SUMO's command line.
     Names names;
 };
@@ -41,14 +42,16 @@ struct SessionConfig {
 /// core::SimulatorError with the end of SUMO's own log; after one the session can only be destroyed.
 class Session : public truth::SelfKnowledge {
   public:
-    /// Loads the scenario. Throws core::SimulatorError when it does not load, core::EnvironmentError when SUMO or the
-    /// folder is unusable.
+    /// Loads the scenario. Throws core::SimulatorError when it does not load, core::EnvironmentError when
+    /// SUMO or the folder is unusable.
     explicit Session(SessionConfig config);
     ~Session() override;
 
     /// Advances by one step, then reads the state and the events of that step.
     void step();
     core::Seconds time() const;
+    /// Wall time that SUMO itself took for the last step, reading excluded.
+    core::Seconds step_wall_time() const;
     const truth::Snapshot& snapshot() const;
     const truth::Events& events() const;
     /// Every vehicle that ever departed, with class and kind from its type's parameters.
@@ -58,19 +61,25 @@ class Session : public truth::SelfKnowledge {
 
     /// Adds an emergency vehicle that departs at `departure.depart` or later.
     void add(const traffic::EmergencyDeparture& departure);
-    /// Carries out commands. Throws std::invalid_argument for what SUMO would swallow silently (a lane that does not exist, NaN,
-    /// a state of wrong length or letters); commands for vehicles that have left are skipped and counted.
+    /// Carries out commands. Throws std::invalid_argument for what SUMO would swallow silently (a lane that
+    /// does not exist, NaN, a state of wrong length or letters); commands for vehicles that have left are
+    /// skipped and counted.
     void apply(std::span<const traffic::Command> commands);
     std::uint64_t skipped_commands() const;
+    /// Stops that were commanded where the vehicle could no longer brake in time on its lane.
+    std::uint64_t refused_commands() const;
 
-    /// In a forked child, before anything else: moves SUMO's open outputs to files of its own in `folder`, with what was
-    /// written before the fork copied, so that each child's outputs equal those of an unforked run.
+    /// In a forked child, before anything else: moves SUMO's open outputs to files of its own in `folder`,
+    /// with what was written before the fork copied, so that each child's outputs equal those of an unforked
+    /// run.
     void continue_in(const std::filesystem::path& folder);
 
-    /// Ends the simulation so that all output files are complete. The destructor does it too, without throwing.
+    /// Ends the simulation so that all output files are complete. The destructor does it too, without
+    /// throwing.
     void close();
 
-    std::optional<bool> could_change_lane(core::VehicleKey vehicle, truth::Neighbour direction) const override;
+    std::optional<bool> could_change_lane(core::VehicleKey vehicle,
+                                          truth::Neighbour direction) const override;
     std::optional<std::vector<truth::LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const override;
     std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const override;
 

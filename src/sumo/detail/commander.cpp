@@ -1,0 +1,218 @@
+#include "sumo/detail/commander.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "sumo/detail/gateway.hpp"
+
+namespace clearway::sumo::detail {
+namespace {
+
+constexpr int speed_mode_default = 31;
+constexpr int lane_change_default = 1621;
+constexpr int lane_change_strategic_only = 1537;
+constexpr int lane_change_none = 1536;
+constexpr int mode_without_checks = 0;
+constexpr double released_speed = -1.0;
+constexpr std::string_view signal_letters = "GgyruosO";
+
+/// How a vehicle with privilege passes red: whenever it turned red, at 20 km/h, still yielding to others in
+/// the junction. The figures are those of SUMO's own emergency device.
+constexpr std::array<std::pair<const char*, const char*>, 2> pass_red = {
+    {{"junctionModel.jmDriveAfterRedTime", "300"}, {"junctionModel.jmDriveRedSpeed", "5.56"}}};
+
+void require(bool holds, const std::string& otherwise) {
+    if (!holds) throw std::invalid_argument(otherwise);
+}
+
+int lane_change_mode(traffic::LaneChangeFreedom freedom) {
+    switch (freedom) {
+        case traffic::LaneChangeFreedom::normal:
+            return lane_change_default;
+        case traffic::LaneChangeFreedom::strategic_only:
+            return lane_change_strategic_only;
+        case traffic::LaneChangeFreedom::none:
+            return lane_change_none;
+    }
+    throw std::invalid_argument("unknown freedom of lane change");
+}
+
+void require_duration(const Vehicle& vehicle, core::Seconds duration) {
+    require(
+        std::isfinite(duration.value) && duration.value > 0.0,
+        fmt::format("vehicle '{}': a duration of {} s is not a positive number", vehicle.id, duration.value));
+}
+
+}  // namespace
+
+void Commander::carry_out(const traffic::Command& command) {
+    std::visit([this](const auto& concrete) { run(concrete); }, command);
+}
+
+Vehicle* Commander::present(core::VehicleKey key) {
+    Vehicle* vehicle = fleet_.find(key);
+    if (vehicle == nullptr) ++skipped_;
+    return vehicle;
+}
+
+Vehicle* Commander::on_road(core::VehicleKey key) {
+    Vehicle* vehicle = fleet_.find(key);
+    if (vehicle != nullptr && vehicle->on_road) return vehicle;
+    ++skipped_;
+    return nullptr;
+}
+
+void Commander::run(const traffic::SetSpeed& command) {
+    require(std::isfinite(command.speed.value) && command.speed.value >= 0.0,
+            fmt::format("a speed of {} m/s is not a number from 0", command.speed.value));
+    if (const Vehicle* vehicle = present(command.vehicle))
+        gateway::set_speed(vehicle->id, command.speed.value);
+}
+
+void Commander::run(const traffic::ReleaseSpeed& command) {
+    if (const Vehicle* vehicle = present(command.vehicle)) gateway::set_speed(vehicle->id, released_speed);
+}
+
+void Commander::run(const traffic::RequestLane& command) {
+    const Vehicle* vehicle = on_road(command.vehicle);
+    if (vehicle == nullptr) return;
+    require_duration(*vehicle, command.duration);
+    const std::string edge = gateway::edge_of(vehicle->id);
+    const auto lanes = static_cast<std::uint32_t>(gateway::lane_count(edge));
+    require(command.lane_number < lanes,
+            fmt::format("vehicle '{}': edge '{}' has {} lanes, none with number {}", vehicle->id, edge, lanes,
+                        command.lane_number));
+    gateway::change_lane(vehicle->id, static_cast<int>(command.lane_number), command.duration.value);
+}
+
+void Commander::run(const traffic::ReleaseLane& command) {
+    const Vehicle* vehicle = on_road(command.vehicle);
+    // A request for the present lane that is over at once replaces the former one.
+    if (vehicle != nullptr) gateway::change_lane(vehicle->id, gateway::lane_number(vehicle->id), 0.0);
+}
+
+void Commander::run(const traffic::SetLateralAlignment& command) {
+    require(lateral_ == LateralModel::sublanes,
+            "lateral alignment has no effect without the sublane model (--lateral-resolution)");
+    Vehicle* vehicle = present(command.vehicle);
+    if (vehicle == nullptr) return;
+    std::optional<std::string>& usual = vehicle->controls.usual_alignment;
+    if (!usual) usual = gateway::lateral_alignment(vehicle->id);
+    switch (command.alignment) {
+        case traffic::LateralAlignment::usual:
+            return gateway::set_lateral_alignment(vehicle->id, *usual);
+        case traffic::LateralAlignment::right:
+            return gateway::set_lateral_alignment(vehicle->id, "right");
+        case traffic::LateralAlignment::left:
+            return gateway::set_lateral_alignment(vehicle->id, "left");
+    }
+}
+
+void Commander::run(const traffic::SetJunctionPrivilege& command) {
+    Vehicle* vehicle = present(command.vehicle);
+    if (vehicle == nullptr) return;
+    std::map<std::string, std::string>& usual = vehicle->controls.usual_parameters;
+    for (const auto& [name, value] : pass_red) {
+        if (!usual.contains(name)) usual.emplace(name, gateway::parameter(vehicle->id, name));
+        const bool granted = command.privilege == traffic::JunctionPrivilege::pass_red;
+        gateway::set_parameter(vehicle->id, name, granted ? value : usual.at(name));
+    }
+}
+
+void Commander::run(const traffic::SetLaneChangeFreedom& command) {
+    Vehicle* vehicle = present(command.vehicle);
+    if (vehicle == nullptr) return;
+    vehicle->controls.freedom = command.freedom;
+    set_modes(*vehicle);
+}
+
+void Commander::run(const traffic::SetSafetyChecks& command) {
+    Vehicle* vehicle = present(command.vehicle);
+    if (vehicle == nullptr) return;
+    vehicle->controls.checks = command.checks;
+    set_modes(*vehicle);
+}
+
+void Commander::set_modes(const Vehicle& vehicle) const {
+    const bool checked = vehicle.controls.checks == traffic::SafetyChecks::on;
+    gateway::set_speed_mode(vehicle.id, checked ? speed_mode_default : mode_without_checks);
+    gateway::set_lane_change_mode(vehicle.id,
+                                  checked ? lane_change_mode(vehicle.controls.freedom) : mode_without_checks);
+}
+
+void Commander::run(const traffic::StopOnLane& command) {
+    Vehicle* vehicle = on_road(command.vehicle);
+    if (vehicle == nullptr) return;
+    require_duration(*vehicle, command.duration);
+    const double length_m = gateway::lane_length_m(vehicle->lane_id);
+    require(command.position.value >= 0.0 && command.position.value <= length_m,
+            fmt::format("vehicle '{}': lane '{}' is {} m long, {} m is not on it", vehicle->id,
+                        vehicle->lane_id, length_m, command.position.value));
+    const double speed = gateway::speed_mps(vehicle->id);
+    const double nearest_m = gateway::lane_position_m(vehicle->id) + speed * step_s_ +
+                             speed * speed / (2.0 * vehicle->deceleration_mps2) + 0.1;
+    const double position_m = std::max(command.position.value, nearest_m);
+    if (position_m > length_m) {
+        ++refused_;
+        return;
+    }
+    run(traffic::ResumeFromStop{command.vehicle});
+    gateway::stop(vehicle->id, {.edge = gateway::edge_of(vehicle->id),
+                                .lane_number = gateway::lane_number(vehicle->id),
+                                .position_m = position_m,
+                                .duration_s = command.duration.value});
+    vehicle->controls.own_stop = gateway::next_stop(vehicle->id);
+}
+
+void Commander::run(const traffic::ResumeFromStop& command) {
+    Vehicle* vehicle = on_road(command.vehicle);
+    if (vehicle == nullptr || !vehicle->controls.own_stop) return;
+    const bool is_ours = gateway::next_stop(vehicle->id) == vehicle->controls.own_stop;
+    vehicle->controls.own_stop.reset();
+    if (!is_ours) return;
+    if (gateway::is_stopped(vehicle->id))
+        gateway::resume(vehicle->id);
+    else
+        gateway::cancel_next_stop(vehicle->id);
+}
+
+const std::string& Commander::signal_name(core::SignalIndex signal) const {
+    const std::vector<std::string>& signals = names_.names().signals;
+    require(signal.value < signals.size(), fmt::format("there is no signal with index {}", signal.value));
+    return signals[signal.value];
+}
+
+void Commander::run(const traffic::SetSignalState& command) {
+    const std::string& signal = signal_name(command.signal);
+    const std::size_t links = gateway::signal_state(signal).size();
+    require(command.state.size() == links, fmt::format("signal '{}': '{}' has {} letters for {} links",
+                                                       signal, command.state, command.state.size(), links));
+    require(
+        command.state.find_first_not_of(signal_letters) == std::string::npos,
+        fmt::format("signal '{}': '{}' has a letter other than {}", signal, command.state, signal_letters));
+    if (!own_programs_.contains(signal)) own_programs_.emplace(signal, gateway::signal_program(signal));
+    gateway::set_signal_state(signal, command.state);
+}
+
+void Commander::run(const traffic::RestoreProgram& command) {
+    const std::string& signal = signal_name(command.signal);
+    const auto own = own_programs_.find(signal);
+    const std::string program = own == own_programs_.end() ? gateway::signal_program(signal) : own->second;
+    if (command.phase) {
+        const std::uint32_t phases = gateway::phase_count(signal, program);
+        require(*command.phase < phases,
+                fmt::format("signal '{}': program '{}' has {} phases, none with number {}", signal, program,
+                            phases, *command.phase));
+    }
+    if (own != own_programs_.end()) gateway::set_signal_program(signal, program);
+    own_programs_.erase(signal);
+    if (command.phase) gateway::set_signal_phase(signal, *command.phase);
+}
+
+}  // namespace clearway::sumo::detail

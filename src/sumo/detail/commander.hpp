@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "sumo/detail/fleet.hpp"
+#include "sumo/detail/name_table.hpp"
+#include "traffic/command.hpp"
+
+namespace clearway::sumo::detail {
+
+/// Whether SUMO runs its sublane model; without it lateral alignment has no effect.
+enum class LateralModel : std::uint8_t { lanes, sublanes };
+
+/// Carries out commands and checks what SUMO would swallow.
+///
+/// Modes are those of SUMO: speedMode 31 and laneChangeMode 1621 are its defaults, with every safety check.
+/// - LaneChangeFreedom::strategic_only is 1537: no changes for speed, cooperation or the right lane, but
+/// those
+///   that the route demands; others' gaps are respected.
+/// - LaneChangeFreedom::none is 1536: no change of its own, gaps respected, and lateral alignment still
+/// works.
+///   SUMO's 512 would forbid that as well without saying so.
+/// - SafetyChecks::off is speedMode 0 and laneChangeMode 0, whatever the freedom.
+class Commander {
+  public:
+    /// `fleet` and `names` outlive the commander.
+    Commander(Fleet& fleet, const NameTable& names, LateralModel lateral, double step_s)
+        : fleet_(fleet), names_(names), lateral_(lateral), step_s_(step_s) {}
+
+    /// Throws std::invalid_argument as Session::apply says.
+    void carry_out(const traffic::Command& command);
+    std::uint64_t skipped() const { return skipped_; }
+    std::uint64_t refused() const { return refused_; }
+
+  private:
+    void run(const traffic::SetSpeed& command);
+    void run(const traffic::ReleaseSpeed& command);
+    void run(const traffic::RequestLane& command);
+    void run(const traffic::ReleaseLane& command);
+    void run(const traffic::SetLateralAlignment& command);
+    void run(const traffic::SetJunctionPrivilege& command);
+    void run(const traffic::SetLaneChangeFreedom& command);
+    void run(const traffic::SetSafetyChecks& command);
+    void run(const traffic::StopOnLane& command);
+    void run(const traffic::ResumeFromStop& command);
+    void run(const traffic::SetSignalState& command);
+    void run(const traffic::RestoreProgram& command);
+
+    /// Nothing, and counted, when the vehicle has left.
+    Vehicle* present(core::VehicleKey key);
+    /// The same for a vehicle that is being teleported.
+    Vehicle* on_road(core::VehicleKey key);
+    const std::string& signal_name(core::SignalIndex signal) const;
+    void set_modes(const Vehicle& vehicle) const;
+
+    Fleet& fleet_;
+    const NameTable& names_;
+    LateralModel lateral_;
+    double step_s_;
+    std::unordered_map<std::string, std::string> own_programs_;  ///< Of signals that show a set state.
+    std::uint64_t skipped_ = 0;
+    std::uint64_t refused_ = 0;
+};
+
+}  // namespace clearway::sumo::detail

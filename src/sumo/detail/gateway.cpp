@@ -1,0 +1,303 @@
+#include "sumo/detail/gateway.hpp"
+
+#include <algorithm>
+
+#include <libsumo/libsumo.h>
+
+#include "core/error.hpp"
+
+namespace clearway::sumo::detail::gateway {
+namespace {
+
+namespace api = LIBSUMO_NAMESPACE;
+
+/// Calls SUMO; everything it throws derives from std::exception, but not from one family.
+template <class Call>
+auto call(Call&& to_sumo) {
+    try {
+        return to_sumo();
+    } catch (const std::exception& fault) {
+        throw core::SimulatorError(fault.what());
+    }
+}
+
+// SUMO's lane-change state (LCA_* of its TraCI constants, which its C++ headers leave out).
+constexpr int change_to_left = 1 << 1;
+constexpr int change_to_right = 1 << 2;
+constexpr int change_unknown = 1 << 30;
+constexpr int change_blocked =
+    (1 << 9) | (1 << 10) | (1 << 11) | (1 << 12) | (1 << 14) | (1 << 28);  // vehicles, space, speed
+constexpr int stopped_flag = 1;                                            // bit 0 of the stop state
+
+}  // namespace
+
+void load(const std::vector<std::string>& arguments) {
+    call([&] { api::Simulation::load(arguments); });
+}
+
+void step() {
+    call([] { api::Simulation::step(); });
+}
+
+void close() {
+    call([] { api::Simulation::close(); });
+}
+
+double time_s() {
+    return call([] { return api::Simulation::getTime(); });
+}
+
+double step_length_s() {
+    return call([] { return api::Simulation::getDeltaT(); });
+}
+
+int expected_vehicles() {
+    return call([] { return api::Simulation::getMinExpectedNumber(); });
+}
+
+std::string option(const std::string& name) {
+    return call([&] { return api::Simulation::getOption(name); });
+}
+
+std::string version() {
+    return call([] { return api::Simulation::getVersion().second; });
+}
+
+std::vector<std::string> departed() {
+    return call([] { return api::Simulation::getDepartedIDList(); });
+}
+
+std::vector<std::string> arrived() {
+    return call([] { return api::Simulation::getArrivedIDList(); });
+}
+
+std::vector<std::string> teleports_started() {
+    return call([] { return api::Simulation::getStartingTeleportIDList(); });
+}
+
+std::vector<std::string> teleports_ended() {
+    return call([] { return api::Simulation::getEndingTeleportIDList(); });
+}
+
+std::vector<CollisionReport> collisions() {
+    return call([] {
+        std::vector<CollisionReport> reports;
+        for (const auto& collision : api::Simulation::getCollisions()) {
+            reports.push_back({collision.collider, collision.victim, collision.lane});
+        }
+        return reports;
+    });
+}
+
+bool read(const std::string& vehicle, VehicleReading& reading) {
+    return call([&] {
+        const auto position = api::Vehicle::getPosition(vehicle);
+        if (position.x == libsumo::INVALID_DOUBLE_VALUE) return false;
+        reading.x_m = position.x;
+        reading.y_m = position.y;
+        reading.angle_deg = api::Vehicle::getAngle(vehicle);
+        reading.speed_mps = api::Vehicle::getSpeed(vehicle);
+        reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
+        reading.lane_position_m = api::Vehicle::getLanePosition(vehicle);
+        reading.lane = api::Vehicle::getLaneID(vehicle);
+        return true;
+    });
+}
+
+std::uint32_t route_index(const std::string& vehicle) {
+    return call(
+        [&] { return static_cast<std::uint32_t>(std::max(0, api::Vehicle::getRouteIndex(vehicle))); });
+}
+
+std::string route_id(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getRouteID(vehicle); });
+}
+
+std::vector<std::string> route_edges(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getRoute(vehicle); });
+}
+
+std::string type_of(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getTypeID(vehicle); });
+}
+
+double speed_factor(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getSpeedFactor(vehicle); });
+}
+
+std::string edge_of(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getRoadID(vehicle); });
+}
+
+int lane_number(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getLaneIndex(vehicle); });
+}
+
+double lane_position_m(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getLanePosition(vehicle); });
+}
+
+double speed_mps(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getSpeed(vehicle); });
+}
+
+double allowed_speed_mps(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getAllowedSpeed(vehicle); });
+}
+
+bool could_change_lane(const std::string& vehicle, int direction) {
+    return call([&] {
+        const auto [own, commanded] = api::Vehicle::getLaneChangeState(vehicle, direction);
+        const int wanted = direction < 0 ? change_to_right : change_to_left;
+        // A vehicle that wanted to and could has just changed: its state is that of the former lane.
+        const bool has_changed = (commanded & change_blocked) == 0 && (commanded & wanted) != 0;
+        return own != change_unknown && !has_changed && (own & change_blocked) == 0;
+    });
+}
+
+std::vector<BestLane> best_lanes(const std::string& vehicle) {
+    return call([&] {
+        std::vector<BestLane> lanes;
+        for (const auto& lane : api::Vehicle::getBestLanes(vehicle)) {
+            lanes.push_back({lane.laneID, lane.length, lane.bestLaneOffset});
+        }
+        return lanes;
+    });
+}
+
+bool type_exists(const std::string& type) {
+    return call([&] {
+        const auto types = api::VehicleType::getIDList();
+        return std::ranges::find(types, type) != types.end();
+    });
+}
+
+TypeReading read_type(const std::string& type) {
+    return call([&] {
+        return TypeReading{.length_m = api::VehicleType::getLength(type),
+                           .width_m = api::VehicleType::getWidth(type),
+                           .minimum_gap_m = api::VehicleType::getMinGap(type),
+                           .maximum_speed_mps = api::VehicleType::getMaxSpeed(type),
+                           .acceleration_mps2 = api::VehicleType::getAccel(type),
+                           .deceleration_mps2 = api::VehicleType::getDecel(type),
+                           .emergency_deceleration_mps2 = api::VehicleType::getEmergencyDecel(type)};
+    });
+}
+
+std::string type_parameter(const std::string& type, const std::string& parameter) {
+    return call([&] { return api::VehicleType::getParameter(type, parameter); });
+}
+
+std::vector<std::string> lane_ids() {
+    return call([] { return api::Lane::getIDList(); });
+}
+
+std::vector<std::string> signal_ids() {
+    return call([] { return api::TrafficLight::getIDList(); });
+}
+
+int lane_count(const std::string& edge) {
+    return call([&] { return api::Edge::getLaneNumber(edge); });
+}
+
+double lane_length_m(const std::string& lane) {
+    return call([&] { return api::Lane::getLength(lane); });
+}
+
+void add(const Insertion& insertion) {
+    call([&] {
+        const std::string route = "clearway:" + insertion.vehicle;
+        api::Route::add(route, insertion.edges);
+        api::Vehicle::add(insertion.vehicle, route, insertion.type, insertion.depart, insertion.depart_lane,
+                          "base", insertion.depart_speed);
+    });
+}
+
+void set_speed(const std::string& vehicle, double speed_mps) {
+    call([&] { api::Vehicle::setSpeed(vehicle, speed_mps); });
+}
+
+void set_speed_mode(const std::string& vehicle, int mode) {
+    call([&] { api::Vehicle::setSpeedMode(vehicle, mode); });
+}
+
+void set_lane_change_mode(const std::string& vehicle, int mode) {
+    call([&] { api::Vehicle::setLaneChangeMode(vehicle, mode); });
+}
+
+void change_lane(const std::string& vehicle, int lane_number, double duration_s) {
+    call([&] { api::Vehicle::changeLane(vehicle, lane_number, duration_s); });
+}
+
+std::string lateral_alignment(const std::string& vehicle) {
+    return call([&] { return api::Vehicle::getLateralAlignment(vehicle); });
+}
+
+void set_lateral_alignment(const std::string& vehicle, const std::string& alignment) {
+    call([&] { api::Vehicle::setLateralAlignment(vehicle, alignment); });
+}
+
+std::string parameter(const std::string& vehicle, const std::string& name) {
+    return call([&] { return api::Vehicle::getParameter(vehicle, name); });
+}
+
+void set_parameter(const std::string& vehicle, const std::string& name, const std::string& value) {
+    call([&] { api::Vehicle::setParameter(vehicle, name, value); });
+}
+
+void stop(const std::string& vehicle, const Stop& stop) {
+    call([&] {
+        api::Vehicle::setStop(vehicle, stop.edge, stop.position_m, stop.lane_number, stop.duration_s);
+    });
+}
+
+bool is_stopped(const std::string& vehicle) {
+    return call([&] { return (api::Vehicle::getStopState(vehicle) & stopped_flag) != 0; });
+}
+
+std::optional<std::pair<std::string, double>> next_stop(const std::string& vehicle) {
+    return call([&]() -> std::optional<std::pair<std::string, double>> {
+        const auto stops = api::Vehicle::getStops(vehicle, 1);
+        if (stops.empty()) return std::nullopt;
+        return std::pair{stops.front().lane, stops.front().endPos};
+    });
+}
+
+void resume(const std::string& vehicle) {
+    call([&] { api::Vehicle::resume(vehicle); });
+}
+
+void cancel_next_stop(const std::string& vehicle) {
+    call([&] { api::Vehicle::replaceStop(vehicle, 0, ""); });
+}
+
+std::string signal_state(const std::string& signal) {
+    return call([&] { return api::TrafficLight::getRedYellowGreenState(signal); });
+}
+
+std::string signal_program(const std::string& signal) {
+    return call([&] { return api::TrafficLight::getProgram(signal); });
+}
+
+std::uint32_t phase_count(const std::string& signal, const std::string& program) {
+    return call([&] {
+        for (const auto& logic : api::TrafficLight::getAllProgramLogics(signal)) {
+            if (logic.programID == program) return static_cast<std::uint32_t>(logic.phases.size());
+        }
+        return std::uint32_t{0};
+    });
+}
+
+void set_signal_state(const std::string& signal, const std::string& state) {
+    call([&] { api::TrafficLight::setRedYellowGreenState(signal, state); });
+}
+
+void set_signal_program(const std::string& signal, const std::string& program) {
+    call([&] { api::TrafficLight::setProgram(signal, program); });
+}
+
+void set_signal_phase(const std::string& signal, std::uint32_t phase) {
+    call([&] { api::TrafficLight::setPhase(signal, static_cast<int>(phase)); });
+}
+
+}  // namespace clearway::sumo::detail::gateway

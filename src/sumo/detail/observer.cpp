@@ -1,0 +1,197 @@
+#include "sumo/detail/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace clearway::sumo::detail {
+namespace {
+
+constexpr double route_check_period_s = 1.0;
+/// No road vehicle accelerates harder; bounds how far one gets in a step.
+constexpr double acceleration_bound_mps2 = 10.0;
+/// SUMO's tolerance in its criterion for emergency braking.
+constexpr float braking_tolerance_mps2 = 0.001F;
+
+/// SUMO counts degrees clockwise from north.
+float heading_rad(double angle_deg) {
+    constexpr double pi = std::numbers::pi;
+    return static_cast<float>(std::remainder(pi / 2.0 - angle_deg * pi / 180.0, 2.0 * pi));
+}
+
+bool is_internal(const std::string& lane) {
+    return lane.starts_with(':');
+}
+
+}  // namespace
+
+void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
+    const double now_s = gateway::time_s();
+    const double step_s = now_s - snapshot.time.value;
+    snapshot.time = core::Seconds(now_s);
+    events.clear();
+    events.time = snapshot.time;
+    take_departures(events);
+    take_teleports(events);
+    take_arrivals(events, step_s);
+    read_vehicles(snapshot, events);
+    take_collisions(events);
+    observe_signals(snapshot);
+}
+
+void Observer::observe_signals(truth::Snapshot& snapshot) {
+    snapshot.time = core::Seconds(gateway::time_s());
+    const std::vector<std::string>& signals = names_.names().signals;
+    snapshot.signals.state.resize(signals.size());
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        snapshot.signals.state[i] = gateway::signal_state(signals[i]);
+    }
+}
+
+void Observer::take_departures(truth::Events& events) {
+    for (const std::string& id : gateway::departed()) {
+        Vehicle& vehicle = fleet_.insert(id);
+        register_vehicle(vehicle);
+        fleet_.put_on_road(vehicle);
+        events.departed.push_back(vehicle.key);
+    }
+}
+
+void Observer::take_teleports(truth::Events& events) {
+    for (const std::string& id : gateway::teleports_started()) {
+        Vehicle* vehicle = fleet_.find(id);
+        if (vehicle == nullptr) continue;
+        fleet_.take_off_road(*vehicle);
+        events.teleported.push_back(vehicle->key);
+    }
+    for (const std::string& id : gateway::teleports_ended()) {
+        Vehicle* vehicle = fleet_.find(id);
+        if (vehicle != nullptr) fleet_.put_on_road(*vehicle);
+    }
+}
+
+void Observer::take_arrivals(truth::Events& events, double step_s) {
+    for (const std::string& id : gateway::arrived()) {
+        const Vehicle* vehicle = fleet_.find(id);
+        const bool arrived = vehicle != nullptr && reached_destination(*vehicle, step_s);
+        (arrived ? events.arrived : events.removed).push_back(core::vehicle_key(id));
+        fleet_.erase(id);
+    }
+}
+
+bool Observer::reached_destination(const Vehicle& vehicle, double step_s) const {
+    if (!vehicle.on_road) return false;
+    const std::vector<core::EdgeIndex>& route = roster_.route(roster_.find(vehicle.key)->route);
+    const double reach_m = (vehicle.speed_mps + acceleration_bound_mps2 * step_s) * step_s + 1.0;
+    double ahead_m = 0.0;
+    if (vehicle.route_edge + 1 < route.size() && !is_internal(vehicle.lane_id))
+        ahead_m = gateway::lane_length_m(vehicle.lane_id) - vehicle.lane_position_m;
+    for (std::size_t i = vehicle.route_edge + 1; i + 1 < route.size(); ++i) {
+        ahead_m += gateway::lane_length_m(names_.names().edges[route[i].value] + "_0");
+    }
+    return ahead_m <= reach_m;
+}
+
+void Observer::take_collisions(truth::Events& events) {
+    std::set<Contact> contacts;
+    for (const gateway::CollisionReport& report : gateway::collisions()) {
+        const core::VehicleKey collider = core::vehicle_key(report.collider);
+        const core::VehicleKey victim = core::vehicle_key(report.victim);
+        const Contact contact = std::minmax(collider, victim);
+        if (!contacts.insert(contact).second || contacts_.contains(contact)) continue;
+        const auto is_emergency = [&](core::VehicleKey key) {
+            const traffic::VehicleInfo* info = roster_.find(key);
+            return info != nullptr && info->vehicle_class == traffic::VehicleClass::emergency;
+        };
+        events.collisions.push_back(
+            {.collider = collider,
+             .victim = victim,
+             .place =
+                 is_internal(report.lane) ? truth::CollisionPlace::junction : truth::CollisionPlace::lane,
+             .lane = names_.lane(report.lane),
+             .with_emergency_vehicle = is_emergency(collider) || is_emergency(victim)});
+    }
+    contacts_ = std::move(contacts);
+}
+
+void Observer::register_vehicle(Vehicle& vehicle) {
+    const VehicleType& type = types_.get(gateway::type_of(vehicle.id));
+    const gateway::TypeReading& dynamics = type.dynamics;
+    const auto declared = declared_.find(vehicle.id);
+    const bool is_declared = declared != declared_.end();
+    vehicle.vehicle_class = is_declared ? traffic::VehicleClass::emergency : type.vehicle_class;
+    vehicle.deceleration_mps2 = static_cast<float>(dynamics.deceleration_mps2);
+    vehicle.emergency_deceleration_mps2 = static_cast<float>(dynamics.emergency_deceleration_mps2);
+    vehicle.route_id = gateway::route_id(vehicle.id);
+    roster_.add({.key = vehicle.key,
+                 .id = vehicle.id,
+                 .vehicle_class = vehicle.vehicle_class,
+                 .kind = is_declared ? declared->second : type.kind,
+                 .length_m = static_cast<float>(dynamics.length_m),
+                 .width_m = static_cast<float>(dynamics.width_m),
+                 .minimum_gap_m = static_cast<float>(dynamics.minimum_gap_m),
+                 .maximum_speed_mps = static_cast<float>(dynamics.maximum_speed_mps),
+                 .acceleration_mps2 = static_cast<float>(dynamics.acceleration_mps2),
+                 .deceleration_mps2 = vehicle.deceleration_mps2,
+                 .speed_factor = static_cast<float>(gateway::speed_factor(vehicle.id)),
+                 .route = roster_.add_route(names_.edges(gateway::route_edges(vehicle.id)))});
+}
+
+void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
+    fleet_.number_rows();
+    snapshot.resize(fleet_.rows().size());
+    const bool check_routes = snapshot.time.value - routes_checked_s_ >= route_check_period_s;
+    if (check_routes) routes_checked_s_ = snapshot.time.value;
+    for (Vehicle* vehicle : fleet_.on_road()) {
+        if (!gateway::read(vehicle->id, reading_))
+            throw core::SimulatorError("vehicle '" + vehicle->id +
+                                       "' has left the road without a word from the simulator");
+        if (check_routes) follow_route(*vehicle);
+        store(*vehicle, snapshot);
+        note_braking(*vehicle, events);
+    }
+}
+
+void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
+    if (reading_.lane != vehicle.lane_id) {
+        vehicle.lane = names_.lane(reading_.lane);
+        vehicle.lane_id = reading_.lane;
+        vehicle.route_edge = gateway::route_index(vehicle.id);
+    }
+    vehicle.lane_position_m = static_cast<float>(reading_.lane_position_m);
+    vehicle.speed_mps = static_cast<float>(reading_.speed_mps);
+    const std::uint32_t row = vehicle.row;
+    snapshot.key[row] = vehicle.key;
+    snapshot.vehicle_class[row] = vehicle.vehicle_class;
+    snapshot.x_m[row] = static_cast<float>(reading_.x_m);
+    snapshot.y_m[row] = static_cast<float>(reading_.y_m);
+    snapshot.heading_rad[row] = heading_rad(reading_.angle_deg);
+    snapshot.speed_mps[row] = vehicle.speed_mps;
+    snapshot.acceleration_mps2[row] = static_cast<float>(reading_.acceleration_mps2);
+    snapshot.lane[row] = vehicle.lane;
+    snapshot.lane_position_m[row] = vehicle.lane_position_m;
+    snapshot.route_edge[row] = vehicle.route_edge;
+}
+
+void Observer::note_braking(Vehicle& vehicle, truth::Events& events) const {
+    const auto deceleration_mps2 = static_cast<float>(-reading_.acceleration_mps2);
+    const float beyond_usual_mps2 = deceleration_mps2 - vehicle.deceleration_mps2 - braking_tolerance_mps2;
+    const float threshold_mps2 =
+        std::max(braking_tolerance_mps2, vehicle.emergency_deceleration_mps2 - vehicle.deceleration_mps2);
+    const bool is_hard = beyond_usual_mps2 >= threshold_mps2;
+    if (is_hard && !vehicle.braking_hard)
+        events.emergency_brakings.push_back({vehicle.key, deceleration_mps2});
+    vehicle.braking_hard = is_hard;
+}
+
+void Observer::follow_route(Vehicle& vehicle) {
+    std::string route = gateway::route_id(vehicle.id);
+    if (route == vehicle.route_id) return;
+    vehicle.route_id = std::move(route);
+    vehicle.route_edge = gateway::route_index(vehicle.id);
+    roster_.set_route(vehicle.key, roster_.add_route(names_.edges(gateway::route_edges(vehicle.id))));
+}
+
+}  // namespace clearway::sumo::detail

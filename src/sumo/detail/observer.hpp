@@ -1,0 +1,72 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "sumo/detail/fleet.hpp"
+#include "sumo/detail/gateway.hpp"
+#include "sumo/detail/name_table.hpp"
+#include "sumo/detail/type_table.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::sumo::detail {
+
+/// Reads state and events after each step.
+///
+/// - A vehicle is on the road from departure to arrival, except while it is being teleported. Parked
+///   vehicles count as on the road.
+/// - It arrived when it could have driven to its destination edge since the last reading; a vehicle that SUMO
+///   takes out before, or during a teleport, was removed.
+/// - An emergency braking begins in the step in which the deceleration d first satisfies SUMO's criterion for
+///   its own warning, (d - usual) / (emergency - usual) >= 1, with the type's usual and emergency
+///   deceleration.
+/// - Two vehicles in contact are one collision while SUMO reports the contact in consecutive steps, whoever
+///   is named first.
+/// - A route that changes under way is noticed within a second of simulated time: asking each step would add
+///   a seventh to the cost of reading, for demand that hardly ever reroutes.
+class Observer {
+  public:
+    /// `names` outlives the observer.
+    explicit Observer(const NameTable& names) : names_(names) {}
+
+    /// A vehicle of this id is an emergency vehicle of this kind, whatever its type says.
+    void declare_emergency(const std::string& id, traffic::VehicleKind kind) { declared_.emplace(id, kind); }
+
+    /// Reads what the last step did.
+    void observe(truth::Snapshot& snapshot, truth::Events& events);
+    /// Signals and time alone, before the first step.
+    void observe_signals(truth::Snapshot& snapshot);
+
+    Fleet& fleet() { return fleet_; }
+    TypeTable& types() { return types_; }
+    const traffic::Roster& roster() const { return roster_; }
+
+  private:
+    using Contact = std::pair<core::VehicleKey, core::VehicleKey>;
+
+    void take_departures(truth::Events& events);
+    void take_teleports(truth::Events& events);
+    void take_arrivals(truth::Events& events, double step_s);
+    void take_collisions(truth::Events& events);
+    void register_vehicle(Vehicle& vehicle);
+    bool reached_destination(const Vehicle& vehicle, double step_s) const;
+    void read_vehicles(truth::Snapshot& snapshot, truth::Events& events);
+    void store(Vehicle& vehicle, truth::Snapshot& snapshot);
+    void note_braking(Vehicle& vehicle, truth::Events& events) const;
+    void follow_route(Vehicle& vehicle);
+
+    const NameTable& names_;
+    Fleet fleet_;
+    TypeTable types_;
+    traffic::Roster roster_;
+    std::unordered_map<std::string, traffic::VehicleKind> declared_;
+    std::set<Contact> contacts_;
+    gateway::VehicleReading reading_;
+    double routes_checked_s_ = 0.0;
+};
+
+}  // namespace clearway::sumo::detail

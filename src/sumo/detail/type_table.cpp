@@ -1,0 +1,44 @@
+#include "sumo/detail/type_table.hpp"
+
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "traffic/departure.hpp"
+
+namespace clearway::sumo::detail {
+namespace {
+
+void report(std::vector<core::Problem>& problems, const std::string& type, const char* parameter,
+            const std::string& value, const char* allowed) {
+    problems.push_back({"vehicle type '" + type + "', parameter " + parameter,
+                        "'" + value + "' does not exist", allowed, ""});
+}
+
+VehicleType read(const std::string& type) {
+    VehicleType result{.dynamics = gateway::read_type(type)};
+    std::vector<core::Problem> problems;
+    const std::string class_name = gateway::type_parameter(type, traffic::class_parameter);
+    if (const auto vehicle_class = traffic::vehicle_class_from(class_name))
+        result.vehicle_class = *vehicle_class;
+    else if (!class_name.empty())
+        report(problems, type, traffic::class_parameter, class_name, "human, automated, emergency");
+    const std::string kind_name = gateway::type_parameter(type, traffic::kind_parameter);
+    if (const auto kind = traffic::vehicle_kind_from(kind_name))
+        result.kind = *kind;
+    else if (!kind_name.empty())
+        report(problems, type, traffic::kind_parameter, kind_name,
+               "car, van, truck, bus, ambulance, fire_engine, police_car, other");
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return result;
+}
+
+}  // namespace
+
+const VehicleType& TypeTable::get(const std::string& type) {
+    const auto found = types_.find(type);
+    if (found != types_.end()) return found->second;
+    return types_.emplace(type, read(type)).first->second;
+}
+
+}  // namespace clearway::sumo::detail

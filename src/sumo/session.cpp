@@ -1,0 +1,270 @@
+#include "sumo/session.hpp"
+
+#include <chrono>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "sumo/detail/commander.hpp"
+#include "sumo/detail/gateway.hpp"
+#include "sumo/detail/message_log.hpp"
+#include "sumo/detail/name_table.hpp"
+#include "sumo/detail/observer.hpp"
+#include "sumo/detail/options.hpp"
+#include "sumo/detail/outputs.hpp"
+
+namespace clearway::sumo {
+namespace {
+
+using namespace detail;
+
+/// libsumo keeps its simulation in global variables: one session at a time, and none after a fault, because
+/// what is left of the simulation cannot be trusted, not even to close.
+enum class ProcessState : std::uint8_t { free, occupied, spoilt };
+ProcessState process_state = ProcessState::free;
+
+void occupy_process() {
+    if (process_state == ProcessState::occupied)
+        throw std::logic_error("this process has a session already; SUMO runs one simulation per process");
+    if (process_state == ProcessState::spoilt)
+        throw core::SimulatorError("SUMO failed in this process before; a new session needs a new process");
+    process_state = ProcessState::occupied;
+}
+
+/// SUMO says nothing when the disk is full; a whole table has its end.
+void require_complete(const std::filesystem::path& trips) {
+    constexpr std::string_view end = "</tripinfos>";
+    const std::string text = core::read_file(trips);
+    const std::size_t last = text.find_last_not_of(" \n");
+    if (last == std::string::npos || !std::string_view(text).substr(0, last + 1).ends_with(end))
+        throw core::EnvironmentError(trips.string() + " is incomplete; the disk may be full");
+}
+
+}  // namespace
+
+struct Session::State {
+    double step_wall_s = 0.0;
+    explicit State(SessionConfig given)
+        : config(std::move(given)), names(std::move(config.names)), observer(names) {}
+
+    void load();
+    void close();
+    std::string fault_message(const char* doing, const std::string& what) const;
+
+    /// Runs `work` with SUMO's messages in the log; its faults get time and log, and end the session.
+    template <class Work>
+    auto guarded(const char* doing, Work&& work) {
+        if (!is_open) throw std::logic_error("the session is closed or has failed");
+        const MessageCapture capture(*log);
+        try {
+            return work();
+        } catch (const core::SimulatorError& fault) {
+            is_open = false;
+            process_state = ProcessState::spoilt;
+            throw core::SimulatorError(fault_message(doing, fault.what()));
+        }
+    }
+
+    SessionConfig config;
+    NameTable names;
+    Observer observer;
+    std::optional<MessageLog> log;
+    std::optional<Commander> commander;
+    Outputs outputs;
+    truth::Snapshot snapshot;
+    truth::Events events;
+    bool is_open = false;
+};
+
+std::string Session::State::fault_message(const char* doing, const std::string& what) const {
+    const std::string messages = log->last_lines();
+    return fmt::format("{} at {} s: {}{}{}", doing, snapshot.time.value, what,
+                       messages.empty() ? "" : "\nSUMO's last messages:\n", messages);
+}
+
+void Session::State::load() {
+    config.folder = prepare_folder(config.folder);
+    set_sumo_home();
+    const std::set<int> before = Outputs::open_descriptors();
+    log.emplace(config.folder / log_file);
+    snapshot.time = config.begin;
+    is_open = true;
+    guarded("SUMO cannot load the scenario", [&] {
+        gateway::load(arguments(config));
+        const std::vector<std::string> signals = gateway::signal_ids();
+        for (const std::string& signal : names.names().signals) {
+            if (std::ranges::find(signals, signal) == signals.end())
+                throw std::invalid_argument("SUMO's network has no signal '" + signal + "'");
+        }
+        const bool has_sublanes = std::stod(gateway::option("lateral-resolution")) > 0.0;
+        commander.emplace(observer.fleet(), names,
+                          has_sublanes ? LateralModel::sublanes : LateralModel::lanes,
+                          gateway::step_length_s());
+        observer.observe_signals(snapshot);
+        outputs = Outputs(before, config.folder);
+    });
+}
+
+void Session::State::close() {
+    if (!is_open) return;
+    guarded("SUMO cannot end the simulation", [] { gateway::close(); });
+    is_open = false;
+    process_state = ProcessState::free;
+    require_complete(config.folder / trip_file);
+}
+
+Session::Session(SessionConfig config) {
+    check(config);
+    occupy_process();
+    state_ = std::make_unique<State>(std::move(config));
+    try {
+        state_->load();
+    } catch (...) {
+        if (process_state == ProcessState::occupied) {
+            if (state_->is_open) gateway::close();
+            process_state = ProcessState::free;
+        }
+        throw;
+    }
+}
+
+Session::~Session() {
+    try {
+        state_->close();
+    } catch (const std::exception&) {
+        // A destructor has nobody to tell. Whoever wants to know calls close().
+    }
+}
+
+void Session::step() {
+    state_->guarded("SUMO cannot step", [this] {
+        const auto started = std::chrono::steady_clock::now();
+        gateway::step();
+        state_->step_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        state_->observer.observe(state_->snapshot, state_->events);
+    });
+}
+
+core::Seconds Session::step_wall_time() const {
+    return core::Seconds(state_->step_wall_s);
+}
+
+core::Seconds Session::time() const {
+    return state_->snapshot.time;
+}
+
+const truth::Snapshot& Session::snapshot() const {
+    return state_->snapshot;
+}
+
+const truth::Events& Session::events() const {
+    return state_->events;
+}
+
+const traffic::Roster& Session::roster() const {
+    return state_->observer.roster();
+}
+
+int Session::expected_vehicles() const {
+    return state_->guarded("SUMO cannot count vehicles", [] { return gateway::expected_vehicles(); });
+}
+
+void Session::add(const traffic::EmergencyDeparture& departure) {
+    state_->guarded("SUMO cannot add a vehicle", [&] {
+        std::vector<core::Problem> problems;
+        const std::string where = "emergency vehicle '" + departure.id + "'";
+        if (!(departure.depart >= time()))
+            problems.push_back({where, fmt::format("departs at {} s, in the past", departure.depart.value),
+                                fmt::format("{} s or later", time().value), ""});
+        if (!gateway::type_exists(departure.type))
+            problems.push_back({where, "has the vehicle type '" + departure.type + "', which is not defined",
+                                "", "Define it in an additional file."});
+        if (departure.edges.empty()) problems.push_back({where, "has no route", "one edge or more", ""});
+        for (const std::string& edge : departure.edges) {
+            if (!state_->names.has_edge(edge))
+                problems.push_back({where, "drives over edge '" + edge + "', which does not exist", "", ""});
+        }
+        if (!problems.empty()) throw core::InputError(std::move(problems));
+        gateway::add({.vehicle = departure.id,
+                      .type = departure.type,
+                      .edges = departure.edges,
+                      .depart = fmt::format("{}", departure.depart.value),
+                      .depart_lane = departure.depart_lane,
+                      .depart_speed = departure.depart_speed});
+        state_->observer.declare_emergency(departure.id, departure.kind);
+    });
+}
+
+void Session::apply(std::span<const traffic::Command> commands) {
+    state_->guarded("SUMO cannot carry out a command", [&] {
+        for (const traffic::Command& command : commands) {
+            state_->commander->carry_out(command);
+        }
+    });
+}
+
+std::uint64_t Session::skipped_commands() const {
+    return state_->commander->skipped();
+}
+
+std::uint64_t Session::refused_commands() const {
+    return state_->commander->refused();
+}
+
+void Session::continue_in(const std::filesystem::path& folder) {
+    core::make_folder(folder);
+    state_->config.folder = std::filesystem::canonical(folder);
+    state_->outputs.move_to(state_->config.folder);
+}
+
+void Session::close() {
+    state_->close();
+}
+
+std::optional<bool> Session::could_change_lane(core::VehicleKey vehicle, truth::Neighbour direction) const {
+    const Vehicle* found = state_->observer.fleet().find(vehicle);
+    if (found == nullptr || !found->on_road) return std::nullopt;
+    return state_->guarded("SUMO cannot judge a lane change", [&] {
+        return gateway::could_change_lane(found->id, static_cast<int>(direction));
+    });
+}
+
+std::optional<std::vector<truth::LaneOutlook>> Session::lane_outlook(core::VehicleKey vehicle) const {
+    const Vehicle* found = state_->observer.fleet().find(vehicle);
+    if (found == nullptr || !found->on_road) return std::nullopt;
+    return state_->guarded("SUMO cannot look ahead", [&] {
+        const std::string prefix = gateway::edge_of(found->id) + "_";
+        const double position_m = gateway::lane_position_m(found->id);
+        std::vector<truth::LaneOutlook> outlook;
+        for (const gateway::BestLane& lane : gateway::best_lanes(found->id)) {
+            if (!lane.lane.starts_with(prefix)) continue;
+            outlook.push_back(
+                {.lane_number = static_cast<std::uint32_t>(std::stoul(lane.lane.substr(prefix.size()))),
+                 .drivable_m = static_cast<float>(std::max(0.0, lane.length_m - position_m)),
+                 .best_offset = lane.offset});
+        }
+        return outlook;
+    });
+}
+
+std::optional<core::MetresPerSecond> Session::allowed_speed(core::VehicleKey vehicle) const {
+    const Vehicle* found = state_->observer.fleet().find(vehicle);
+    if (found == nullptr || !found->on_road) return std::nullopt;
+    return state_->guarded("SUMO cannot tell the allowed speed",
+                           [&] { return core::MetresPerSecond(gateway::allowed_speed_mps(found->id)); });
+}
+
+std::string version() {
+    const std::string text = gateway::version();
+    constexpr std::string_view prefix = "SUMO ";
+    return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+}
+
+}  // namespace clearway::sumo
