@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/units.hpp"
+#include "scenario/detail/network_document.hpp"
 
 namespace clearway::scenario {
 
@@ -63,40 +64,18 @@ std::string kept_edges(const ScenarioConfig& config, const roads::Network& netwo
     return text;
 }
 
-std::vector<std::string> import_arguments(const ScenarioConfig& config, const std::filesystem::path& folder) {
-    const std::filesystem::path source = resolve(config, config.network.file);
-    std::vector<std::string> arguments = {"--sumo-net-file", source.string()};
-    if (config.network.restrict == Restriction::largest_car_component) {
-        const std::filesystem::path kept = folder / "kept_edges.txt";
-        core::write_atomically(kept, kept_edges(config, roads::Network::read(source)));
-        arguments.insert(arguments.end(), {"--keep-edges.input-file", kept.string()});
-    }
-    return arguments;
-}
-
-/// A patch for netconvert that limits every faster lane, or empty when no lane is faster.
-std::string limit_patch(const roads::Network& network, core::MetresPerSecond limit) {
-    std::string xml;
-    for (const roads::Edge& edge : network.edges()) {
-        if (edge.internal) continue;
-        const auto lanes = network.lanes().subspan(edge.first_lane, edge.lane_count);
-        const auto faster = [&](const roads::Lane& lane) { return lane.speed_limit_mps > limit.value; };
-        if (std::none_of(lanes.begin(), lanes.end(), faster)) continue;
-        xml += fmt::format("    <edge id=\"{}\">\n", edge.id);
-        for (const roads::Lane& lane : lanes)
-            xml += fmt::format("        <lane index=\"{}\" speed=\"{:.2f}\"/>\n", lane.number,
-                               std::min<double>(lane.speed_limit_mps, limit.value));
-        xml += "    </edge>\n";
-    }
-    return xml.empty() ? xml : "<edges>\n" + xml + "</edges>\n";
-}
-
-/// Without the comment in which netconvert notes time, options and paths.
-std::string without_comment(const std::string& xml) {
-    const std::size_t start = xml.find("<!--");
-    const std::size_t end = xml.find("-->");
-    if (start == std::string::npos || end == std::string::npos) return xml;
-    return xml.substr(0, start) + xml.substr(xml.find_first_not_of("\n", end + 3));
+/// netconvert cuts a copy of the network in `raw` down to its largest car-connected component.
+void restrict_network(const ScenarioConfig& config, const std::filesystem::path& folder,
+                      const std::filesystem::path& raw) {
+    const std::filesystem::path kept = folder / "kept_edges.txt";
+    const std::filesystem::path whole = folder / "whole.net.xml";
+    std::filesystem::rename(raw, whole);
+    core::write_atomically(kept, kept_edges(config, roads::Network::read(whole)));
+    run_netconvert(config,
+                   {"--sumo-net-file", whole.string(), "--keep-edges.input-file", kept.string(),
+                    "--output-file", raw.string()},
+                   folder);
+    std::filesystem::remove(whole);
 }
 
 std::string hash_of_inputs(const ScenarioConfig& config) {
@@ -109,31 +88,24 @@ std::string hash_of_inputs(const ScenarioConfig& config) {
     return core::content_hash(bytes);
 }
 
-void limit_roads(const ScenarioConfig& config, const std::filesystem::path& folder,
-                 const std::filesystem::path& raw) {
-    const std::string patch = limit_patch(roads::Network::read(raw), core::from_kmh(config.limits.road_kmh));
-    if (patch.empty()) return;
-    const std::filesystem::path patch_file = folder / "road_limit.edg.xml";
-    const std::filesystem::path limited = folder / "limited.net.xml";
-    core::write_atomically(patch_file, patch);
-    run_netconvert(config,
-                   {"--sumo-net-file", raw.string(), "--edge-files", patch_file.string(), "--output-file",
-                    limited.string()},
-                   folder);
-    std::filesystem::rename(limited, raw);
-}
-
 }  // namespace
 
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
     core::make_folder(folder);
     const std::filesystem::path raw = folder / "raw.net.xml";
-    std::vector<std::string> arguments =
-        config.network.plain() ? plain_arguments(config) : import_arguments(config, folder);
-    arguments.insert(arguments.end(), {"--output-file", raw.string()});
-    run_netconvert(config, arguments, folder);
-    if (config.limits.road_kmh > 0.0) limit_roads(config, folder, raw);
-    core::write_atomically(folder / network_name, without_comment(core::read_file(raw)));
+    if (config.network.plain()) {
+        std::vector<std::string> arguments = plain_arguments(config);
+        arguments.insert(arguments.end(), {"--output-file", raw.string()});
+        run_netconvert(config, arguments, folder);
+    } else {
+        const std::filesystem::path source = resolve(config, config.network.file);
+        core::write_atomically(raw, detail::NetworkDocument(source).without_newer_classes().text());
+        if (config.network.restrict == Restriction::largest_car_component)
+            restrict_network(config, folder, raw);
+    }
+    detail::NetworkDocument document(raw);
+    if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
+    core::write_atomically(folder / network_name, document.text());
     std::filesystem::remove(raw);
     return open_network(config, folder);
 }

@@ -24,7 +24,7 @@ constexpr std::array kinds = {
     KindProperties{VehicleKind::car, "passenger", "passenger", 5.0, 1.8, 1.5, 2.6, 4.5, 9.0, 200 / 3.6},
     KindProperties{VehicleKind::van, "delivery", "delivery", 6.5, 2.16, 2.86, 2.6, 4.5, 9.0, 200 / 3.6},
     KindProperties{VehicleKind::truck, "truck", "truck", 7.1, 2.4, 2.4, 1.3, 4.0, 7.0, 130 / 3.6},
-    KindProperties{VehicleKind::bus, "bus", "bus/city", 12.0, 2.5, 3.4, 1.2, 4.0, 7.0, 85 / 3.6},
+    KindProperties{VehicleKind::bus, "bus", "bus", 12.0, 2.5, 3.4, 1.2, 4.0, 7.0, 85 / 3.6},
     KindProperties{VehicleKind::ambulance, "emergency", "emergency", 6.5, 2.16, 2.86, 2.6, 4.5, 9.0,
                    200 / 3.6},
     KindProperties{VehicleKind::fire_engine, "emergency", "firebrigade", 8.0, 2.5, 3.3, 1.3, 4.0, 7.0,

@@ -120,7 +120,19 @@ class FlowRoutes {
     std::vector<double> shares_;
 };
 
-/// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough.
+/// Whether a route turns round somewhere, into the opposite direction of the road that it came on.
+bool turns_round(const roads::Network& network, const RouteEdges& route) {
+    for (std::size_t row = 0; row + 1 < route.size(); ++row) {
+        const roads::Edge& edge = network.edge(route[row]);
+        for (std::uint32_t lane = 0; lane < edge.lane_count; ++lane)
+            for (const roads::Connection& way : network.connections_from(network.lane_of(route[row], lane)))
+                if (way.direction == 't' && network.lane(way.to).edge == route[row + 1]) return true;
+    }
+    return false;
+}
+
+/// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough and does
+/// not turn round, for nobody sets out in the wrong direction.
 class TripRoutes {
   public:
     explicit TripRoutes(const DemandContext& context) : context_(context) {
@@ -141,7 +153,9 @@ class TripRoutes {
             const std::uint64_t counter = DemandDraw::first_trip + 2 * attempt;
             const auto route = roads::fastest_route(context_.network, edge(purpose, id, counter),
                                                     edge(purpose, id, counter + 1));
-            if (route && roads::route_length(context_.network, *route).value >= minimum_m) return *route;
+            if (route && roads::route_length(context_.network, *route).value >= minimum_m &&
+                !turns_round(context_.network, *route))
+                return *route;
         }
         throw core::InputError(
             core::Problem{context_.config.where(fmt::format("trips.{}", key)),

@@ -1,0 +1,347 @@
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "roads/route.hpp"
+#include "scenario/prepare.hpp"
+#include "scratch.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A vehicle as the route file states it.
+struct Row {
+    std::string type;
+    double depart_s = 0.0;
+    double speed_factor = 0.0;
+    std::vector<std::string> edges;
+    std::size_t order = 0;
+};
+
+std::string attribute(const std::string& element, const std::string& name) {
+    std::smatch match;
+    return std::regex_search(element, match, std::regex(" " + name + "=\"([^\"]*)\"")) ? match[1].str() : "";
+}
+
+std::vector<std::string> words(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// Reads `<vehicle>` and the `<route>` inside, line by line.
+std::map<std::string, Row> rows_of(const std::filesystem::path& file) {
+    std::map<std::string, Row> rows;
+    std::istringstream lines(core::read_file(file));
+    std::string id;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("<vehicle ") != std::string::npos) {
+            id = attribute(line, "id");
+            rows[id] = {attribute(line, "type"),
+                        std::stod(attribute(line, "depart")),
+                        std::stod(attribute(line, "speedFactor")),
+                        {},
+                        rows.size()};
+        }
+        if (line.find("<route ") != std::string::npos) rows[id].edges = words(attribute(line, "edges"));
+    }
+    return rows;
+}
+
+class PreparedDemand : public ScratchTest {
+  protected:
+    Prepared prepared(const std::string& name, const Options& options = {}, std::uint32_t replication = 0) {
+        const ScenarioConfig config = load(name, options);
+        if (!networks_.contains(name))
+            networks_.emplace(name, build_network(config, folder() / "networks" / config.name));
+        return prepare(config, networks_.at(name), core::StudySeed{1}, core::Replication{replication},
+                       folder() / "demand" / std::to_string(++folders_));
+    }
+    const roads::Network& network(const std::string& name) const { return networks_.at(name).network; }
+    double length_m(const std::string& name, const std::vector<std::string>& edges) const {
+        std::vector<core::EdgeIndex> route;
+        for (const std::string& id : edges)
+            route.push_back(network(name).find_edge(id).value());
+        return roads::route_length(network(name), route).value;
+    }
+
+  private:
+    std::map<std::string, BuiltNetwork> networks_;
+    int folders_ = 0;
+};
+
+TEST_F(PreparedDemand, counts_are_those_asked_for) {
+    const Prepared merge = prepared("merge");
+    EXPECT_EQ(merge.human, 23);
+    EXPECT_EQ(merge.automated, 14);
+    EXPECT_EQ(merge.emergency.size(), 3U);
+    EXPECT_EQ(rows_of(merge.route_files.at(0)).size(), 37U);
+    Options dense;
+    dense.variant = Variant::dense;
+    const Prepared many = prepared("merge", dense);
+    EXPECT_EQ(many.human, 230);
+    EXPECT_EQ(many.automated, 140);
+    EXPECT_EQ(many.emergency.size(), 6U);
+}
+
+TEST_F(PreparedDemand, depends_on_seed_and_replication_alone) {
+    const Prepared first = prepared("city");
+    const Prepared again = prepared("city");
+    const Prepared other = prepared("city", {}, 1);
+    EXPECT_EQ(core::read_file(first.route_files[0]), core::read_file(again.route_files[0]));
+    EXPECT_EQ(first.demand_hash, again.demand_hash);
+    EXPECT_EQ(first.simulator_seed, again.simulator_seed);
+    EXPECT_NE(first.demand_hash, other.demand_hash);
+    EXPECT_NE(first.simulator_seed, other.simulator_seed);
+}
+
+TEST_F(PreparedDemand, more_traffic_leaves_the_other_vehicles_as_they_were) {
+    const auto few = rows_of(prepared("merge").route_files[0]);
+    Options options;
+    options.density = 3.0;
+    const auto many = rows_of(prepared("merge", options).route_files[0]);
+    EXPECT_EQ(many.size(), 111U);
+    for (const auto& [id, row] : few) {
+        ASSERT_TRUE(many.contains(id));
+        EXPECT_EQ(many.at(id).depart_s, row.depart_s);
+        EXPECT_EQ(many.at(id).speed_factor, row.speed_factor);
+        EXPECT_EQ(many.at(id).edges, row.edges);
+    }
+}
+
+TEST_F(PreparedDemand, vehicles_stand_in_order_of_departure_within_the_window) {
+    const Prepared demand = prepared("intersection");
+    std::map<std::size_t, double> by_order;
+    for (const auto& [id, row] : rows_of(demand.route_files[0]))
+        by_order[row.order] = row.depart_s;
+    double last_s = 0.0;
+    for (const auto& [order, depart_s] : by_order) {
+        EXPECT_GE(depart_s, last_s);
+        last_s = depart_s;
+    }
+    EXPECT_LE(last_s, demand.time.window_s);
+}
+
+TEST_F(PreparedDemand, emergency_vehicles_depart_after_the_warm_up) {
+    for (std::uint32_t replication = 0; replication < 10; ++replication) {
+        const Prepared demand = prepared("merge", {}, replication);
+        for (const auto& departure : demand.emergency) {
+            EXPECT_GE(departure.depart.value, demand.time.warm_up_s);
+            EXPECT_LE(departure.depart.value, demand.time.window_s);
+            EXPECT_EQ(departure.type, "emergency_ambulance");
+            EXPECT_EQ(departure.kind, traffic::VehicleKind::ambulance);
+        }
+    }
+}
+
+TEST_F(PreparedDemand, human_drivers_differ_and_automated_ones_do_not) {
+    Options dense;
+    dense.variant = Variant::dense;
+    double sum = 0.0;
+    double squares = 0.0;
+    int humans = 0;
+    for (const auto& [id, row] : rows_of(prepared("merge", dense).route_files[0])) {
+        if (row.type == "automated_car") {
+            EXPECT_EQ(row.speed_factor, 1.0);
+            continue;
+        }
+        EXPECT_GE(row.speed_factor, 0.75);
+        EXPECT_LE(row.speed_factor, 1.25);
+        sum += row.speed_factor;
+        squares += row.speed_factor * row.speed_factor;
+        ++humans;
+    }
+    const double mean = sum / humans;
+    EXPECT_NEAR(mean, 1.0, 0.03);
+    EXPECT_NEAR(std::sqrt(squares / humans - mean * mean), 0.1, 0.02);
+}
+
+TEST_F(PreparedDemand, three_in_ten_come_from_the_ramp) {
+    Options dense;
+    dense.variant = Variant::dense;
+    int ramp = 0;
+    int all = 0;
+    for (std::uint32_t replication = 0; replication < 5; ++replication) {
+        for (const auto& [id, row] : rows_of(prepared("merge", dense, replication).route_files[0])) {
+            ++all;
+            ramp += row.edges.front() == "ramp" ? 1 : 0;
+        }
+    }
+    EXPECT_NEAR(static_cast<double>(ramp) / all, 0.3, 0.035);  // three standard errors at 1,850 vehicles
+}
+
+TEST_F(PreparedDemand, city_trips_are_long_enough) {
+    const Prepared demand = prepared("city");
+    for (const auto& [id, row] : rows_of(demand.route_files[0]))
+        EXPECT_GE(length_m("city", row.edges), 500.0);
+    ASSERT_EQ(demand.emergency.size(), 7U);
+    for (const auto& departure : demand.emergency)
+        EXPECT_GE(length_m("city", departure.edges), 1000.0);
+}
+
+TEST_F(PreparedDemand, kinds_follow_their_weights) {
+    init(folder() / "mixed", "merge");
+    const std::filesystem::path file = folder() / "mixed" / "scenario.toml";
+    std::ofstream(file, std::ios::app) << "\n[kinds.traffic]\ncar = 0.0\ntruck = 1.0\nvan = 1.0\n"
+                                          "[kinds.emergency]\nambulance = 0.0\npolice_car = 2.0\n";
+    const Prepared demand = prepared(file.string());
+    std::set<std::string> types;
+    for (const auto& [id, row] : rows_of(demand.route_files[0]))
+        types.insert(row.type);
+    EXPECT_EQ(types, (std::set<std::string>{"human_truck", "human_van", "automated_truck", "automated_van"}));
+    for (const auto& departure : demand.emergency)
+        EXPECT_EQ(departure.type, "emergency_police_car");
+}
+
+TEST_F(PreparedDemand, measured_departures_and_routes_stay_and_a_share_is_automated) {
+    const Prepared demand = prepared("bologna");
+    const auto rows = rows_of(demand.route_files[0]);
+    const auto& first = rows.at("Audinot_7_0");
+    EXPECT_EQ(first.edges, (std::vector<std::string>{"a131", "a117", "a209"}));
+    EXPECT_EQ(first.depart_s, 0.0);
+    EXPECT_TRUE(rows.at("Pepoli_3_0").type.ends_with("_unrestricted"));
+    EXPECT_EQ(rows.at("bus_11_0").type, "human_bus");
+    EXPECT_NEAR(demand.automated / static_cast<double>(demand.human + demand.automated), 0.35, 0.03);
+    ASSERT_EQ(demand.emergency.size(), 10U);
+    for (const auto& departure : demand.emergency)
+        EXPECT_GE(length_m("bologna", departure.edges), 1000.0);
+    EXPECT_THAT(core::read_file(demand.route_files[0]), HasSubstr("busStop=\"busStop#b15\""));
+}
+
+TEST_F(PreparedDemand, thinning_measured_demand_keeps_who_is_automated) {
+    Options half;
+    half.density = 0.5;
+    const auto all = rows_of(prepared("bologna").route_files[0]);
+    const auto thinned = rows_of(prepared("bologna", half).route_files[0]);
+    EXPECT_NEAR(static_cast<double>(thinned.size()) / static_cast<double>(all.size()), 0.5, 0.03);
+    for (const auto& [id, row] : thinned)
+        EXPECT_EQ(all.at(id).type, row.type);
+}
+
+class CustomDemand : public PreparedDemand {
+  protected:
+    void SetUp() override {
+        PreparedDemand::SetUp();
+        write("line.nod.xml", line_nodes);
+        write("line.edg.xml", line_edges);
+    }
+    std::vector<core::Problem> problems(const std::string& rest) {
+        const std::string file = write("scenario.toml", line_head + rest).string();
+        return problems_of([&] { prepared(file); });
+    }
+};
+
+TEST_F(CustomDemand, unknown_edge_is_named_with_its_line_and_the_nearest) {
+    const auto found = problems("[[flow]]\nfrom = \"frist\"\nto = \"second\"\n");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].where, HasSubstr("scenario.toml:7:1: flow[0].from"));
+    EXPECT_THAT(found[0].what, HasSubstr("no edge \"frist\""));
+    EXPECT_THAT(found[0].cure, HasSubstr("first"));
+}
+
+TEST_F(CustomDemand, unreachable_destination_is_named) {
+    const auto found = problems("[[flow]]\nfrom = \"second\"\nto = \"first\"\n");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].where, HasSubstr("scenario.toml:8:1: flow[0].to"));
+    EXPECT_THAT(found[0].what, HasSubstr("no car can reach \"first\" from \"second\""));
+}
+
+TEST_F(CustomDemand, every_bad_flow_is_reported) {
+    EXPECT_EQ(problems("[[flow]]\nfrom = \"x\"\nto = \"y\"\nshare = 0.5\n"
+                       "[[flow]]\nfrom = \"second\"\nto = \"side\"\nshare = 0.5\n")
+                  .size(),
+              3U);
+}
+
+TEST_F(CustomDemand, emergency_trip_takes_its_own_route_and_departure) {
+    const std::string file =
+        write("scenario.toml",
+              std::string(line_head) +
+                  "[[flow]]\nfrom = \"first\"\nto = \"second\"\n[[emergency_trip]]\nfrom = \"side\"\n"
+                  "to = \"second\"\ndepart_s = 75.5\nkind = \"fire_engine\"\n")
+            .string();
+    const Prepared demand = prepared(file);
+    ASSERT_EQ(demand.emergency.size(), 1U);
+    EXPECT_EQ(demand.emergency[0].edges, (std::vector<std::string>{"side", "second"}));
+    EXPECT_EQ(demand.emergency[0].depart.value, 75.5);
+    EXPECT_EQ(demand.emergency[0].type, "emergency_fire_engine");
+}
+
+TEST_F(CustomDemand, trips_longer_than_the_network_are_refused) {
+    init(folder() / "far", "city");
+    const std::filesystem::path file = folder() / "far" / "scenario.toml";
+    const std::string text = core::read_file(file);
+    core::write_atomically(file, std::regex_replace(text, std::regex("emergency_minimum_length_m = 1000.0"),
+                                                    "emergency_minimum_length_m = 900000.0"));
+    const auto found = problems_of([&] { prepared(file.string()); });
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].where, HasSubstr("trips.emergency_minimum_length_m"));
+}
+
+TEST_F(CustomDemand, measured_types_must_be_listed) {
+    write("measured.rou.xml",
+          "<routes><vehicle id=\"a\" type=\"lorry\" depart=\"0\"><route edges=\"first second\"/></vehicle>"
+          "<vehicle id=\"b\" type=\"known\" depart=\"1\"><route edges=\"first third\"/></vehicle></routes>");
+    const auto found =
+        problems("[measured]\nroutes = [\"measured.rou.xml\"]\n[[measured.type]]\nid = \"known\"\n");
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_THAT(found[0].what, HasSubstr("type \"lorry\" is not listed"));
+    EXPECT_THAT(found[1].what, HasSubstr("no edge \"third\""));
+}
+
+TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {
+    const ScenarioConfig config = load("merge");
+    const BuiltNetwork network = build_network(config, folder() / "merge");
+    const auto found = problems_of(
+        [&] { prepare(config, network, core::StudySeed{1}, core::Replication{0}, folder() / "a,b"); });
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].what, HasSubstr("comma"));
+}
+
+/// The independent judge of what is written: SUMO itself.
+class LoadsInSumo : public PreparedDemand, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(LoadsInSumo, without_warning_about_routes_or_types) {
+    const Prepared demand = prepared(GetParam());
+    std::string additional;
+    for (const auto& file : demand.additional_files)
+        additional += (additional.empty() ? "" : ",") + file.string();
+    core::Command sumo;
+    sumo.program = "sumo";
+    sumo.arguments = {"-n",
+                      demand.network_file.string(),
+                      "-r",
+                      demand.route_files[0].string(),
+                      "-a",
+                      additional,
+                      "--xml-validation",
+                      "never",
+                      "--no-step-log",
+                      "true",
+                      "--step-length",
+                      "0.25",
+                      "--end",
+                      "30",
+                      "--route-steps",
+                      "0"};
+    sumo.output = folder() / "sumo.log";
+    EXPECT_TRUE(core::run(sumo).ok()) << core::read_file(sumo.output);
+    const std::string log = core::read_file(sumo.output);
+    EXPECT_EQ(log.find("Error"), std::string::npos) << log;
+    EXPECT_EQ(log.find("not known"), std::string::npos) << log;
+    EXPECT_EQ(log.find("no valid route"), std::string::npos) << log;
+    EXPECT_EQ(log.find("sorted"), std::string::npos) << log;
+}
+
+INSTANTIATE_TEST_SUITE_P(shipped, LoadsInSumo, ::testing::Values("merge", "intersection", "city", "bologna"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace clearway::scenario

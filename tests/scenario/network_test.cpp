@@ -1,0 +1,237 @@
+#include "scenario/network.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include "core/files.hpp"
+#include "scratch.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class BuiltNetworks : public ScratchTest {
+  protected:
+    BuiltNetwork built(const std::string& name, const Options& options = {}) const {
+        return build_network(load(name, options), folder() / name);
+    }
+    static std::size_t signals(const roads::Network& network) { return network.signals().size(); }
+    static const roads::Edge& edge(const roads::Network& network, const std::string& id) {
+        return network.edge(network.find_edge(id).value());
+    }
+    static float fastest_lane_mps(const roads::Network& network) {
+        float fastest = 0.0F;
+        for (const roads::Lane& lane : network.lanes())
+            if (!network.edge(lane.edge).internal) fastest = std::max(fastest, lane.speed_limit_mps);
+        return fastest;
+    }
+};
+
+TEST_F(BuiltNetworks, merge_has_two_three_and_two_lanes) {
+    const BuiltNetwork built_network = built("merge");
+    const roads::Network& network = built_network.network;
+    EXPECT_EQ(edge(network, "main_in").lane_count, 2U);
+    EXPECT_EQ(edge(network, "merge").lane_count, 3U);
+    EXPECT_EQ(edge(network, "main_out").lane_count, 2U);
+    EXPECT_EQ(edge(network, "ramp").lane_count, 1U);
+    const auto right = network.lane_of(*network.find_edge("merge"), 0);
+    EXPECT_TRUE(network.connections_from(right).empty()) << "the right lane of the merge section ends";
+    const auto ramp = network.lane_of(*network.find_edge("ramp"), 0);
+    ASSERT_EQ(network.connections_from(ramp).size(), 1U);
+    EXPECT_EQ(network.connections_from(ramp)[0].to, right);
+    EXPECT_NEAR(network.lane(ramp).speed_limit_mps, 100 / 3.6, 0.01);
+    EXPECT_NEAR(network.lane(right).speed_limit_mps, 140 / 3.6, 0.01);
+}
+
+TEST_F(BuiltNetworks, merge_measures_one_kilometre_a_quarter_and_one_and_a_quarter) {
+    const BuiltNetwork built_network = built("merge");
+    const roads::Network& network = built_network.network;
+    const auto via_m = [&](const char* id) {
+        const auto connections = network.connections_from(network.lane_of(*network.find_edge(id), 1));
+        return network.lane(connections[0].via).length_m;
+    };
+    EXPECT_NEAR(edge(network, "main_in").length_m + via_m("main_in"), 1000.0, 1.0);
+    EXPECT_NEAR(edge(network, "merge").length_m + via_m("merge"), 250.0, 5.0);
+    EXPECT_NEAR(edge(network, "main_out").length_m, 1250.0, 5.0);
+}
+
+TEST_F(BuiltNetworks, intersection_signal_runs_40_5_40_5_with_permissive_left_turns) {
+    const BuiltNetwork built_network = built("intersection");
+    const roads::Network& network = built_network.network;
+    ASSERT_EQ(signals(network), 1U);
+    const roads::Signal& signal = network.signals()[0];
+    ASSERT_EQ(signal.program.size(), 4U);
+    for (const auto& [row, duration_s] : {std::pair{0, 40.0}, {1, 5.0}, {2, 40.0}, {3, 5.0}})
+        EXPECT_EQ(signal.program[row].duration_s, duration_s);
+    EXPECT_EQ(std::count(signal.program[0].state.begin(), signal.program[0].state.end(), 'g'), 2);
+    EXPECT_EQ(std::count(signal.program[0].state.begin(), signal.program[0].state.end(), 'G'), 6);
+    // The lower-case green of the first phase belongs to left turns from north and south.
+    for (std::size_t link = 0; link < signal.links.size(); ++link) {
+        if (signal.program[0].state[link] != 'g') continue;
+        const std::string from = network.edge(network.lane(signal.links[link].at(0).from).edge).id;
+        const std::string to = network.edge(network.lane(signal.links[link].at(0).to).edge).id;
+        EXPECT_TRUE((from == "north_in" && to == "east_out") || (from == "south_in" && to == "west_out"))
+            << from << " -> " << to;
+    }
+}
+
+TEST_F(BuiltNetworks, city_is_one_component_and_reports_its_wide_edges) {
+    const BuiltNetwork built_network = built("city");
+    const roads::Network& network = built_network.network;
+    std::size_t car_edges = 0;
+    for (const roads::Edge& row : network.edges())
+        car_edges += row.internal ? 0 : 1;
+    EXPECT_EQ(roads::largest_car_component(network).size(), car_edges);
+    EXPECT_EQ(car_edges, 696U) << "740 edges of the source are open to cars, 696 reach each other";
+    EXPECT_EQ(signals(network), 13U);
+    const auto wide = wide_edges(network);
+    EXPECT_FALSE(wide.empty());
+    for (const WideEdge& row : wide)
+        EXPECT_GE(row.car_lanes, 3);
+}
+
+TEST_F(BuiltNetworks, intersection_has_no_wide_edge) {
+    EXPECT_TRUE(wide_edges(built("intersection").network).empty());
+    EXPECT_EQ(wide_edges(built("merge").network).size(), 1U);
+}
+
+TEST_F(BuiltNetworks, road_limit_slows_faster_roads_only_and_keeps_the_signal) {
+    Options options;
+    options.road_limit_kmh = 70.0;
+    const BuiltNetwork slow = built("intersection", options);
+    EXPECT_NEAR(fastest_lane_mps(slow.network), 70 / 3.6, 0.01);
+    ASSERT_EQ(slow.network.signals().size(), 1U);
+    EXPECT_EQ(slow.network.signals()[0].program[0].duration_s, 40.0);
+    const BuiltNetwork normal = built("intersection");
+    EXPECT_NE(slow.inputs_hash, normal.inputs_hash);
+    EXPECT_EQ(slow.network.edges().size(), normal.network.edges().size());
+    options.road_limit_kmh = 120.0;
+    const BuiltNetwork merge = built("merge", options);
+    EXPECT_NEAR(
+        merge.network.lane(merge.network.lane_of(*merge.network.find_edge("ramp"), 0)).speed_limit_mps,
+        100 / 3.6, 0.01);
+}
+
+TEST_F(BuiltNetworks, equal_inputs_give_equal_bytes_without_time_or_path) {
+    const ScenarioConfig config = load("merge");
+    const std::string first = core::read_file(build_network(config, folder() / "first").file);
+    const std::string second = core::read_file(build_network(config, folder() / "second").file);
+    EXPECT_EQ(first, second);
+    EXPECT_THAT(first, Not(HasSubstr("generated on")));
+    EXPECT_THAT(first, Not(HasSubstr(folder().string())));
+}
+
+TEST_F(BuiltNetworks, what_netconvert_refuses_names_its_reason) {
+    write("line.nod.xml", line_nodes);
+    write("line.edg.xml",
+          "<edges><edge id=\"first\" from=\"a\" to=\"nowhere\" numLanes=\"1\" speed=\"20\"/></edges>");
+    const ScenarioConfig config = load(write("scenario.toml", line_head).string());
+    const auto problems = problems_of([&] { build_network(config, folder() / "out"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].where, HasSubstr("scenario.toml:5:1: network.edges"));
+    EXPECT_THAT(problems[0].what, HasSubstr("nowhere"));
+}
+
+TEST_F(BuiltNetworks, a_network_without_roads_is_refused) {
+    write("line.nod.xml", line_nodes);
+    write(
+        "line.edg.xml",
+        "<edges><edge id=\"rail\" from=\"a\" to=\"b\" numLanes=\"1\" speed=\"20\" allow=\"tram\"/></edges>");
+    const ScenarioConfig rail = load(write("rail.toml", line_head).string());
+    const BuiltNetwork source = build_network(rail, folder() / "rail");
+    std::filesystem::copy_file(source.file, folder() / "rail.net.xml");
+    const ScenarioConfig config =
+        load(write("scenario.toml",
+                   "name = \"rail\"\nversion = \"test\"\n[network]\nfile = \"rail.net.xml\"\n"
+                   "restrict = \"largest_car_component\"\n")
+                 .string());
+    const auto problems = problems_of([&] { build_network(config, folder() / "out"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].what, HasSubstr("no edge that cars may use"));
+}
+
+/// A network file of two edges as a newer netconvert would write it, compressed.
+class ImportedNetworks : public BuiltNetworks {
+  protected:
+    void SetUp() override {
+        BuiltNetworks::SetUp();
+        write("line.nod.xml", line_nodes);
+        write("line.edg.xml", line_edges);
+        const ScenarioConfig plain = load(write("line.toml", line_head).string());
+        text_ = core::read_file(build_network(plain, folder() / "line").file);
+    }
+    ScenarioConfig imported(const std::string& file, const std::string& rest = "") const {
+        return load(write("scenario.toml",
+                          "name = \"x\"\nversion = \"test\"\n[network]\nfile = \"" + file + "\"\n" + rest)
+                        .string());
+    }
+    void write_compressed(const std::string& name, const std::string& bytes) const {
+        const gzFile stream = gzopen((folder() / name).c_str(), "wb");
+        gzwrite(stream, bytes.data(), static_cast<unsigned>(bytes.size()));
+        gzclose(stream);
+    }
+    std::string text_;
+};
+
+TEST_F(ImportedNetworks, a_compressed_file_with_newer_vehicle_classes_becomes_readable) {
+    std::string newer = text_;
+    const std::string lane = "<lane id=\"side_0\"";
+    newer.replace(newer.find(lane), lane.size(), lane + " allow=\"cable_car drone\"");
+    const std::string other = "<lane id=\"second_0\"";
+    newer.replace(newer.find(other), other.size(), other + " disallow=\"tram aircraft\"");
+    write_compressed("newer.net.xml.gz", newer);
+    const BuiltNetwork built_network = build_network(imported("newer.net.xml.gz"), folder() / "out");
+    const roads::Network& network = built_network.network;
+    EXPECT_FALSE(network.lane(network.lane_of(*network.find_edge("side"), 0)).allows_cars)
+        << "a lane for cable cars alone is no lane for all";
+    EXPECT_TRUE(network.lane(network.lane_of(*network.find_edge("second"), 0)).allows_cars);
+    const std::string text = core::read_file(built_network.file);
+    EXPECT_THAT(text, Not(HasSubstr("cable_car")));
+    EXPECT_THAT(text, HasSubstr("disallow=\"tram\""));
+}
+
+TEST_F(ImportedNetworks, lengths_are_those_of_the_file) {
+    write("same.net.xml", text_);
+    const BuiltNetwork built_network = build_network(imported("same.net.xml"), folder() / "out");
+    EXPECT_EQ(core::read_file(built_network.file), text_);
+}
+
+TEST_F(ImportedNetworks, a_file_cut_short_is_refused) {
+    write("short.net.xml", text_.substr(0, text_.size() / 2));
+    const auto problems = problems_of([&] { build_network(imported("short.net.xml"), folder() / "out"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].where, HasSubstr("short.net.xml"));
+    EXPECT_THAT(problems[0].what, HasSubstr("not XML"));
+}
+
+TEST_F(ImportedNetworks, another_kind_of_xml_is_refused) {
+    write("other.net.xml", "<routes/>");
+    const auto problems = problems_of([&] { build_network(imported("other.net.xml"), folder() / "out"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].what, HasSubstr("<routes>"));
+}
+
+TEST_F(BuiltNetworks, missing_netconvert_is_said_so) {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", folder().c_str(), 1);
+    try {
+        built("merge");
+        ADD_FAILURE() << "no error without netconvert";
+    } catch (const core::EnvironmentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("netconvert"));
+    }
+    setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(BuiltNetworks, a_folder_that_cannot_be_made_is_an_environment_error) {
+    write("blocked", "a file where a folder should be");
+    EXPECT_THROW(build_network(load("merge"), folder() / "blocked" / "net"), core::EnvironmentError);
+}
+
+}  // namespace
+}  // namespace clearway::scenario
