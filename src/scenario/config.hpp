@@ -339,6 +339,8 @@ struct Options {
     std::optional<double> horizon_s;        ///< --horizon
     std::optional<double> step_length_s;    ///< --step-length
     std::optional<IdmPreset> idm;           ///< --idm
+    std::string traffic_kinds;              ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
+    std::string emergency_kinds;            ///< --emergency-kinds, `ambulance=1,police_car=1`
 };
 
 /// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks the whole.

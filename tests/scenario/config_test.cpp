@@ -189,6 +189,47 @@ TEST_F(Config, variant_without_a_table_is_refused) {
     EXPECT_EQ(only_problem("", options).where, "--dense");
 }
 
+TEST_F(Config, kinds_from_the_command_line_replace_those_of_the_file) {
+    Options options;
+    options.traffic_kinds = "van=3,bus=1";
+    options.emergency_kinds = "police_car=1";
+    const ScenarioConfig config = load("merge", options);
+    EXPECT_EQ(config.traffic_kinds.car, 0.0);
+    EXPECT_EQ(config.traffic_kinds.van, 3.0);
+    EXPECT_EQ(config.traffic_kinds.bus, 1.0);
+    EXPECT_EQ(config.emergency_kinds.ambulance, 0.0);
+    EXPECT_EQ(config.emergency_kinds.police_car, 1.0);
+}
+
+TEST_F(Config, bad_kinds_from_the_command_line_are_each_reported) {
+    Options options;
+    options.traffic_kinds = "car=1,trcuk=2,van=-1,bus";
+    const auto problems = problems_of([&] { load("merge", options); });
+    ASSERT_EQ(problems.size(), 3U);
+    EXPECT_EQ(problems[0].where, "--kinds");
+    EXPECT_THAT(problems[0].cure, HasSubstr("truck"));
+    EXPECT_THAT(problems[1].what, HasSubstr("van=-1"));
+    EXPECT_THAT(problems[2].what, HasSubstr("\"bus\""));
+}
+
+TEST_F(Config, kinds_without_any_weight_are_refused) {
+    Options options;
+    options.emergency_kinds = "ambulance=0";
+    const auto problems = problems_of([&] { load("merge", options); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "--emergency-kinds");
+}
+
+TEST_F(Config, dense_times_density_stays_readable) {
+    Options options;
+    options.variant = Variant::dense;
+    options.density = 50.0;
+    const auto problems = problems_of([&] { load("merge", options); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "--density");
+    EXPECT_THAT(problems[0].what, HasSubstr("500"));
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

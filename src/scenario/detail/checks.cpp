@@ -1,6 +1,9 @@
 #include "scenario/detail/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -50,6 +53,11 @@ void apply_dense(ScenarioConfig& config, Problems& problems) {
           std::pair{"demand.emergency", "dense.emergency"}, std::pair{"demand.density", "dense.factor"}})
         config.origins[key] = config.where(source);
     config.dense.reset();
+}
+
+std::string nearest_hint(const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = core::nearest(word, known);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
 }
 
 /// Re-divides the human and automated vehicles of a generated demand; a measured one has the share itself.
@@ -167,6 +175,14 @@ void check_flows(const ScenarioConfig& config, Problems& problems) {
                             "1", "correct the shares of the flows"});
 }
 
+void check_density(const ScenarioConfig& config, Problems& problems) {
+    constexpr double largest = 100.0;  // As in the field table; the dense variant and --density multiply.
+    if (config.demand.density > largest)
+        problems.push_back({config.where("demand.density"),
+                            fmt::format("all factors together are {}", number_text(config.demand.density)),
+                            fmt::format("0 to {}", number_text(largest)), "lower --density"});
+}
+
 void check_measured(const ScenarioConfig& config, Problems& problems) {
     if (!config.measured) return;
     const Measured& measured = *config.measured;
@@ -221,6 +237,35 @@ void check_drivers(const ScenarioConfig& config, Problems& problems) {
         problems.push_back({config.where("kinds.emergency"), "all weights are 0", "one above 0", ""});
 }
 
+/// Weights given as `car=8,truck=2`. Kinds that are not named get none.
+template <class Kinds>
+void set_kinds(const char* option, const std::string& text, Kinds& target, Problems& problems) {
+    if (text.empty()) return;
+    std::vector<std::string> known;
+    core::for_each_field<Kinds>([&](const auto& field) {
+        target.*field.member = 0.0;
+        known.push_back(field.name);
+    });
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ',');) {
+        const std::size_t equals = part.find('=');
+        const std::string kind = part.substr(0, equals);
+        const std::string digits = equals == std::string::npos ? "" : part.substr(equals + 1);
+        char* end = nullptr;
+        const double weight = std::strtod(digits.c_str(), &end);
+        const bool is_known = std::find(known.begin(), known.end(), kind) != known.end();
+        if (!is_known || digits.empty() || *end != '\0' || !(weight >= 0.0 && weight <= 1e6)) {
+            problems.push_back({option, fmt::format("\"{}\" is no weight of a kind", part),
+                                fmt::format("KIND=0 to 1000000, KIND one of {}", fmt::join(known, ", ")),
+                                is_known ? "" : nearest_hint(kind, known)});
+            continue;
+        }
+        core::for_each_field<Kinds>([&](const auto& field) {
+            if (kind == field.name) target.*field.member = weight;
+        });
+    }
+}
+
 }  // namespace
 
 void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
@@ -239,6 +284,10 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
     if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
     if (options.idm) config.drivers.idm = *options.idm;
+    set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
+    set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);
+    if (!options.traffic_kinds.empty()) config.origins["kinds.traffic"] = "--kinds";
+    if (!options.emergency_kinds.empty()) config.origins["kinds.emergency"] = "--emergency-kinds";
 }
 
 void check(const ScenarioConfig& config, Problems& problems) {
@@ -248,6 +297,7 @@ void check(const ScenarioConfig& config, Problems& problems) {
     check_time(config, problems);
     check_flows(config, problems);
     check_emergency_trips(config, problems);
+    check_density(config, problems);
     check_measured(config, problems);
     check_drivers(config, problems);
 }
