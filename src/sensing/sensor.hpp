@@ -1,18 +1,42 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "graph/proximity.hpp"
+#include "roads/network.hpp"
+#include "sensing/failure_config.hpp"
 #include "traffic/observation.hpp"
 #include "truth/snapshot.hpp"
 
 namespace clearway::sensing {
 
-/// From the true state to what was reported. Failures are drawn per report (1 Hz by default, whatever the step) and keyed
-/// by vehicle and report number, so that every condition of a replication meets the same ones. A model keeps state between
-/// steps (the last report of each vehicle) and is used by one thread.
+/// What was missing at one step, for scoring alone. Vehicles and links that are on the road now.
+struct FailureLog {
+    enum class Cause {
+        dark,        ///< An end did not report at the newest round, but is known from before.
+        never_seen,  ///< An end never reported yet, or was forgotten.
+    };
+    struct LostLink {
+        core::VehicleKey left;
+        core::VehicleKey right;
+        Cause cause = Cause::dark;
+    };
+
+    core::Seconds time;
+    std::vector<core::VehicleKey>
+        dark;  ///< Known from before, not heard at the newest round. Ordered by key.
+    std::vector<core::VehicleKey> never_seen;  ///< Ordered by key.
+    /// True links with an end of either list that no neighbour detected. Ordered by (left, right), left <
+    /// right.
+    std::vector<LostLink> lost_links;
+};
+
+/// From the true state to what was reported. Failures are drawn per report (1 Hz by default, whatever the
+/// step) and keyed by vehicle and report number, so that every condition of a replication meets the same
+/// ones. A model keeps state between steps (the last report of each vehicle) and is used by one thread.
 class SensorModel {
   public:
     SensorModel() = default;
@@ -20,10 +44,29 @@ class SensorModel {
     SensorModel& operator=(const SensorModel&) = delete;
     virtual ~SensorModel() = default;
 
-    /// Called once per simulation step with the present truth; writes what is known into `observation`, whose buffers are
-    /// reused. `roster` is the true one; the observation refers to a roster of those that reported.
+    /// Called once per simulation step with the present truth; writes what is known into `observation`, whose
+    /// buffers are reused. `roster` is the true one; the observation refers to a roster of those that
+    /// reported.
     virtual void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                          traffic::Observation& observation) = 0;
+
+    /// What the last observation lacks of the truth it came from. `true_graph` holds the links of `snapshot`,
+    /// the snapshot of the last call of `observe`.
+    virtual void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+                              FailureLog& log) const = 0;
 };
+
+/// What a sensor needs beside its configuration. `network` outlives the sensor.
+struct SensorContext {
+    const roads::Network& network;
+    graph::LinkRules rules;  ///< Which links a neighbour can detect.
+};
+
+/// The sensor of a configuration. Rounds count from time 0 of the simulation, so a sensor made in the middle
+/// of a run meets the failures of that time; its first call is a report round. With a latency, reports are
+/// fresh when the newest round that can have arrived brought one, and `report_time` is the time at which that
+/// round measured. Throws core::InputError with all problems of the configuration.
+std::unique_ptr<SensorModel> make_sensor(const FailureConfig& config, const core::KeyedRandom& random,
+                                         const SensorContext& context);
 
 }  // namespace clearway::sensing

@@ -1,0 +1,227 @@
+#include "sensing/detail/report_sensor.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "sensing/detail/perfect_sensor.hpp"
+
+namespace clearway::sensing::detail {
+namespace {
+
+/// Slack for step times that are sums of decimals, s.
+constexpr double time_slack_s = 1e-6;
+
+/// Who of two neighbours detects the other: emergency vehicles before automated ones before human drivers.
+bool detects_first(traffic::VehicleClass one, traffic::VehicleClass other) {
+    return static_cast<int>(one) >= static_cast<int>(other);
+}
+
+}  // namespace
+
+ReportSensor::ReportSensor(const FailureConfig& config, const core::KeyedRandom& random,
+                           const SensorContext& context)
+    : config_(config),
+      loss_(config, random),
+      noise_(config, random, context.network),
+      detection_(config, random),
+      rules_(context.rules) {}
+
+void ReportSensor::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                           traffic::Observation& observation) {
+    const double time_s = snapshot.time.value;
+    if (round_is_due(time_s)) measure(snapshot);
+    observation.is_report = deliver(roster, time_s);
+    drop_gone_and_forgotten(snapshot);
+    write(snapshot, roster, observation);
+}
+
+bool ReportSensor::round_is_due(double time_s) {
+    const auto number =
+        static_cast<ReportNumber>(std::floor(time_s / config_.report_interval_s + time_slack_s));
+    if (report_ && *report_ >= number) return false;
+    report_ = number;
+    return true;
+}
+
+void ReportSensor::measure(const truth::Snapshot& snapshot) {
+    Round round;
+    if (!spare_rounds_.empty()) {
+        round = std::move(spare_rounds_.back());
+        spare_rounds_.pop_back();
+    }
+    round.measured_s = snapshot.time.value;
+    round.reports.clear();
+    round.detected_links.clear();
+    lost_.resize(snapshot.size());
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        const core::VehicleKey key = snapshot.key[row];
+        lost_[row] = loss_.lost(key, *report_) ? 1 : 0;
+        if (lost_[row] != 0) continue;
+        Report& report = round.reports.emplace_back(
+            Report{key, snapshot.vehicle_class[row], round.measured_s, snapshot.motion(row)});
+        noise_.apply(key, *report_, report.state);
+    }
+    if (!detection_.none()) detect_links(snapshot, round);
+    on_their_way_.push_back(std::move(round));
+}
+
+void ReportSensor::detect_links(const truth::Snapshot& snapshot, Round& round) {
+    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
+    for (core::VehicleIndex left = 0; left < snapshot.size(); ++left) {
+        const auto neighbours = true_graph_.neighbours_of(left);
+        const auto distances_m = true_graph_.distances_of(left);
+        for (std::size_t at = 0; at < neighbours.size(); ++at) {
+            const core::VehicleIndex right = neighbours[at];
+            if (right < left || (lost_[left] == 0 && lost_[right] == 0)) continue;
+            const core::VehicleKey left_key = snapshot.key[left];
+            const core::VehicleKey right_key = snapshot.key[right];
+            if (!detection_.detected(left_key, right_key, *report_)) continue;
+            const bool from_left = detects_first(snapshot.vehicle_class[left], snapshot.vehicle_class[right]);
+            round.detected_links.push_back(
+                {.from = from_left ? left_key : right_key,
+                 .to = from_left ? right_key : left_key,
+                 .range_m = detection_.range_m(left_key, right_key, *report_, distances_m[at]),
+                 .range_sigma_m = detection_.range_sigma_m()});
+        }
+    }
+}
+
+bool ReportSensor::deliver(const traffic::Roster& roster, double time_s) {
+    bool arrived = false;
+    while (!on_their_way_.empty() &&
+           on_their_way_.front().measured_s + config_.latency_s <= time_s + time_slack_s) {
+        Round round = std::move(on_their_way_.front());
+        on_their_way_.pop_front();
+        for (const Report& report : round.reports) {
+            register_vehicle(roster, report.key);
+        }
+        merge(round.reports);
+        newest_measured_s_ = round.measured_s;
+        std::swap(detected_links_, round.detected_links);
+        spare_rounds_.push_back(std::move(round));
+        arrived = true;
+    }
+    return arrived;
+}
+
+/// Both lists are ordered by key; a new report replaces the old one.
+void ReportSensor::merge(const std::vector<Report>& reports) {
+    merged_.clear();
+    auto old = last_reports_.begin();
+    for (const Report& report : reports) {
+        while (old != last_reports_.end() && old->key < report.key) {
+            merged_.push_back(*old++);
+        }
+        if (old != last_reports_.end() && old->key == report.key) ++old;
+        merged_.push_back(report);
+    }
+    merged_.insert(merged_.end(), old, last_reports_.end());
+    std::swap(merged_, last_reports_);
+}
+
+void ReportSensor::register_vehicle(const traffic::Roster& roster, core::VehicleKey key) {
+    const traffic::VehicleInfo* info = roster.find(key);
+    assert(info != nullptr);  // A roster keeps whoever left.
+    const auto [known, is_new] = known_routes_.try_emplace(key);
+    if (!is_new && known->second.true_route == info->route) return;
+    const core::RouteIndex route =
+        info->route.exists() ? roster_.add_route(roster.route(info->route)) : core::RouteIndex::none();
+    known->second = {info->route, route};
+    if (is_new) {
+        traffic::VehicleInfo own = *info;
+        own.route = route;
+        roster_.add(std::move(own));
+    } else {
+        roster_.set_route(key, route);
+    }
+}
+
+void ReportSensor::drop_gone_and_forgotten(const truth::Snapshot& snapshot) {
+    const double oldest_s = snapshot.time.value - config_.forget_after_s;
+    auto present = snapshot.key.begin();
+    std::erase_if(last_reports_, [&](const Report& report) {
+        if (report.measured_s < oldest_s) return true;
+        if (config_.exits == Exits::unknown) return false;
+        while (present != snapshot.key.end() && *present < report.key) {
+            ++present;
+        }
+        return present == snapshot.key.end() || *present != report.key;
+    });
+}
+
+void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                         traffic::Observation& observation) {
+    observation.time = snapshot.time;
+    observation.report_time = core::Seconds(std::max(newest_measured_s_, 0.0));
+    observation.vehicles.clear();
+    for (const Report& report : last_reports_) {
+        observation.vehicles.push_back(
+            {.key = report.key,
+             .vehicle_class = report.vehicle_class,
+             .freshness = is_fresh(report) ? traffic::Freshness::fresh : traffic::Freshness::stale,
+             .age_s = static_cast<float>(snapshot.time.value - report.measured_s),
+             .position_sigma_m = static_cast<float>(config_.position_sigma_m),
+             .state = report.state});
+    }
+    write_own_states(snapshot, observation.own_states);
+    for (const traffic::ObservedVehicle& own : observation.own_states) {
+        register_vehicle(roster, own.key);
+    }
+    // Of a vehicle that never reported nobody knows who it is that is detected.
+    observation.detected_links.clear();
+    for (const traffic::DetectedLink& link : detected_links_) {
+        if (last_report(link.from) != nullptr && last_report(link.to) != nullptr) {
+            observation.detected_links.push_back(link);
+        }
+    }
+    observation.signals = snapshot.signals;
+    observation.roster = &roster_;
+}
+
+const ReportSensor::Report* ReportSensor::last_report(core::VehicleKey key) const {
+    const auto found = std::ranges::lower_bound(last_reports_, key, {}, &Report::key);
+    return found != last_reports_.end() && found->key == key ? &*found : nullptr;
+}
+
+bool ReportSensor::was_detected(core::VehicleKey left, core::VehicleKey right) const {
+    // Rounds list detections by (lower key, higher key), as the rows of the snapshot were.
+    return std::ranges::binary_search(
+        detected_links_, std::pair(left, right), {}, [](const traffic::DetectedLink& link) {
+            return std::pair(std::min(link.from, link.to), std::max(link.from, link.to));
+        });
+}
+
+void ReportSensor::log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+                                FailureLog& log) const {
+    log.time = snapshot.time;
+    log.dark.clear();
+    log.never_seen.clear();
+    log.lost_links.clear();
+    for (const core::VehicleKey key : snapshot.key) {
+        const Report* const report = last_report(key);
+        if (report == nullptr) {
+            log.never_seen.push_back(key);
+        } else if (!is_fresh(*report)) {
+            log.dark.push_back(key);
+        }
+    }
+    for (core::VehicleIndex left = 0; left < snapshot.size(); ++left) {
+        for (const core::VehicleIndex right : true_graph.neighbours_of(left)) {
+            if (right > left) log_link(snapshot.key[left], snapshot.key[right], log);
+        }
+    }
+}
+
+void ReportSensor::log_link(core::VehicleKey left, core::VehicleKey right, FailureLog& log) const {
+    const Report* const one = last_report(left);
+    const Report* const other = last_report(right);
+    if (one == nullptr || other == nullptr) {
+        log.lost_links.push_back({left, right, FailureLog::Cause::never_seen});
+    } else if ((!is_fresh(*one) || !is_fresh(*other)) && !was_detected(left, right)) {
+        log.lost_links.push_back({left, right, FailureLog::Cause::dark});
+    }
+}
+
+}  // namespace clearway::sensing::detail

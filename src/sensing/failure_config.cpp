@@ -1,0 +1,139 @@
+#include "sensing/failure_config.hpp"
+
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace clearway::sensing {
+namespace {
+
+FailureConfig independent(double loss_rate) {
+    FailureConfig config;
+    config.loss_rate = loss_rate;
+    return config;
+}
+
+FailureConfig bursty(double mean_outage_s) {
+    FailureConfig config;
+    config.dark_share = 0.3;
+    config.mean_outage_s = mean_outage_s;
+    return config;
+}
+
+FailureConfig detected(Detection detection, double range_sigma_m) {
+    FailureConfig config = bursty(10.0);
+    config.link_detection_rate = 0.5;
+    config.detection = detection;
+    config.range_sigma_m = range_sigma_m;
+    return config;
+}
+
+FailureConfig noisy(FailureConfig config, double position_sigma_m) {
+    config.position_sigma_m = position_sigma_m;
+    return config;
+}
+
+FailureConfig perfect() {
+    FailureConfig config;
+    config.report_interval_s = 0.0;
+    return config;
+}
+
+FailureConfig late(double latency_s) {
+    FailureConfig config;
+    config.latency_s = latency_s;
+    return config;
+}
+
+bool fails(const FailureConfig& config) {
+    return config.loss_rate > 0.0 || config.dark_share > 0.0 || config.position_sigma_m > 0.0 ||
+           config.speed_sigma_mps > 0.0 || config.latency_s > 0.0;
+}
+
+void check_ranges(const FailureConfig& config, const std::string& where,
+                  std::vector<core::Problem>& problems) {
+    core::for_each_field<FailureConfig>([&](const auto& field) {
+        const auto& value = config.*field.member;
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+            if (value >= field.minimum && value <= field.maximum) return;
+            const std::string unit =
+                std::string_view(field.unit) == "1" ? "" : fmt::format(" {}", field.unit);
+            problems.push_back({fmt::format("{}.{}", where, field.name),
+                                fmt::format("{} is out of range", value),
+                                fmt::format("{} to {}{}", field.minimum, field.maximum, unit), ""});
+        }
+    });
+}
+
+void check_together(const FailureConfig& config, const std::string& where,
+                    std::vector<core::Problem>& problems) {
+    const double interval_s = config.report_interval_s;
+    if (interval_s > 0.0 && interval_s < 0.1) {
+        problems.push_back({where + ".report_interval_s", fmt::format("{} is too short", interval_s),
+                            "0.1 to 1 s, or 0 for a report at every step", ""});
+    }
+    if (interval_s == 0.0 && fails(config)) {
+        problems.push_back({where + ".report_interval_s", "0 together with failures",
+                            "0 for perfect sensing alone",
+                            "failures are drawn per report: give an interval, as 1"});
+    }
+    // Outages shorter than this would be rarer than chance after each other; independent loss is the limit.
+    const double least_outage_s = interval_s / (1.0 - config.dark_share);
+    if (config.dark_share > 0.0 && config.mean_outage_s < least_outage_s - 1e-9) {
+        problems.push_back(
+            {where + ".mean_outage_s",
+             fmt::format("{} is too short for a dark share of {}", config.mean_outage_s, config.dark_share),
+             fmt::format("at least report_interval_s / (1 - dark_share) = {:.4g} s", least_outage_s),
+             "use loss_rate for losses without bursts"});
+    }
+}
+
+}  // namespace
+
+std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where) {
+    std::vector<core::Problem> problems;
+    check_ranges(config, where, problems);
+    if (problems.empty()) check_together(config, where, problems);
+    return problems;
+}
+
+std::vector<FailurePreset> failure_presets() {
+    std::vector<FailurePreset> presets = {
+        {"perfect", "every vehicle reports exactly at every step", perfect()}};
+    for (int tenths = 1; tenths <= 7; ++tenths) {
+        presets.push_back({fmt::format("A.{}", tenths),
+                           fmt::format("{} % of the reports lost independently", 10 * tenths),
+                           independent(tenths / 10.0)});
+    }
+    for (const int seconds : {5, 10, 20}) {
+        presets.push_back({fmt::format("B{}", seconds),
+                           fmt::format("outages of {} s on average, dark 30 % of the time", seconds),
+                           bursty(seconds)});
+    }
+    presets.push_back(
+        {"C.link", "B10, half of the dark links still detected", detected(Detection::presence, 0.0)});
+    presets.push_back({"C.range", "B10, half of the dark links still detected with their range, 1 m error",
+                       detected(Detection::range, 1.0)});
+    for (const int metres : {1, 3, 5}) {
+        presets.push_back({fmt::format("D{}", metres), fmt::format("white position noise of {} m", metres),
+                           noisy(FailureConfig{}, metres)});
+    }
+    presets.push_back({"DL2", "every report arrives 2 s late", late(2.0)});
+    presets.push_back({"D3B10", "D3 and B10 together", noisy(bursty(10.0), 3.0)});
+    return presets;
+}
+
+FailureConfig failure_from(const std::string& name) {
+    std::vector<std::string> names;
+    for (const FailurePreset& preset : failure_presets()) {
+        if (preset.name == name) return preset.config;
+        names.push_back(preset.name);
+    }
+    const std::string near = core::nearest(name, names);
+    throw core::InputError({"failure", fmt::format("'{}' is not a failure preset", name),
+                            fmt::format("{}", fmt::join(names, ", ")),
+                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+}
+
+}  // namespace clearway::sensing

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+
+namespace clearway::sensing {
+
+/// What is still known of a dark vehicle that a neighbour detects.
+enum class Detection { presence, range };
+/// Whether it is known when a vehicle leaves the network (detectors at every exit), so that its last report
+/// is dropped.
+enum class Exits { known, unknown };
+
+/// Spelling of each enumerator in files and on the command line.
+constexpr std::array<std::pair<Detection, const char*>, 2> spellings(Detection) {
+    return {{{Detection::presence, "presence"}, {Detection::range, "range"}}};
+}
+constexpr std::array<std::pair<Exits, const char*>, 2> spellings(Exits) {
+    return {{{Exits::known, "known"}, {Exits::unknown, "unknown"}}};
+}
+
+/// How sensors report and how they fail. The parts combine freely; each is off at its default.
+struct FailureConfig {
+    double report_interval_s = 1.0;
+    double loss_rate = 0.0;
+    double dark_share = 0.0;
+    double mean_outage_s = 10.0;
+    double link_detection_rate = 0.0;
+    Detection detection = Detection::presence;
+    double range_sigma_m = 0.0;
+    double position_sigma_m = 0.0;
+    double position_correlation_s = 0.0;
+    double speed_sigma_mps = 0.0;
+    double latency_s = 0.0;
+    Exits exits = Exits::known;
+    double forget_after_s = 300.0;
+
+    bool operator==(const FailureConfig&) const = default;
+
+    static constexpr auto fields() {
+        using C = FailureConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"report_interval_s", "s", &C::report_interval_s, 0.0, 1.0,
+                  "Time between two reports of a vehicle: 0.1 to 1, or 0 for one at every step",
+                  "1 Hz to 10 Hz as cooperative awareness messages (ETSI EN 302 637-2)"},
+            Field{"loss_rate", "1", &C::loss_rate, 0.0, 1.0,
+                  "Share of reports lost, each independently of the others", "off; presets A"},
+            Field{"dark_share", "1", &C::dark_share, 0.0, 0.99,
+                  "Share of time that a vehicle spends in outages (Gilbert-Elliott)", "off; presets B: 0.3"},
+            Field{"mean_outage_s", "s", &C::mean_outage_s, 0.1, 3600.0, "Mean length of an outage",
+                  "10 s assumed: a fault that a restart mends"},
+            Field{"link_detection_rate", "1", &C::link_detection_rate, 0.0, 1.0,
+                  "Probability per report that a dark vehicle's link is still detected by the neighbour",
+                  "off; presets C: 0.5"},
+            Field{"detection", "", &C::detection, 0, 0, "What a detection tells", "presence is the least"},
+            Field{"range_sigma_m", "m", &C::range_sigma_m, 0.0, 100.0, "Standard error of a detected range",
+                  "off; preset C.range: 1 m"},
+            Field{"position_sigma_m", "m", &C::position_sigma_m, 0.0, 100.0,
+                  "Standard error of a reported position, along each axis", "off; presets D"},
+            Field{"position_correlation_s", "s", &C::position_correlation_s, 0.0, 600.0,
+                  "Time in which the position error forgets itself (first-order); 0 for white noise",
+                  "white"},
+            Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 0.0, 20.0,
+                  "Standard error of a reported speed", "off"},
+            Field{"latency_s", "s", &C::latency_s, 0.0, 60.0,
+                  "Time from measuring to arrival of every report", "off; preset DL2: 2 s"},
+            Field{"exits", "", &C::exits, 0, 0, "Whether it is known when a vehicle leaves the network",
+                  "known: the frozen benchmark reports both"},
+            Field{"forget_after_s", "s", &C::forget_after_s, 1.0, 86400.0,
+                  "Age at which the last report of a silent vehicle is dropped",
+                  "300 s: of 20 s outages one in a million lasts longer"});
+    }
+};
+
+/// Everything wrong with a configuration: a value out of its range, values that do not go together. `where`
+/// names the place, for example `study.toml: failure`. Empty when nothing is.
+std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where);
+
+/// A named, frozen configuration.
+struct FailurePreset {
+    std::string name;
+    std::string summary;
+    FailureConfig config;
+};
+
+/// `perfect`, A.1 to A.7 (independent loss of 0.1 to 0.7 of the reports), B5, B10, B20 (outages of 5, 10, 20
+/// s on average, dark 0.3 of the time), C.link, C.range (B10 where half of the dark links are still detected,
+/// by presence or with a range of 1 m error), D1, D3, D5 (white position noise of 1, 3, 5 m), DL2 (2 s
+/// latency), D3B10 (D3 and B10).
+std::vector<FailurePreset> failure_presets();
+
+/// The configuration of a preset. Throws core::InputError naming the nearest for an unknown name.
+FailureConfig failure_from(const std::string& name);
+
+}  // namespace clearway::sensing

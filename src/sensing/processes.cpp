@@ -1,0 +1,121 @@
+#include "sensing/processes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway::sensing {
+namespace {
+
+constexpr double least_weight = 1e-3;
+
+/// Even draws choose renewals, odd ones the state; both from one purpose.
+constexpr std::uint64_t renewal_draw(ReportNumber report) {
+    return 2 * report;
+}
+constexpr std::uint64_t state_draw(ReportNumber report) {
+    return 2 * report + 1;
+}
+
+std::uint64_t pair_subject(core::VehicleKey one, core::VehicleKey other) {
+    const auto [low, high] = std::minmax(one.value, other.value);
+    return core::mix64(low) ^ high;
+}
+
+}  // namespace
+
+LossProcess::LossProcess(const FailureConfig& config, const core::KeyedRandom& random)
+    : random_(random),
+      loss_rate_(config.loss_rate),
+      dark_share_(config.dark_share),
+      renewal_(std::min(1.0, config.report_interval_s / config.mean_outage_s / (1.0 - config.dark_share))) {}
+
+bool LossProcess::in_outage(core::VehicleKey vehicle, ReportNumber report) const {
+    if (dark_share_ == 0.0) return false;
+    while (report > 0 &&
+           random_.uniform(core::Purpose::outage, vehicle.value, renewal_draw(report)) >= renewal_) {
+        --report;
+    }
+    return random_.uniform(core::Purpose::outage, vehicle.value, state_draw(report)) < dark_share_;
+}
+
+bool LossProcess::lost(core::VehicleKey vehicle, ReportNumber report) const {
+    if (loss_rate_ > 0.0 && random_.uniform(core::Purpose::report_loss, vehicle.value, report) < loss_rate_) {
+        return true;
+    }
+    return in_outage(vehicle, report);
+}
+
+NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random,
+                           const roads::Network& network)
+    : random_(random),
+      network_(network),
+      position_sigma_m_(config.position_sigma_m),
+      correlation_(config.position_correlation_s > 0.0
+                       ? std::exp(-config.report_interval_s / config.position_correlation_s)
+                       : 0.0),
+      speed_sigma_mps_(config.speed_sigma_mps) {}
+
+double NoiseProcess::position_error_m(core::VehicleKey vehicle, ReportNumber report,
+                                      std::uint64_t axis) const {
+    double weight = 1.0;
+    double sum = 0.0;
+    double square = 0.0;
+    while (weight >= least_weight) {
+        sum += weight * random_.normal(core::Purpose::position_noise, vehicle.value, 2 * report + axis);
+        square += weight * weight;
+        weight *= correlation_;
+        if (report-- == 0) break;
+    }
+    return position_sigma_m_ * sum / std::sqrt(square);
+}
+
+void NoiseProcess::apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const {
+    if (position_sigma_m_ > 0.0) {
+        move(position_error_m(vehicle, report, 0), position_error_m(vehicle, report, 1), state);
+    }
+    if (speed_sigma_mps_ > 0.0) {
+        const double error = random_.normal(core::Purpose::speed_noise, vehicle.value, report);
+        state.speed_mps = static_cast<float>(std::max(0.0, state.speed_mps + speed_sigma_mps_ * error));
+    }
+}
+
+void NoiseProcess::move(double x_error_m, double y_error_m, traffic::MotionState& state) const {
+    state.x_m += static_cast<float>(x_error_m);
+    state.y_m += static_cast<float>(y_error_m);
+    if (!state.lane.exists()) return;
+    const double cosine = std::cos(state.heading_rad);
+    const double sine = std::sin(state.heading_rad);
+    const double ahead_m = cosine * x_error_m + sine * y_error_m;
+    const double left_m = cosine * y_error_m - sine * x_error_m;
+
+    const roads::Lane& lane = network_.lane(state.lane);
+    const roads::Edge& edge = network_.edge(lane.edge);
+    if (!edge.internal) {
+        const double number = lane.number + std::round(left_m / lane.width_m);
+        state.lane = network_.lane_of(
+            lane.edge, static_cast<std::uint32_t>(std::clamp(number, 0.0, edge.lane_count - 1.0)));
+    }
+    const double length_m = network_.lane(state.lane).length_m;
+    state.lane_position_m = static_cast<float>(std::clamp(state.lane_position_m + ahead_m, 0.0, length_m));
+}
+
+DetectionProcess::DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random)
+    : random_(random),
+      rate_(config.link_detection_rate),
+      detection_(config.detection),
+      range_sigma_m_(config.range_sigma_m) {}
+
+bool DetectionProcess::detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const {
+    return rate_ > 0.0 &&
+           random_.uniform(core::Purpose::link_detection, pair_subject(one, other), 2 * report) < rate_;
+}
+
+float DetectionProcess::range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
+                                float true_distance_m) const {
+    if (detection_ == Detection::presence) return -1.0F;
+    const double error =
+        random_.normal(core::Purpose::link_detection, pair_subject(one, other), 2 * report + 1);
+    return static_cast<float>(std::max(0.0, true_distance_m + range_sigma_m_ * error));
+}
+
+}  // namespace clearway::sensing

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/ids.hpp"
+#include "core/random.hpp"
+#include "roads/network.hpp"
+#include "sensing/failure_config.hpp"
+#include "traffic/observation.hpp"
+
+namespace clearway::sensing {
+
+/// Number of a report round: round k takes place at the first step at or after k x interval since time 0 of
+/// the simulation. All draws are keyed by it, so they depend neither on the step length nor on when sensing
+/// started.
+using ReportNumber = std::uint64_t;
+
+/// Which reports are lost: a pure function of (vehicle, report number).
+///
+/// Bursts are a Gilbert-Elliott chain: dark or not, with transitions per report that give the wanted mean
+/// outage and share of time dark. To be a function of the number alone, not of where counting started, the
+/// chain is drawn as a mixture: at each report, with probability p = (1 / outage) / (1 - share), outage in
+/// reports, the state is drawn anew (dark with probability `share`), otherwise it stays. The state at report
+/// k is the one drawn at the latest renewal at or before k, found by walking back, 1 / p reports on average.
+/// The same chain, as P(dark -> not) = p (1 - share) = 1 / outage. It needs p <= 1, which FailureConfig's
+/// check demands. (Walking a cached chain forward from each vehicle's departure was rejected: departures
+/// differ between conditions.)
+class LossProcess {
+  public:
+    LossProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    /// Whether this report does not arrive, for either reason.
+    bool lost(core::VehicleKey vehicle, ReportNumber report) const;
+    /// Whether the vehicle is in an outage.
+    bool in_outage(core::VehicleKey vehicle, ReportNumber report) const;
+
+  private:
+    core::KeyedRandom random_;
+    double loss_rate_;
+    double dark_share_;
+    double renewal_;  ///< Probability p above.
+};
+
+/// Errors of what a report says: a pure function of (vehicle, report number).
+///
+/// Position: white noise on each axis, or with a correlation time tau the stationary first-order process with
+/// correlation exp(-interval / tau) from one report to the next, as a weighted sum of past white noise, cut
+/// where a weight falls below 1/1000. The place on the map moves with it: the lane position by the part along
+/// the heading, the lane by whole lane widths of the part across, so that nothing in the report is more exact
+/// than the position.
+class NoiseProcess {
+  public:
+    NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random, const roads::Network& network);
+    bool none() const { return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0; }
+    void apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
+
+  private:
+    double position_error_m(core::VehicleKey vehicle, ReportNumber report, std::uint64_t axis) const;
+    void move(double x_error_m, double y_error_m, traffic::MotionState& state) const;
+
+    core::KeyedRandom random_;
+    const roads::Network& network_;
+    double position_sigma_m_;
+    double correlation_;  ///< From one report to the next.
+    double speed_sigma_mps_;
+};
+
+/// Which links of dark vehicles are still detected: a pure function of (unordered pair, report number).
+class DetectionProcess {
+  public:
+    DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    bool none() const { return rate_ == 0.0; }
+    bool detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const;
+    /// The range that a detection tells, or a negative number when it tells presence only.
+    float range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
+                  float true_distance_m) const;
+    float range_sigma_m() const { return static_cast<float>(range_sigma_m_); }
+
+  private:
+    core::KeyedRandom random_;
+    double rate_;
+    Detection detection_;
+    double range_sigma_m_;
+};
+
+}  // namespace clearway::sensing

@@ -1,0 +1,103 @@
+#include "sensing/failure_config.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "sensing/sensor.hpp"
+#include "sensing/traffic_fixture.hpp"
+
+namespace clearway::sensing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+TEST(FailurePresets, AreThoseOfTheBenchmarkInItsOrder) {
+    std::vector<std::string> names;
+    for (const FailurePreset& preset : failure_presets()) {
+        names.push_back(preset.name);
+    }
+    EXPECT_THAT(names, ElementsAre("perfect", "A.1", "A.2", "A.3", "A.4", "A.5", "A.6", "A.7", "B5", "B10",
+                                   "B20", "C.link", "C.range", "D1", "D3", "D5", "DL2", "D3B10"));
+}
+
+TEST(FailurePresets, HaveTheFrozenValues) {
+    EXPECT_DOUBLE_EQ(failure_from("A.7").loss_rate, 0.7);
+    EXPECT_DOUBLE_EQ(failure_from("A.7").dark_share, 0.0);
+    EXPECT_DOUBLE_EQ(failure_from("B20").mean_outage_s, 20.0);
+    EXPECT_DOUBLE_EQ(failure_from("B20").dark_share, 0.3);
+    EXPECT_DOUBLE_EQ(failure_from("C.link").link_detection_rate, 0.5);
+    EXPECT_DOUBLE_EQ(failure_from("C.link").mean_outage_s, 10.0);
+    EXPECT_EQ(failure_from("C.link").detection, Detection::presence);
+    EXPECT_EQ(failure_from("C.range").detection, Detection::range);
+    EXPECT_DOUBLE_EQ(failure_from("C.range").range_sigma_m, 1.0);
+    EXPECT_DOUBLE_EQ(failure_from("D5").position_sigma_m, 5.0);
+    EXPECT_DOUBLE_EQ(failure_from("DL2").latency_s, 2.0);
+    EXPECT_DOUBLE_EQ(failure_from("D3B10").position_sigma_m, 3.0);
+    EXPECT_DOUBLE_EQ(failure_from("D3B10").dark_share, 0.3);
+    EXPECT_DOUBLE_EQ(failure_from("perfect").report_interval_s, 0.0);
+}
+
+TEST(FailurePresets, AreAllValid) {
+    for (const FailurePreset& preset : failure_presets()) {
+        EXPECT_TRUE(problems_of(preset.config, preset.name).empty()) << preset.name;
+    }
+}
+
+TEST(FailurePresets, NameTheNearestOfAnUnknownOne) {
+    try {
+        failure_from("C.lnk");
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("did you mean C.link?"));
+        EXPECT_THAT(error.what(), HasSubstr("D3B10"));
+    }
+}
+
+TEST(FailureConfig, ReportsEveryValueOutOfItsRangeAtOnce) {
+    FailureConfig config;
+    config.loss_rate = 1.5;
+    config.latency_s = -1.0;
+    config.position_sigma_m = std::numeric_limits<double>::quiet_NaN();
+    const auto problems = problems_of(config, "study.toml: failure");
+    ASSERT_THAT(problems, SizeIs(3));
+    EXPECT_EQ(problems[0].where, "study.toml: failure.loss_rate");
+    EXPECT_THAT(problems[0].what, HasSubstr("1.5"));
+    EXPECT_EQ(problems[0].allowed, "0 to 1");
+    EXPECT_EQ(problems[2].allowed, "0 to 60 s");
+}
+
+TEST(FailureConfig, RefusesValuesThatDoNotGoTogether) {
+    FailureConfig too_frequent;
+    too_frequent.report_interval_s = 0.05;
+    EXPECT_THAT(problems_of(too_frequent, "f"), SizeIs(1));
+
+    FailureConfig perfect_but_lossy = failure_from("perfect");
+    perfect_but_lossy.loss_rate = 0.1;
+    EXPECT_THAT(problems_of(perfect_but_lossy, "f"), SizeIs(1));
+
+    FailureConfig too_short;
+    too_short.dark_share = 0.5;
+    too_short.mean_outage_s = 1.9;
+    ASSERT_THAT(problems_of(too_short, "f"), SizeIs(1));
+    EXPECT_THAT(problems_of(too_short, "f")[0].allowed, HasSubstr("= 2 s"));
+    too_short.mean_outage_s = 2.0;
+    EXPECT_THAT(problems_of(too_short, "f"), SizeIs(0));
+}
+
+TEST(FailureConfig, ThatIsWrongMakesNoSensor) {
+    FailureConfig config;
+    config.loss_rate = -0.1;
+    config.latency_s = 61.0;
+    try {
+        make_sensor(config, testing::draws(), {testing::small_scene().network(), {}});
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.problems(), SizeIs(2));
+    }
+}
+
+}  // namespace
+}  // namespace clearway::sensing
