@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "traffic/command.hpp"
@@ -17,29 +19,38 @@ enum class Engine : std::uint8_t {
     solo,     ///< Each emergency vehicle alone on the road with every signal open.
 };
 
+/// `standard`, `sublane`, `solo`.
+std::string_view name(Engine engine);
+std::optional<Engine> engine_from(std::string_view name);
+
 /// A named combination of failure, predictor and policy parts.
 struct ConditionSpec {
     std::string name;
-    std::string failure = "perfect";   ///< Preset of sensing: perfect, B10, ...
+    std::string failure = "perfect";  ///< Preset of sensing: perfect, B10, ...
     std::string predictor = "none";
-    std::vector<std::string> parts;    ///< Policy parts; empty: the car-following model alone.
+    std::vector<std::string> parts;  ///< Policy parts; empty: the car-following model alone.
     Engine engine = Engine::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
+
+    bool operator==(const ConditionSpec&) const = default;
 };
 
-/// What one worker process does: one scenario, one replication, one engine, several conditions forked from one warm-up.
+/// What one worker process does: one scenario, one replication, one engine, several conditions forked from
+/// one warm-up.
 struct UnitSpec {
-    std::string scenario;                           ///< Name of the scenario.
-    std::filesystem::path scenario_file;            ///< The effective configuration, TOML.
-    std::filesystem::path network_folder;           ///< Network built once for the study.
+    std::string scenario;                  ///< Name of the scenario.
+    std::filesystem::path scenario_file;   ///< The effective configuration, TOML.
+    std::filesystem::path network_folder;  ///< Network built once for the study.
     std::uint64_t study_seed = 1;
     std::uint32_t replication = 0;
     Engine engine = Engine::standard;
     std::vector<ConditionSpec> conditions;
-    std::filesystem::path output;                   ///< Folder of the scenario in the run folder.
+    std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
+
+    bool operator==(const UnitSpec&) const = default;
 };
 
-/// JSON, for the worker's command line. `read_unit` throws core::InputError.
+/// JSON, for the worker's command line. `read_unit` throws core::InputError with every problem.
 std::string to_json(const UnitSpec& unit);
 UnitSpec read_unit(const std::filesystem::path& file);
 

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate.hpp"
+#include "results/store.hpp"
+
+namespace clearway::analysis {
+
+/// A metric as tables show it. All come from the field table of metrics::RunMetrics.
+struct MetricInfo {
+    std::string name;
+    std::string unit;
+    std::string doc;
+};
+/// All metrics of a run that are numbers, in the order of their field table.
+std::vector<MetricInfo> all_metrics();
+/// Value of a metric by name; nothing where the run has none. Throws std::out_of_range for an unknown name.
+std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name);
+
+/// A condition against its baseline, in one metric, paired by replication. For metrics of emergency vehicles
+/// that are means over those that arrived (travel time, time loss), a replication's pair is the means over
+/// the vehicles that arrived in both conditions; the vehicles left out are counted.
+struct Comparison {
+    std::size_t complete_pairs = 0;
+    /// Replications that lack a value in at least one of the two conditions: failed, missing, nobody to
+    /// average over.
+    std::size_t incomplete_pairs = 0;
+    /// Emergency vehicles of complete pairs that arrived in only one condition or in none.
+    std::size_t vehicles_left_out = 0;
+    std::optional<Estimate> difference;  ///< Condition - baseline, in the metric's unit.
+    std::optional<Estimate> relative;    ///< As a share of the baseline's mean.
+    std::optional<Interval> bootstrap;   ///< BCa interval of the mean difference.
+    std::optional<double> effect_size;
+    std::optional<double> t_p;
+    std::optional<double> wilcoxon_p;
+    std::optional<double> holm_p;  ///< `t_p` adjusted over all comparisons of a scenario in this metric.
+};
+
+/// One cell of a table: a metric in a condition of a scenario.
+struct MetricSummary {
+    MetricInfo metric;
+    std::vector<std::optional<double>> values;  ///< By replication; nothing where there is none.
+    std::optional<Estimate> estimate;           ///< Over the replications that have a value.
+    std::optional<double> median;
+    std::optional<double> percentile_95;
+    std::optional<Comparison> comparison;  ///< Nothing for the baseline itself and for the solo condition.
+};
+
+/// Emergency vehicles of a condition over all complete runs, by how they ended.
+struct OutcomeCounts {
+    std::uint64_t arrived = 0;
+    std::uint64_t running_at_end = 0;
+    std::uint64_t teleported = 0;
+    std::uint64_t not_inserted = 0;
+    std::uint64_t removed = 0;
+
+    std::uint64_t total() const { return arrived + running_at_end + teleported + not_inserted + removed; }
+};
+
+struct ConditionSummary {
+    results::ConditionSpec condition;
+    std::string baseline;  ///< Condition it is compared with; empty for baselines and solo.
+    std::size_t complete_runs = 0;
+    std::size_t failed_runs = 0;
+    std::size_t missing_runs = 0;
+    OutcomeCounts emergency;
+    OutcomeCounts others;
+    std::vector<MetricSummary> metrics;   ///< In the order of `all_metrics()`.
+    std::optional<GapClosed> gap_closed;  ///< Nothing without a solo condition, and for baselines.
+    /// Replications behind `gap_closed`: at least one emergency vehicle arrived in all three conditions.
+    std::size_t gap_replications = 0;
+
+    /// Throws std::out_of_range for an unknown name.
+    const MetricSummary& metric(const std::string& name) const;
+};
+
+struct ScenarioSummary {
+    std::string scenario;
+    std::string title;
+    std::vector<ConditionSummary> conditions;  ///< In the manifest's order.
+
+    /// Nullptr when the study has no such condition.
+    const ConditionSummary* find(const std::string& condition) const;
+};
+
+struct Summary {
+    results::Manifest manifest;
+    double level = usual_level;
+    std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
+};
+
+/// A condition's baseline is the first condition of the same engine without policy parts; its solo times are
+/// those of the first condition with engine solo. Deterministic.
+Summary summarise(const results::Results& results, double level = usual_level);
+
+}  // namespace clearway::analysis

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+#include "graph/proximity.hpp"
+#include "metrics/run_metrics.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/departure.hpp"
+#include "traffic/lease.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::metrics {
+
+/// A vehicle of the demand.
+struct PlannedVehicle {
+    std::string id;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
+    traffic::VehicleKind kind = traffic::VehicleKind::other;
+    double depart_s = 0.0;
+};
+
+/// The vehicles of SUMO route files, with class and kind from the parameters of their types (see
+/// traffic/departure.hpp), then the emergency vehicles that the run adds. Types may stand in any of the
+/// files, before they are used. Throws core::InputError for a file that is missing or not XML, and for a
+/// departure that is not a time.
+std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> type_and_route_files,
+                                         std::span<const traffic::EmergencyDeparture> emergency);
+
+struct RecorderConfig {
+    /// A believed vehicle whose report is older than this was not heard at the newest round; the latency of
+    /// the sensor plus rounding, s.
+    float fresh_age_s = 0.01F;
+};
+
+/// What the recorder needs at the end of a run.
+struct RunEnd {
+    /// Complete files (the session is closed): one, or one per vehicle of a solo run.
+    std::vector<std::filesystem::path> tripinfo_files;
+    std::vector<PlannedVehicle> planned;
+    core::Seconds time;
+    LeaseTotals leases;
+};
+
+/// Turns a run into numbers. Call `step` for every simulation step, warm-up included; a copy made by a fork
+/// goes on in the child. One recorder, one run, one thread. Steps of a steady number of vehicles do not
+/// allocate.
+class Recorder {
+  public:
+    explicit Recorder(RecorderConfig config = {});
+    ~Recorder();
+    Recorder(Recorder&&) noexcept;
+    Recorder& operator=(Recorder&&) noexcept;
+
+    /// After the warm-up that conditions share, for what a condition knows better.
+    void configure(RecorderConfig config);
+
+    /// One step: counts events and adds snapshot and leases to the trace hash.
+    void step(const truth::Snapshot& snapshot, const truth::Events& events,
+              std::span<const traffic::Lease> leases);
+    /// Compares the believed links with the true ones of the same moment. A link counts as believed when the
+    /// belief lists it.
+    void links(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+               const traffic::BelievedGraph& belief);
+
+    /// Reads the tripinfo files and puts everything together. Throws core::SimulatorError when a file is
+    /// missing, cut off or lists a vehicle that nobody planned.
+    RunSummary finish(const RunEnd& end) const;
+
+    const LinkCounts& link_counts() const;
+    const LinkCounts& dark_link_counts() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clearway::metrics

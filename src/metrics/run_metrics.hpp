@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "metrics/vehicle_row.hpp"
+
+namespace clearway::metrics {
+
+/// Links believed against links true, counted over the report rounds at which a policy decided.
+struct LinkCounts {
+    std::uint64_t true_positive = 0;
+    std::uint64_t false_positive = 0;
+    std::uint64_t false_negative = 0;
+
+    bool operator==(const LinkCounts&) const = default;
+    /// Empty where nothing was believed, nothing was true, or both.
+    std::optional<double> precision() const;
+    std::optional<double> recall() const;
+    std::optional<double> f1() const;
+};
+
+/// What became of the leases of a run. `refused` counts leases, not reasons.
+struct LeaseTotals {
+    std::uint64_t issued = 0;  ///< New leases, refused ones included, renewals not.
+    std::uint64_t renewed = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t expired = 0;
+
+    bool operator==(const LeaseTotals&) const = default;
+};
+
+/// The numbers of one run. Means of travel time and time loss of emergency vehicles are over those that
+/// arrived; means of waiting time and depart delay, and the time loss of the others, are over all that were
+/// inserted, so vehicles still on the road count with what they lost so far. The counts beside the means tell
+/// how many were left out. Empty where there was nobody to average over.
+struct RunMetrics {
+    std::optional<double> emergency_travel_time_s;
+    std::optional<double> emergency_time_loss_s;
+    std::optional<double> emergency_waiting_time_s;
+    std::optional<double> emergency_depart_delay_s;
+    std::optional<double> depart_delay_s;
+    std::optional<double> others_depart_delay_s;
+    std::optional<double> waiting_time_s;
+    std::optional<double> others_travel_time_s;
+    std::optional<double> others_time_loss_s;
+    std::optional<double> others_waiting_time_s;
+
+    std::uint64_t emergency_count = 0;
+    std::uint64_t emergency_arrived = 0;
+    std::uint64_t vehicle_count = 0;
+    std::uint64_t arrived = 0;
+    std::uint64_t unfinished = 0;
+    std::uint64_t not_inserted = 0;
+    std::uint64_t removed = 0;
+    std::uint64_t teleports = 0;
+    std::uint64_t collisions = 0;
+    std::uint64_t junction_collisions = 0;
+    std::uint64_t emergency_collisions = 0;
+    std::uint64_t emergency_brakings = 0;
+
+    std::uint64_t leases_issued = 0;
+    std::uint64_t leases_renewed = 0;
+    std::uint64_t leases_refused = 0;
+    std::uint64_t leases_expired = 0;
+
+    std::uint64_t links_true_positive = 0;
+    std::uint64_t links_false_positive = 0;
+    std::uint64_t links_false_negative = 0;
+    std::optional<double> links_f1;
+    std::uint64_t dark_links_true_positive = 0;
+    std::uint64_t dark_links_false_positive = 0;
+    std::uint64_t dark_links_false_negative = 0;
+    std::optional<double> dark_links_f1;
+
+    double simulated_s = 0.0;
+    std::uint64_t vehicle_steps = 0;
+
+    bool operator==(const RunMetrics&) const = default;
+
+    static constexpr auto fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
+            Field{"emergency_travel_time_s", "s", &M::emergency_travel_time_s, 0.0, 1e9,
+                  "EV travel time, mean of those that arrived", "tripinfo duration"},
+            Field{"emergency_time_loss_s", "s", &M::emergency_time_loss_s, 0.0, 1e9,
+                  "EV time loss, mean of those that arrived", "tripinfo timeLoss"},
+            Field{"emergency_waiting_time_s", "s", &M::emergency_waiting_time_s, 0.0, 1e9,
+                  "EV waiting time, mean of those inserted", "tripinfo waitingTime; TABLES II to IV"},
+            Field{"emergency_depart_delay_s", "s", &M::emergency_depart_delay_s, 0.0, 1e9,
+                  "EV depart delay, mean of those inserted", "tripinfo departDelay; TABLES II to IV"},
+            Field{"depart_delay_s", "s", &M::depart_delay_s, 0.0, 1e9,
+                  "Depart delay of all vehicles, mean of those inserted", "tripinfo departDelay"},
+            Field{"others_depart_delay_s", "s", &M::others_depart_delay_s, 0.0, 1e9,
+                  "Depart delay of all but the EVs, mean of those inserted", "tripinfo departDelay"},
+            Field{"waiting_time_s", "s", &M::waiting_time_s, 0.0, 1e9,
+                  "Waiting time of all vehicles, mean of those inserted",
+                  "tripinfo waitingTime; TABLES II to IV"},
+            Field{"others_travel_time_s", "s", &M::others_travel_time_s, 0.0, 1e9,
+                  "Travel time of all but the EVs, mean of those that arrived", "tripinfo duration"},
+            Field{"others_time_loss_s", "s", &M::others_time_loss_s, 0.0, 1e9,
+                  "Time loss of all but the EVs, mean of those inserted", "tripinfo timeLoss"},
+            Field{"others_waiting_time_s", "s", &M::others_waiting_time_s, 0.0, 1e9,
+                  "Waiting time of all but the EVs, mean of those inserted", "tripinfo waitingTime"},
+            Field{"emergency_count", "1", &M::emergency_count, 0.0, 1e9, "EVs of the demand", "demand"},
+            Field{"emergency_arrived", "1", &M::emergency_arrived, 0.0, 1e9,
+                  "EVs that arrived without a teleport", "tripinfo"},
+            Field{"vehicle_count", "1", &M::vehicle_count, 0.0, 1e9, "Vehicles of the demand", "demand"},
+            Field{"arrived", "1", &M::arrived, 0.0, 1e9, "Vehicles that arrived without a teleport",
+                  "tripinfo"},
+            Field{"unfinished", "1", &M::unfinished, 0.0, 1e9, "Vehicles still on the road at the end",
+                  "tripinfo"},
+            Field{"not_inserted", "1", &M::not_inserted, 0.0, 1e9, "Vehicles that never departed",
+                  "demand less tripinfo"},
+            Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles gone without arriving",
+                  "tripinfo vaporized"},
+            Field{"teleports", "1", &M::teleports, 0.0, 1e9, "Teleports", "events"},
+            Field{"collisions", "1", &M::collisions, 0.0, 1e9, "Collisions, on lanes and at junctions",
+                  "events"},
+            Field{"junction_collisions", "1", &M::junction_collisions, 0.0, 1e9, "Collisions at junctions",
+                  "events"},
+            Field{"emergency_collisions", "1", &M::emergency_collisions, 0.0, 1e9,
+                  "Collisions with an EV in them", "events"},
+            Field{"emergency_brakings", "1", &M::emergency_brakings, 0.0, 1e9,
+                  "Brakings harder than a vehicle's usual deceleration", "events"},
+            Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
+                  "actuation"},
+            Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that prolonged one",
+                  "actuation"},
+            Field{"leases_refused", "1", &M::leases_refused, 0.0, 1e12, "Leases that were not feasible",
+                  "actuation"},
+            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that ended by themselves",
+                  "actuation"},
+            Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12, "Links believed and true",
+                  "link comparison by key"},
+            Field{"links_false_positive", "1", &M::links_false_positive, 0.0, 1e12,
+                  "Links believed and not true", "link comparison by key"},
+            Field{"links_false_negative", "1", &M::links_false_negative, 0.0, 1e12,
+                  "Links true and not believed", "link comparison by key"},
+            Field{"links_f1", "1", &M::links_f1, 0.0, 1.0, "F1 of the believed links", "2TP/(2TP+FP+FN)"},
+            Field{"dark_links_true_positive", "1", &M::dark_links_true_positive, 0.0, 1e12,
+                  "The same where an end was not heard at the newest report", "link comparison by key"},
+            Field{"dark_links_false_positive", "1", &M::dark_links_false_positive, 0.0, 1e12,
+                  "The same where an end was not heard at the newest report", "link comparison by key"},
+            Field{"dark_links_false_negative", "1", &M::dark_links_false_negative, 0.0, 1e12,
+                  "The same where an end was not heard at the newest report", "link comparison by key"},
+            Field{"dark_links_f1", "1", &M::dark_links_f1, 0.0, 1.0,
+                  "F1 of the believed links with an end not heard at the newest report", "2TP/(2TP+FP+FN)"},
+            Field{"simulated_s", "s", &M::simulated_s, 0.0, 1e9, "Simulated time", "clock"},
+            Field{"vehicle_steps", "1", &M::vehicle_steps, 0.0, 1e15,
+                  "Vehicles on the road, summed over steps", "snapshots"});
+    }
+};
+
+/// All that a run leaves behind to be stored.
+struct RunSummary {
+    RunMetrics metrics;
+    std::vector<VehicleRow> vehicles;  ///< By planned departure, then id.
+    std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
+};
+
+}  // namespace clearway::metrics

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/fields.hpp"
+#include "core/ids.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::metrics {
+
+/// How a vehicle's trip ended. Only `arrived` trips have a travel time that can be compared.
+enum class VehicleOutcome : std::uint8_t {
+    arrived,
+    running_at_end,  ///< On the road when the run was cut at its horizon.
+    teleported,      ///< Taken out of a jam by SUMO, even when it arrived later.
+    not_inserted,    ///< Never found room to depart.
+    removed,         ///< Gone without arriving.
+};
+inline constexpr std::array vehicle_outcomes = {VehicleOutcome::arrived, VehicleOutcome::running_at_end,
+                                                VehicleOutcome::teleported, VehicleOutcome::not_inserted,
+                                                VehicleOutcome::removed};
+
+/// `arrived`, `running_at_end`, ...
+std::string_view name(VehicleOutcome outcome);
+std::optional<VehicleOutcome> vehicle_outcome_from(std::string_view name);
+
+/// One vehicle of a run, from SUMO's tripinfo. Times of a vehicle that did not arrive are those up to its
+/// last moment on the road, so lower bounds; a vehicle that was not inserted has none.
+struct VehicleRow {
+    std::string id;  ///< SUMO's id; text from a file, so printers escape it.
+    core::VehicleKey key;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
+    traffic::VehicleKind kind = traffic::VehicleKind::other;
+    VehicleOutcome outcome = VehicleOutcome::arrived;
+    std::uint32_t teleports = 0;
+    double planned_depart_s = 0.0;
+    std::optional<double> depart_s;
+    std::optional<double> depart_delay_s;
+    std::optional<double> arrival_s;
+    std::optional<double> travel_time_s;
+    std::optional<double> time_loss_s;
+    std::optional<double> waiting_time_s;
+    std::optional<std::uint32_t> waiting_count;
+    std::optional<double> route_length_m;
+
+    bool operator==(const VehicleRow&) const = default;
+
+    /// The numbers; id, class, kind and outcome stand before them in every table.
+    static constexpr auto fields() {
+        using R = VehicleRow;
+        using core::Field;
+        return std::make_tuple(
+            Field{"planned_depart_s", "s", &R::planned_depart_s, 0.0, 1e9, "Departure as the demand says",
+                  ""},
+            Field{"depart_s", "s", &R::depart_s, 0.0, 1e9, "Time of insertion", "tripinfo depart"},
+            Field{"depart_delay_s", "s", &R::depart_delay_s, 0.0, 1e9, "Wait for room to be inserted",
+                  "tripinfo departDelay"},
+            Field{"arrival_s", "s", &R::arrival_s, 0.0, 1e9, "Time of arrival", "tripinfo arrival"},
+            Field{"travel_time_s", "s", &R::travel_time_s, 0.0, 1e9, "From insertion to the end of the trip",
+                  "tripinfo duration"},
+            Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e9, "Lost against driving at the desired speed",
+                  "tripinfo timeLoss"},
+            Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e9, "Slower than 0.1 m/s, stops excluded",
+                  "tripinfo waitingTime"},
+            Field{"waiting_count", "1", &R::waiting_count, 0.0, 1e9, "How often it came to a halt",
+                  "tripinfo waitingCount"},
+            Field{"route_length_m", "m", &R::route_length_m, 0.0, 1e9, "Distance driven",
+                  "tripinfo routeLength"},
+            Field{"teleports", "1", &R::teleports, 0.0, 1e9, "Teleports of this vehicle", "events"});
+    }
+};
+
+}  // namespace clearway::metrics

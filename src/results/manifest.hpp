@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "results/record.hpp"
+#include "results/unit.hpp"
+
+namespace clearway::results {
+
+/// A scenario of a study, with everything that decides its runs.
+struct ScenarioEntry {
+    std::string name;
+    std::string version;
+    std::string title;
+    std::string configuration;       ///< The effective configuration, TOML.
+    std::string configuration_hash;  ///< Of `configuration`.
+    std::string attribution;         ///< Whom the map data must name; may be empty.
+
+    bool operator==(const ScenarioEntry&) const = default;
+};
+
+/// What a study is: with it and the same versions, every run can be made again.
+struct Manifest {
+    int format = 1;  ///< Of the run folder. Other formats are refused.
+    std::string study;
+    std::string clearway_version;
+    std::string sumo_version;
+    std::uint64_t study_seed = 1;
+    std::uint32_t replications = 0;
+    std::vector<ScenarioEntry> scenarios;
+    std::vector<ConditionSpec> conditions;
+
+    bool operator==(const Manifest&) const = default;
+    /// Every run of the study, sorted.
+    std::vector<RunKey> runs() const;
+};
+
+/// Deterministic JSON with a `hash` of the rest.
+std::string to_json(const Manifest& manifest);
+/// Throws core::InputError, naming `where`, for text that is not a manifest of this format or whose hash does
+/// not fit.
+Manifest manifest_from_json(const std::string& text, const std::string& where);
+/// 32 hex digits. Equal hashes: the same study.
+std::string manifest_hash(const Manifest& manifest);
+
+}  // namespace clearway::results

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "metrics/run_metrics.hpp"
+#include "results/unit.hpp"
+
+namespace clearway::results {
+
+/// Which run of a study.
+struct RunKey {
+    std::string scenario;
+    std::string condition;
+    std::uint32_t replication = 0;
+
+    auto operator<=>(const RunKey&) const = default;
+};
+
+/// `city/baseline/7`.
+std::string to_text(const RunKey& key);
+
+/// What a run was made from: with the manifest, enough to make it again.
+struct Provenance {
+    std::string clearway_version;
+    std::string sumo_version;
+    std::string configuration_hash;  ///< Of the scenario's effective configuration.
+    std::string demand_hash;
+    std::uint64_t study_seed = 0;
+    std::uint64_t simulator_seed = 0;
+    std::string trace_hash;
+
+    bool operator==(const Provenance&) const = default;
+
+    static constexpr auto fields() {
+        using P = Provenance;
+        using core::Field;
+        return std::make_tuple(
+            Field{"clearway_version", "", &P::clearway_version, 0, 0, "Version of Clearway", ""},
+            Field{"sumo_version", "", &P::sumo_version, 0, 0, "Version of SUMO", ""},
+            Field{"configuration_hash", "", &P::configuration_hash, 0, 0,
+                  "Hash of the scenario's effective configuration", ""},
+            Field{"demand_hash", "", &P::demand_hash, 0, 0, "Hash of vehicle types, routes and departures",
+                  ""},
+            Field{"study_seed", "1", &P::study_seed, 0, 1.9e19, "Seed of the study", ""},
+            Field{"simulator_seed", "1", &P::simulator_seed, 0, 1.9e19, "Seed of SUMO's own generator", ""},
+            Field{"trace_hash", "", &P::trace_hash, 0, 0, "Hash of every snapshot and lease", ""});
+    }
+};
+
+/// A completed run. A function of scenario, condition, seed and versions alone: no clock time, no machine.
+struct RunRecord {
+    RunKey key;
+    ConditionSpec condition;
+    Provenance provenance;
+    metrics::RunMetrics metrics;
+    std::vector<metrics::VehicleRow> vehicles;
+
+    bool operator==(const RunRecord&) const = default;
+};
+
+/// What a run cost. Kept apart from the record because it differs from machine to machine.
+struct RunTiming {
+    double wall_s = 0.0;
+    double simulator_s = 0.0;  ///< SUMO's own step.
+    double coupling_s = 0.0;   ///< Everything else in the loop.
+    long peak_kib = 0;
+
+    static constexpr auto fields() {
+        using T = RunTiming;
+        using core::Field;
+        return std::make_tuple(
+            Field{"wall_s", "s", &T::wall_s, 0.0, 1e9, "Wall time of the run, shared warm-up excluded", ""},
+            Field{"simulator_s", "s", &T::simulator_s, 0.0, 1e9, "Of it, SUMO's own steps", ""},
+            Field{"coupling_s", "s", &T::coupling_s, 0.0, 1e9, "Of it, everything else in the loop", ""},
+            Field{"peak_kib", "KiB", &T::peak_kib, 0.0, 1e12, "Largest resident size of the process", ""});
+    }
+};
+
+/// Why a run has no record.
+enum class FailureCause : std::uint8_t {
+    simulator,   ///< SUMO reported an error.
+    signal,      ///< The process was killed, usually by an assertion or a bad access inside SUMO.
+    time_limit,  ///< It ran into the wall time limit.
+    bad_input,   ///< The scenario does not work out; never tried again.
+    other,
+};
+std::string_view name(FailureCause cause);
+std::optional<FailureCause> failure_cause_from(std::string_view name);
+/// Whether another attempt could end differently: signals and time limits.
+bool worth_retrying(FailureCause cause);
+
+/// A run that ended without a record.
+struct FailureRecord {
+    RunKey key;
+    FailureCause cause = FailureCause::other;
+    std::string message;
+    int exit_code = 0;
+    int signal = 0;
+    int attempts = 1;
+    std::string log_tail;  ///< Last lines of the worker's log.
+
+    bool operator==(const FailureRecord&) const = default;
+};
+
+}  // namespace clearway::results

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/manifest.hpp"
+#include "results/record.hpp"
+
+namespace clearway::results {
+
+/// The run folder of a study.
+///
+///     manifest.json                                      what the study is
+///     scenarios/SCENARIO/                                effective configuration and network
+///     runs/SCENARIO/CONDITION/REPLICATION/run.json       a completed run; never changes once it is there
+///                                        /vehicles.csv
+///                                        /timing.json    differs from machine to machine
+///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
+///     units/, logs/                                      orders for workers, and what they said
+///     runs.csv, vehicles.csv, results.sqlite             all runs in one table each, written at the end
+///
+/// Several processes may write different runs, or the same run, at one time: a run's folder is written aside,
+/// flushed to the disk and renamed without replacing, so it is there as a whole or not at all.
+class Store {
+  public:
+    /// Opens `folder` for a study, making it when it is new. Throws core::InputError when it holds another
+    /// study or something else than a run folder; core::EnvironmentError when it cannot be written.
+    static Store create(const std::filesystem::path& folder, const Manifest& manifest);
+    /// Opens an existing run folder. Throws core::InputError when it is none.
+    static Store open(const std::filesystem::path& folder);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const Manifest& manifest() const { return manifest_; }
+
+    std::filesystem::path scenario_folder(const std::string& scenario) const;
+    /// Folder of a run, whether or not it exists.
+    std::filesystem::path run_folder(const RunKey& key) const;
+    std::filesystem::path unit_file(const std::string& unit) const;
+    std::filesystem::path log_file(const std::string& unit) const;
+    std::filesystem::path runs_csv() const { return folder_ / "runs.csv"; }
+    std::filesystem::path vehicles_csv() const { return folder_ / "vehicles.csv"; }
+
+    enum class Written : std::uint8_t { first, already_there };
+    /// Stores a completed run and forgets an earlier failure of it. The first writer wins; a second must
+    /// bring the same bytes, else core::ConflictError. Throws core::EnvironmentError (disk full) and then
+    /// leaves no trace.
+    Written write(const RunRecord& record, const RunTiming& timing) const;
+    /// Replaces an earlier failure of the same run; does nothing when the run is complete.
+    void write(const FailureRecord& failure) const;
+
+    bool complete(const RunKey& key) const;
+    /// Nothing unless the run is complete. Throws core::InputError for a damaged record.
+    std::optional<RunRecord> read(const RunKey& key) const;
+    std::optional<RunTiming> read_timing(const RunKey& key) const;
+    std::optional<FailureRecord> read_failure(const RunKey& key) const;
+    /// Forgets a failure so that the run can be tried again.
+    void forget_failure(const RunKey& key) const;
+
+  private:
+    Store(std::filesystem::path folder, Manifest manifest);
+    std::filesystem::path failure_file(const RunKey& key) const;
+
+    std::filesystem::path folder_;
+    Manifest manifest_;
+};
+
+/// Everything in a run folder, by key.
+struct Results {
+    Manifest manifest;
+    std::vector<RunRecord> runs;
+    std::vector<FailureRecord> failures;
+    std::vector<RunKey> missing;  ///< Neither complete nor failed.
+};
+Results read_results(const Store& store);
+
+/// All runs as one tidy table, one line a run of the manifest: scenario, condition, replication, outcome (ok,
+/// failed, missing), cause, metrics, trace hash. Sorted; equal results give equal bytes.
+std::string runs_csv(const Results& results);
+/// All vehicles of all complete runs, one line a vehicle. Sorted; equal results give equal bytes.
+std::string vehicles_csv(const Results& results);
+
+/// Writes `runs.csv`, `vehicles.csv` and `results.sqlite` of a run folder from its runs.
+void write_tables(const Store& store, const Results& results);
+
+}  // namespace clearway::results

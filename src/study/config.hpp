@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/unit.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::study {
+
+/// What a user asks for: scenarios x conditions x replications.
+struct StudyConfig {
+    std::string name = "study";
+    std::uint64_t seed = 1;
+    std::uint32_t replications = 20;  ///< 1 to 100000. FHWA asks for at least 10.
+    std::vector<scenario::ScenarioConfig> scenarios;
+    std::vector<results::ConditionSpec> conditions;
+};
+
+/// The dissertation's study: its three scenarios, its three conditions, the two controls and solo.
+StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
+                               const scenario::Options& options = {});
+
+/// Reads a study file. Strict: throws core::InputError with every problem found, each with file, line and
+/// column.
+///
+///     name = "sensor-failure"
+///     seed = 1
+///     replications = 30
+///     scenarios = ["merge", "my/crossing"]        # names, folders or files, relative to this file
+///     conditions = ["baseline", "graph_graphsage", "solo"]
+///
+///     [overrides]                                 # as the options of `clearway run`; all optional
+///     variant = "dense"
+///     step_length_s = 0.1
+///
+///     [[condition]]                               # beside the named ones
+///     name = "b20"
+///     failure = "B20"
+///     predictor = "graphsage_corrected"
+///     parts = ["dissertation"]
+StudyConfig read_study(const std::filesystem::path& file);
+
+}  // namespace clearway::study
