@@ -85,6 +85,11 @@ class CrossingScene {
         return belief_;
     }
     traffic::Roster& roster() { return roster_; }
+    void remove(core::VehicleKey key) {
+        const auto is_it = [&](const traffic::BelievedVehicle& vehicle) { return vehicle.key == key; };
+        std::erase_if(belief_.vehicles, is_it);
+        std::erase_if(belief_.own_states, is_it);
+    }
 
   private:
     void link(const traffic::BelievedVehicle& left, std::uint32_t row) {

@@ -1,0 +1,32 @@
+#include "support/allocation_count.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::size_t> calls = 0;
+}
+
+void* operator new(std::size_t bytes) {
+    ++calls;
+    void* memory = std::malloc(bytes == 0 ? 1 : bytes);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace clearway::support {
+
+std::size_t allocation_count() {
+    return calls;
+}
+
+}  // namespace clearway::support
