@@ -1,0 +1,233 @@
+// clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
+// MB at each launch; `clearway train` becomes this program.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "core/files.hpp"
+#include "prediction/dataset_files.hpp"
+#include "prediction/graph_sample.hpp"
+#include "training/as_published.hpp"
+#include "training/corrected.hpp"
+#include "training/outputs.hpp"
+
+namespace clearway::training {
+namespace {
+
+enum class Mode { as_published, corrected };
+enum class Printing { epochs, closing_only, json };
+
+struct Arguments {
+    std::filesystem::path data;
+    std::filesystem::path out;
+    Mode mode = Mode::as_published;
+    PairChoice pairs = PairChoice::candidates;
+    Printing printing = Printing::epochs;
+    CorrectedConfig config;
+};
+
+volatile std::sig_atomic_t received_signal = 0;
+
+extern "C" void remember_signal(int signal) {
+    received_signal = signal;
+}
+
+/// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
+/// and default.
+template <class Config>
+std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const std::string& group) {
+    std::vector<CLI::Option*> options;
+    core::for_each_field<Config>([&](const auto& field) {
+        std::string option = std::string("--") + field.name;
+        std::ranges::replace(option, '_', '-');
+        auto& member = config.*field.member;
+        using Member = std::remove_reference_t<decltype(member)>;
+        options.push_back(
+            app.add_option(option, member,
+                           fmt::format("{}, {} to {:g}", field.doc, field.minimum, field.maximum))
+                ->check(CLI::Range(static_cast<Member>(field.minimum), static_cast<Member>(field.maximum)))
+                ->capture_default_str()
+                ->group(group));
+    });
+    return options;
+}
+
+void declare_options(CLI::App& app, Arguments& arguments) {
+    app.add_option("--data", arguments.data,
+                   "Folder with edge_list.csv, vehicle_features.csv and target_y.csv; with --corrected, with "
+                   "*.samples files. "
+                   "Both come from `clearway dataset`")
+        ->required();
+    app.add_option("--out", arguments.out, "Folder for the results; made when absent")->required();
+    auto* const corrected = app.add_flag_callback(
+        "--corrected", [&] { arguments.mode = Mode::corrected; },
+        "Train on many snapshots, split by seed, without messages along the labels");
+    app.add_option("--pairs", arguments.pairs,
+                   "Which listed pairs to use: `candidates`, all with their labels 0 and 1; `true`, only "
+                   "those labelled 1")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, PairChoice>{
+            {"candidates", PairChoice::candidates}, {"true", PairChoice::true_only}}))
+        ->default_str("candidates")
+        ->excludes(corrected);
+    app.add_flag_callback(
+        "--quiet", [&] { arguments.printing = Printing::closing_only; },
+        "Do not print the losses of each epoch");
+    app.add_flag_callback(
+        "--json", [&] { arguments.printing = Printing::json; },
+        "Print the summary as JSON, and nothing else");
+    add_field_options(app, arguments.config.training, "Training (losses in nat)");
+    for (CLI::Option* option : add_field_options(app, arguments.config, "Only with --corrected"))
+        option->needs(corrected);
+    app.footer(
+        "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
+        "torch.load),\n"
+        "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv.\n\n"
+        "Examples:\n  clearway dataset city --out data/city\n  clearway train --data data/city --out "
+        "models/mine\n"
+        "  clearway train --data data/city --pairs true --epochs 100 --seed 1 --out models/true_only --json");
+}
+
+TrainingHooks hooks_for(Printing printing) {
+    TrainingHooks hooks;
+    hooks.should_stop = [] { return received_signal != 0; };
+    if (printing != Printing::epochs) return hooks;
+    hooks.on_epoch = [](std::uint32_t epoch, const EpochLoss& loss) {
+        // The dissertation's three lines. float, as Python's item() is printed there with the digits of the
+        // float.
+        fmt::print("epoch: {}\n=======\nloss: {} {}\n", epoch, loss.train, loss.held_out);
+    };
+    return hooks;
+}
+
+std::string figure(const std::optional<double>& value) {
+    return value ? fmt::format("{:.3f}", *value) : "undefined";
+}
+
+void print_quality(const std::string& label, const metrics::LinkQuality& quality) {
+    fmt::print("{}: {} pairs, {} linked; AUC {}, AP {}, F1 {} (from {:.3f}), log loss {} nat, ECE {}\n",
+               label, quality.pairs, quality.true_links, figure(quality.auc), figure(quality.ap),
+               figure(quality.f1), quality.threshold, figure(quality.log_loss), figure(quality.ece));
+}
+
+void print_closing(const AsPublishedResult& result) {
+    if (result.state.empty()) return;
+    print_quality("train", result.train_quality);
+    print_quality("test", result.test_quality);
+    fmt::print("test log loss of a constant: {:.3f} nat\n", result.constant_test_loss);
+    for (const std::string& warning : result.warnings)
+        fmt::print(stderr, "clearway-train: note: {}\n", warning);
+}
+
+void print_closing(const CorrectedResult& result) {
+    if (result.state.empty()) return;
+    fmt::print("best epoch: {} of {}; seeds: {} training, {} validation, {} test\n", result.best_epoch,
+               result.losses.size(), result.seeds.train.size(), result.seeds.validation.size(),
+               result.seeds.test.size());
+    for (const GroupQuality& group : result.groups) {
+        const std::string label =
+            group.scenario.empty() ? "test seeds" : group.scenario + " " + group.failure;
+        print_quality(label, group.net);
+        fmt::print("{}, by dead-reckoned distance alone: AUC {}, AP {}, F1 {}\n", label,
+                   figure(group.dead_reckoning.auc), figure(group.dead_reckoning.ap),
+                   figure(group.dead_reckoning.f1));
+    }
+}
+
+core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model) {
+    if (outcome == Outcome::diverged) {
+        fmt::print(stderr,
+                   "clearway-train: training diverged in epoch {}: a loss is not finite. {}. Try a smaller "
+                   "--learning-rate, or "
+                   "features of a smaller scale\n",
+                   losses.size() - 1,
+                   has_model ? "The parameters before it are kept"
+                             : "No epoch had finite losses, so no model was written");
+        return core::ExitCode::runs_failed;
+    }
+    if (outcome == Outcome::interrupted) {
+        fmt::print(stderr, "clearway-train: interrupted after {} epochs; {}\n", losses.size(),
+                   has_model ? "the model so far is written" : "no model was written");
+        return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
+    }
+    return core::ExitCode::ok;
+}
+
+template <class Result>
+core::ExitCode conclude(const Arguments& arguments, const Result& result,
+                        const nlohmann::ordered_json& summary) {
+    if (arguments.printing == Printing::json) {
+        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    } else {
+        print_closing(result);
+    }
+    return exit_code_for(result.outcome, result.losses, !result.state.empty());
+}
+
+core::ExitCode run_as_published(const Arguments& arguments) {
+    const prediction::PairDataset dataset = prediction::read_pair_dataset(arguments.data);
+    const RunDescription run{arguments.data,
+                             hash_of_files({arguments.data / prediction::edge_list_file,
+                                            arguments.data / prediction::vehicle_features_file,
+                                            arguments.data / prediction::target_file}),
+                             arguments.config.training};
+    const AsPublishedResult result =
+        train_as_published(dataset, arguments.pairs, run.training, hooks_for(arguments.printing));
+    const auto summary = summary_of(result, arguments.pairs, run);
+    write_outputs(arguments.out, result, summary, run.training);
+    return conclude(arguments, result, summary);
+}
+
+core::ExitCode run_corrected(const Arguments& arguments) {
+    const std::vector<std::filesystem::path> paths = prediction::find_graph_samples(arguments.data);
+    std::vector<prediction::GraphSampleFile> files;
+    for (const std::filesystem::path& path : paths)
+        files.push_back(prediction::read_graph_samples(path));
+    const RunDescription run{arguments.data, hash_of_files(paths), arguments.config.training};
+    const CorrectedResult result = train_corrected(files, arguments.config, hooks_for(arguments.printing));
+    const auto summary = summary_of(result, arguments.config, run);
+    write_outputs(arguments.out, result, summary, run.training, files.front().origin.features);
+    return conclude(arguments, result, summary);
+}
+
+int run(int argument_count, char** argument_values) {
+    CLI::App app("Trains the dissertation's GraphSAGENet for link prediction, as published or corrected.");
+    app.name("clearway train");
+    Arguments arguments;
+    declare_options(app, arguments);
+    try {
+        app.parse(argument_count, argument_values);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
+    }
+    std::signal(SIGINT, remember_signal);
+    std::signal(SIGTERM, remember_signal);
+    core::make_folder(arguments.out);
+    const core::ExitCode code =
+        arguments.mode == Mode::corrected ? run_corrected(arguments) : run_as_published(arguments);
+    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
+    return static_cast<int>(code);
+}
+
+}  // namespace
+}  // namespace clearway::training
+
+int main(int argument_count, char** argument_values) {
+    using clearway::core::ExitCode;
+    try {
+        return clearway::training::run(argument_count, argument_values);
+    } catch (const clearway::core::Error& error) {
+        fmt::print(stderr, "clearway-train: {}\n", error.what());
+        return static_cast<int>(error.exit_code());
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "clearway-train: {}\n", error.what());
+        return static_cast<int>(ExitCode::environment);
+    }
+}

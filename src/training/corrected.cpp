@@ -1,0 +1,262 @@
+#include "training/corrected.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "prediction/features.hpp"
+
+namespace clearway::training {
+namespace {
+
+using prediction::GraphSample;
+using prediction::GraphSampleFile;
+
+constexpr double reach_m = prediction::corrected_reach_m;
+
+DataSeed seed_of(const GraphSampleFile& file) {
+    return {file.origin.study_seed, file.origin.replication};
+}
+
+void check_origins(const std::vector<GraphSampleFile>& files) {
+    if (files.empty())
+        throw core::InputError({"--data", "no graph samples", "", "Record some with clearway dataset"});
+    const prediction::GraphSampleOrigin& first = files.front().origin;
+    for (const GraphSampleFile& file : files) {
+        if (file.origin.features != first.features || file.origin.link_radius_m != first.link_radius_m) {
+            throw core::InputError({fmt::format("--data: {}, {}, replication {}", file.origin.scenario,
+                                                file.origin.failure, file.origin.replication),
+                                    fmt::format("features {} {} ({} inputs), links below {} m",
+                                                file.origin.features.name, file.origin.features.version,
+                                                file.origin.features.width, file.origin.link_radius_m),
+                                    fmt::format("{} {} ({} inputs), links below {} m, as in the other files",
+                                                first.features.name, first.features.version,
+                                                first.features.width, first.link_radius_m),
+                                    "Record all files with one version of the program and one link radius"});
+        }
+    }
+}
+
+/// The samples of some seeds that have a pair to learn from or to score.
+std::vector<const GraphSample*> samples_of(const std::vector<GraphSampleFile>& files,
+                                           const std::vector<DataSeed>& seeds) {
+    std::vector<const GraphSample*> samples;
+    for (const GraphSampleFile& file : files) {
+        if (!std::ranges::binary_search(seeds, seed_of(file))) continue;
+        for (const GraphSample& sample : file.samples) {
+            const bool useful = std::ranges::any_of(
+                sample.candidates, [](const auto& pair) { return pair.dead_reckoned_m < reach_m; });
+            if (useful) samples.push_back(&sample);
+        }
+    }
+    return samples;
+}
+
+std::vector<GraphBatch> batches_from(const std::vector<const GraphSample*>& samples, std::uint32_t width,
+                                     std::uint32_t batch_snapshots) {
+    std::vector<GraphBatch> batches;
+    for (std::size_t at = 0; at < samples.size(); ++at) {
+        if (at % batch_snapshots == 0) batches.emplace_back();
+        append_sample(*samples[at], width, reach_m, batches.back());
+    }
+    return batches;
+}
+
+/// A new order each epoch, the same for the same training seed.
+void shuffle(std::vector<const GraphSample*>& samples, std::uint64_t seed, std::uint32_t epoch) {
+    const core::KeyedRandom random(core::StudySeed{seed}, core::Replication{epoch});
+    for (std::size_t left = samples.size(); left > 1; --left) {
+        std::swap(samples[left - 1], samples[random.below(left, core::Purpose::training, left)]);
+    }
+}
+
+/// Mean loss over all pairs of the batches.
+double mean_loss(const TorchNet& net, const std::vector<GraphBatch>& batches) {
+    double sum = 0.0;
+    std::size_t pairs = 0;
+    for (const GraphBatch& batch : batches) {
+        sum += net.loss(batch) * static_cast<double>(batch.pair_count());
+        pairs += batch.pair_count();
+    }
+    return sum / static_cast<double>(pairs);
+}
+
+double train_epoch(TorchNet& net, const std::vector<GraphBatch>& batches) {
+    double sum = 0.0;
+    std::size_t pairs = 0;
+    for (const GraphBatch& batch : batches) {
+        const double loss = net.train_step(batch);
+        if (!std::isfinite(loss)) return loss;
+        sum += loss * static_cast<double>(batch.pair_count());
+        pairs += batch.pair_count();
+    }
+    return sum / static_cast<double>(pairs);
+}
+
+/// Probabilities and labels, which `metrics::ScoredLinks` refers to.
+struct Scores {
+    std::vector<double> net;
+    std::vector<double> dead_reckoning;
+    std::vector<std::uint8_t> linked;
+
+    metrics::ScoredLinks by_net() const { return {net, linked}; }
+    metrics::ScoredLinks by_dead_reckoning() const { return {dead_reckoning, linked}; }
+    void append(const Scores& more) {
+        net.insert(net.end(), more.net.begin(), more.net.end());
+        dead_reckoning.insert(dead_reckoning.end(), more.dead_reckoning.begin(), more.dead_reckoning.end());
+        linked.insert(linked.end(), more.linked.begin(), more.linked.end());
+    }
+};
+
+/// Every candidate of a file in order, those out of reach with probability 0.
+Scores scores_of(const TorchNet& net, const GraphSampleFile& file) {
+    Scores scores;
+    for (const GraphSample& sample : file.samples) {
+        GraphBatch batch;
+        append_sample(sample, file.origin.features.width, reach_m, batch);
+        const std::vector<double> within =
+            batch.pair_count() == 0 ? std::vector<double>{} : probabilities(net.logits(batch));
+        std::size_t next = 0;
+        for (const prediction::CandidatePair& pair : sample.candidates) {
+            scores.net.push_back(pair.dead_reckoned_m < reach_m ? within[next++] : 0.0);
+            scores.dead_reckoning.push_back(file.origin.link_radius_m /
+                                            (file.origin.link_radius_m + pair.dead_reckoned_m));
+            scores.linked.push_back(pair.linked);
+        }
+        assert(next == within.size());
+    }
+    return scores;
+}
+
+GroupQuality quality_of(const std::string& scenario, const std::string& failure, const Scores& scores,
+                        double threshold) {
+    return {scenario, failure, metrics::link_quality(scores.by_net(), threshold),
+            metrics::link_quality(scores.by_dead_reckoning())};
+}
+
+/// Chooses the threshold on the validation seeds and measures on the test seeds.
+void measure(const TorchNet& net, const std::vector<GraphSampleFile>& files, CorrectedResult& result) {
+    Scores validation, all;
+    std::map<std::pair<std::string, std::string>, Scores> groups;
+    for (const GraphSampleFile& file : files) {
+        if (std::ranges::binary_search(result.seeds.validation, seed_of(file)))
+            validation.append(scores_of(net, file));
+        if (!std::ranges::binary_search(result.seeds.test, seed_of(file))) continue;
+        const Scores scores = scores_of(net, file);
+        groups[{file.origin.scenario, file.origin.failure}].append(scores);
+        all.append(scores);
+    }
+    result.threshold = metrics::best_f1_threshold(validation.by_net());
+    result.groups.push_back(quality_of("", "", all, result.threshold));
+    for (const auto& [group, scores] : groups) {
+        result.groups.push_back(quality_of(group.first, group.second, scores, result.threshold));
+    }
+}
+
+/// Takes the epoch's losses. True while training should go on.
+bool take_epoch(const TorchNet& net, const EpochLoss& loss, std::uint32_t patience, CorrectedResult& result) {
+    const auto epoch = static_cast<std::uint32_t>(result.losses.size());
+    const double best = result.state.empty() ? std::numeric_limits<double>::infinity()
+                                             : result.losses[result.best_epoch].held_out;
+    result.losses.push_back(loss);
+    if (!std::isfinite(loss.train) || !std::isfinite(loss.held_out)) {
+        result.outcome = Outcome::diverged;
+        return false;
+    }
+    if (loss.held_out < best) {
+        result.best_epoch = epoch;
+        result.state = net.state();
+    } else if (epoch - result.best_epoch >= patience) {
+        result.outcome = Outcome::stopped_early;
+        return false;
+    }
+    return true;
+}
+
+void require_pairs(const std::vector<const GraphSample*>& samples, const char* part) {
+    if (!samples.empty()) return;
+    throw core::InputError({"--data", fmt::format("the {} seeds hold no candidate pair", part), "",
+                            "Record denser traffic, a sensor failure, or more seeds"});
+}
+
+}  // namespace
+
+SeedSplit split_seeds(std::vector<DataSeed> seeds, const CorrectedConfig& config) {
+    std::ranges::sort(seeds);
+    const auto repeated = std::ranges::unique(seeds);
+    seeds.erase(repeated.begin(), repeated.end());
+    if (seeds.size() < 3) {
+        throw core::InputError(
+            {"--data", fmt::format("runs of {} seeds", seeds.size()), "3 seeds or more",
+             "Training, validation and test each need seeds of their own: record more replications"});
+    }
+    const core::KeyedRandom random(core::StudySeed{config.training.seed}, core::Replication{0});
+    const auto draw = [&](const DataSeed& seed) {
+        return random.bits(core::Purpose::training, core::mix64(seed.study_seed) ^ seed.replication, 1);
+    };
+    std::ranges::stable_sort(seeds, {}, draw);
+    const auto part = [&](double share) {
+        return std::max<std::size_t>(
+            1, static_cast<std::size_t>(std::lround(share * static_cast<double>(seeds.size()))));
+    };
+    const std::size_t test = std::min(part(config.test_share), seeds.size() - 2);
+    const std::size_t validation = std::min(part(config.validation_share), seeds.size() - test - 1);
+    const auto first_validation = seeds.begin() + static_cast<std::ptrdiff_t>(test);
+    const auto first_train = first_validation + static_cast<std::ptrdiff_t>(validation);
+    SeedSplit split{
+        {first_train, seeds.end()}, {first_validation, first_train}, {seeds.begin(), first_validation}};
+    for (auto* seeds_of_part : {&split.train, &split.validation, &split.test})
+        std::ranges::sort(*seeds_of_part);
+    return split;
+}
+
+CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const CorrectedConfig& config,
+                                const TrainingHooks& hooks) {
+    check_origins(files);
+    CorrectedResult result;
+    std::vector<DataSeed> seeds;
+    std::ranges::transform(files, std::back_inserter(seeds), seed_of);
+    result.seeds = split_seeds(seeds, config);
+
+    std::vector<const GraphSample*> train = samples_of(files, result.seeds.train);
+    const std::vector<const GraphSample*> held_out = samples_of(files, result.seeds.validation);
+    require_pairs(train, "training");
+    require_pairs(held_out, "validation");
+    require_pairs(samples_of(files, result.seeds.test), "test");
+    const std::uint32_t width = files.front().origin.features.width;
+    const std::vector<GraphBatch> validation = batches_from(held_out, width, config.batch_snapshots);
+
+    const TrainingConfig& training = config.training;
+    TorchNet net({{width, training.hidden, training.output}, training.seed, training.learning_rate});
+    for (std::uint32_t epoch = 0; epoch < training.epochs; ++epoch) {
+        if (hooks.should_stop && hooks.should_stop()) {
+            result.outcome = Outcome::interrupted;
+            break;
+        }
+        shuffle(train, training.seed, epoch);
+        const std::vector<GraphBatch> batches = batches_from(train, width, config.batch_snapshots);
+        const double train_loss = train_epoch(net, batches);
+        const bool go_on = take_epoch(net, {train_loss, mean_loss(net, validation)}, config.patience, result);
+        if (hooks.on_epoch) hooks.on_epoch(epoch, result.losses.back());
+        if (epoch == 0) {
+            for (const GraphBatch& batch : batches)
+                result.train_pairs += batch.pair_count();
+        }
+        if (!go_on) break;
+    }
+    result.train_snapshots = train.size();
+    if (!result.state.empty()) {
+        net.load(result.state);
+        measure(net, files, result);
+    }
+    return result;
+}
+
+}  // namespace clearway::training

@@ -1,0 +1,210 @@
+#include "training/outputs.hpp"
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "training/loss_curve.hpp"
+#include "training/state_dict.hpp"
+
+namespace clearway::training {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json json_value(const Value& value) {
+    return value;
+}
+template <class Value>
+Json json_value(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::string field_name(const char* name, const char* unit) {
+    return std::string(unit) == "1" ? name : fmt::format("{}_{}", name, unit);
+}
+
+/// A struct with a field table as an object; the unit is part of the key.
+template <class Struct>
+Json json_from(const Struct& value) {
+    Json json = Json::object();
+    core::for_each_field<Struct>([&](const auto& field) {
+        json[field_name(field.name, field.unit)] = json_value(value.*field.member);
+    });
+    return json;
+}
+
+template <class Value>
+std::string csv_value(const Value& value) {
+    return fmt::format("{}", value);
+}
+template <class Value>
+std::string csv_value(const std::optional<Value>& value) {
+    return value ? fmt::format("{}", *value) : std::string();
+}
+std::string csv_value(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+Json base_summary(const char* mode, Outcome outcome, const RunDescription& run,
+                  const std::vector<EpochLoss>& losses) {
+    Json summary;
+    summary["format"] = "clearway training summary 1";
+    summary["mode"] = mode;
+    summary["outcome"] = name(outcome);
+    summary["data"] = run.data.string();
+    summary["data_hash"] = run.data_hash;
+    summary["configuration"] = json_from(run.training);
+    summary["epochs_run"] = losses.size();
+    return summary;
+}
+
+Json last_loss(const std::vector<EpochLoss>& losses, double EpochLoss::*member) {
+    // Not finite becomes null, as JSON has no other word for it.
+    return losses.empty() ? Json(nullptr) : Json(losses.back().*member);
+}
+
+Json json_from_seeds(const std::vector<DataSeed>& seeds) {
+    Json list = Json::array();
+    for (const DataSeed& seed : seeds) {
+        list.push_back({{"study_seed", seed.study_seed}, {"replication", seed.replication}});
+    }
+    return list;
+}
+
+std::string note_of(const Json& summary) {
+    return fmt::format("trained by clearway train, {}, seed {}, data {}", summary["mode"].get<std::string>(),
+                       summary["configuration"]["seed"].get<std::uint64_t>(),
+                       summary["data_hash"].get<std::string>());
+}
+
+void write_model(const std::filesystem::path& folder, const std::string& model, const StateDict& state,
+                 const prediction::FeatureSchema& features, const TrainingConfig& config,
+                 const Json& summary) {
+    prediction::Weights weights =
+        weights_from(state, features, {features.width, config.hidden, config.output});
+    weights.notes.push_back(note_of(summary));
+    prediction::write_weights(folder / (model + ".weights"), weights);
+    write_pth(folder / "GraphSAGENet.pth", state);
+}
+
+void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
+                  const std::string& held_out, const std::string& label, const Json& summary) {
+    core::make_folder(folder);
+    core::write_atomically(folder / "losses.csv", losses_csv(losses, held_out));
+    core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(losses, label));
+    core::write_atomically(folder / "summary.json",
+                           summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
+    Json summary = base_summary("as_published", result.outcome, run, result.losses);
+    summary["pairs"] = pairs == PairChoice::true_only ? "true" : "candidates";
+    summary["vehicle_count"] = result.dataset.vehicle_count();
+    summary["feature_count"] = result.dataset.feature_count;
+    summary["pair_count"] = result.dataset.pair_count();
+    summary["train_pair_count"] = result.split.train;
+    summary["test_pair_count"] = result.split.test;
+    summary["final_train_loss_nat"] = last_loss(result.losses, &EpochLoss::train);
+    summary["final_test_loss_nat"] = last_loss(result.losses, &EpochLoss::held_out);
+    summary["constant_test_loss_nat"] = result.constant_test_loss;
+    if (!result.state.empty()) {
+        summary["train"] = json_from(result.train_quality);
+        summary["test"] = json_from(result.test_quality);
+    }
+    summary["warnings"] = result.warnings;
+    return summary;
+}
+
+Json summary_of(const CorrectedResult& result, const CorrectedConfig& config, const RunDescription& run) {
+    Json summary = base_summary("corrected", result.outcome, run, result.losses);
+    summary["configuration"].update(json_from(config));
+    summary["seeds"] = {{"train", json_from_seeds(result.seeds.train)},
+                        {"validation", json_from_seeds(result.seeds.validation)},
+                        {"test", json_from_seeds(result.seeds.test)}};
+    summary["train_snapshot_count"] = result.train_snapshots;
+    summary["train_pair_count"] = result.train_pairs;
+    summary["final_train_loss_nat"] = last_loss(result.losses, &EpochLoss::train);
+    summary["final_validation_loss_nat"] = last_loss(result.losses, &EpochLoss::held_out);
+    summary["best_epoch"] = result.state.empty() ? Json(nullptr) : Json(result.best_epoch);
+    summary["test"] = Json::array();
+    for (const GroupQuality& group : result.groups) {
+        summary["test"].push_back({{"scenario", group.scenario.empty() ? Json("all") : Json(group.scenario)},
+                                   {"failure", group.failure.empty() ? Json("all") : Json(group.failure)},
+                                   {"net", json_from(group.net)},
+                                   {"dead_reckoning",
+                                    {{"auc", json_value(group.dead_reckoning.auc)},
+                                     {"ap", json_value(group.dead_reckoning.ap)},
+                                     {"f1", json_value(group.dead_reckoning.f1)}}}});
+    }
+    return summary;
+}
+
+std::string losses_csv(const std::vector<EpochLoss>& losses, const std::string& held_out) {
+    std::string text = fmt::format("epoch,train_loss_nat,{}_loss_nat\n", held_out);
+    for (std::size_t epoch = 0; epoch < losses.size(); ++epoch) {
+        text += fmt::format("{},{},{}\n", epoch, csv_value(losses[epoch].train),
+                            csv_value(losses[epoch].held_out));
+    }
+    return text;
+}
+
+std::string predictions_csv(const AsPublishedResult& result) {
+    std::string text = "pair,source,target,label,split,logit,probability\n";
+    const std::vector<double> probability = probabilities(result.logits);
+    for (std::size_t pair = 0; pair < result.logits.size(); ++pair) {
+        text +=
+            fmt::format("{},{},{},{},{},{},{}\n", pair, result.dataset.source[pair],
+                        result.dataset.target[pair], result.dataset.label[pair],
+                        pair < result.split.train ? "train" : "test", result.logits[pair], probability[pair]);
+    }
+    return text;
+}
+
+std::string metrics_csv(const CorrectedResult& result) {
+    std::string text = "scenario,failure";
+    core::for_each_field<metrics::LinkQuality>(
+        [&](const auto& field) { text += "," + field_name(field.name, field.unit); });
+    text += ",dead_reckoning_auc,dead_reckoning_ap,dead_reckoning_f1\n";
+    for (const GroupQuality& group : result.groups) {
+        text += group.scenario.empty() ? "all,all" : group.scenario + "," + group.failure;
+        core::for_each_field<metrics::LinkQuality>(
+            [&](const auto& field) { text += "," + csv_value(group.net.*field.member); });
+        text += fmt::format(",{},{},{}\n", csv_value(group.dead_reckoning.auc),
+                            csv_value(group.dead_reckoning.ap), csv_value(group.dead_reckoning.f1));
+    }
+    return text;
+}
+
+void write_outputs(const std::filesystem::path& folder, const AsPublishedResult& result, const Json& summary,
+                   const TrainingConfig& config) {
+    write_common(folder, result.losses, "test", "Test Loss", summary);
+    if (result.state.empty()) return;
+    core::write_atomically(folder / "predictions.csv", predictions_csv(result));
+    write_model(folder, "graphsage_as_published", result.state,
+                as_published_schema(result.dataset.feature_count), config, summary);
+}
+
+void write_outputs(const std::filesystem::path& folder, const CorrectedResult& result, const Json& summary,
+                   const TrainingConfig& config, const prediction::FeatureSchema& features) {
+    write_common(folder, result.losses, "validation", "Validation Loss", summary);
+    if (result.state.empty()) return;
+    core::write_atomically(folder / "metrics.csv", metrics_csv(result));
+    write_model(folder, "graphsage_corrected", result.state, features, config, summary);
+}
+
+std::string hash_of_files(const std::vector<std::filesystem::path>& files) {
+    std::string hashes;
+    for (const std::filesystem::path& file : files)
+        hashes += core::content_hash(core::read_file(file));
+    return core::content_hash(hashes);
+}
+
+}  // namespace clearway::training

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "prediction/graphsage.hpp"
+#include "prediction/weights.hpp"
+#include "training/graph_batch.hpp"
+
+namespace clearway::training {
+
+/// Parameters under PyTorch Geometric's names, in the order of Python's `state_dict()`.
+using StateDict = std::vector<prediction::Tensor>;
+
+struct TorchNetConfig {
+    prediction::GraphSageDimensions dimensions;
+    std::uint64_t seed = 1;       ///< Of the initial parameters.
+    double learning_rate = 0.01;  ///< Of Adam; its other numbers are torch's defaults. Dissertation 5.3.
+};
+
+/// The dissertation's GraphSAGENet in libtorch: GraphSAGE of two SAGEConv (mean, no activation between),
+/// Hadamard product of the ends of a pair, Linear, ReLU, Linear; binary cross entropy with logits; Adam. The
+/// oracle for `prediction::GraphSageNet`. Parameters start uniform in +-1/sqrt(inputs), the default of
+/// torch's Linear and of PyTorch Geometric's (kaiming_uniform with a = sqrt(5)), from a generator of its own.
+/// Runs on one processor core with deterministic algorithms: same seed and data, same bits. No header of
+/// torch is needed to use it.
+class TorchNet {
+  public:
+    explicit TorchNet(const TorchNetConfig& config);
+    TorchNet(TorchNet&&) noexcept;
+    TorchNet& operator=(TorchNet&&) noexcept;
+    ~TorchNet();
+
+    /// One logit per pair of the batch.
+    std::vector<float> logits(const GraphBatch& batch) const;
+    /// Mean loss over the pairs; NaN without pairs.
+    double loss(const GraphBatch& batch) const;
+    /// One step of Adam on the batch's mean loss. Returns the loss before the step. When that is not finite
+    /// the parameters stay as they are.
+    double train_step(const GraphBatch& batch);
+
+    StateDict state() const;
+    /// Replaces the parameters, not Adam's moments. Throws std::logic_error for other names or shapes.
+    void load(const StateDict& state);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Reads what `write_pth` wrote, or Python's `torch.save` of a plain dict, in the file's order. Throws
+/// core::InputError when the file is missing or is not a dict of float tensors.
+StateDict read_pth(const std::string& file);
+
+}  // namespace clearway::training
