@@ -12,9 +12,10 @@
 
 namespace clearway::policy {
 
-/// One part of a policy: reads the believed graph and issues leases. A condition is a list of parts. A part may keep state
-/// between steps, is used by one thread, and draws nothing at random. It never learns whether the graph is true, observed
-/// or repaired, and it never releases what it asked for: leases end by themselves.
+/// One part of a policy: reads the believed graph and issues leases. A condition is a list of parts. A part
+/// may keep state between steps, is used by one thread, and draws nothing at random. It never learns whether
+/// the graph is true, observed or repaired, and it never releases what it asked for: leases end by
+/// themselves.
 class Part {
   public:
     Part() = default;
@@ -23,7 +24,8 @@ class Part {
     virtual ~Part() = default;
 
     virtual std::string_view name() const = 0;
-    /// Called every `period` of the policy (0.5 s by default) with the belief of that moment. Appends to `leases`.
+    /// Called every `period` of the policy (0.5 s by default) with the belief of that moment. Appends to
+    /// `leases`.
     virtual void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) = 0;
 };
 

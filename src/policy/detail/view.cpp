@@ -1,0 +1,98 @@
+#include "policy/detail/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway::policy::detail {
+namespace {
+
+/// A lane that carries a vehicle this far is worth changing to (facts: 300 m).
+constexpr double far_enough_m = 300.0;
+
+}  // namespace
+
+roads::Route View::route_of(core::VehicleKey vehicle) const {
+    const traffic::VehicleInfo* info = belief_.roster->find(vehicle);
+    if (info == nullptr || !info->route.exists()) return {};
+    return belief_.roster->route(info->route);
+}
+
+bool View::is_on_route(const traffic::BelievedVehicle& vehicle) const {
+    if (!vehicle.state.lane.exists()) return false;
+    const roads::Route route = route_of(vehicle.key);
+    if (vehicle.state.route_edge >= route.size()) return false;
+    const roads::Edge& edge = network_.edge(network_.lane(vehicle.state.lane).edge);
+    return edge.internal || network_.lane(vehicle.state.lane).edge == route[vehicle.state.route_edge];
+}
+
+std::vector<traffic::BelievedVehicle> View::emergency_vehicles() const {
+    std::vector<traffic::BelievedVehicle> found;
+    for (const traffic::BelievedVehicle& own : belief_.own_states) {
+        if (is_on_route(own)) found.push_back(own);
+    }
+    for (const traffic::BelievedVehicle& vehicle : belief_.vehicles) {
+        if (vehicle.vehicle_class != traffic::VehicleClass::emergency || !is_on_route(vehicle)) continue;
+        const bool knows_itself =
+            std::ranges::binary_search(belief_.own_states, vehicle.key, {}, &traffic::BelievedVehicle::key);
+        if (!knows_itself) found.push_back(vehicle);
+    }
+    std::ranges::sort(found, {}, &traffic::BelievedVehicle::key);
+    return found;
+}
+
+core::MetresPerSecond View::allowed_speed(const traffic::BelievedVehicle& vehicle) const {
+    const traffic::VehicleInfo* info = belief_.roster->find(vehicle.key);
+    if (info == nullptr || !vehicle.state.lane.exists()) return {};
+    const float by_road = network_.lane(vehicle.state.lane).speed_limit_mps * info->speed_factor;
+    return core::MetresPerSecond(std::min(by_road, info->maximum_speed_mps));
+}
+
+std::optional<core::EdgeIndex> View::edge_of(const traffic::BelievedVehicle& vehicle) const {
+    if (!vehicle.state.lane.exists()) return std::nullopt;
+    return network_.lane(vehicle.state.lane).edge;
+}
+
+std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& vehicle,
+                                               core::Metres horizon) const {
+    std::vector<VehicleAhead> ahead;
+    const roads::Route route = route_of(vehicle.key);
+    const auto reach = static_cast<float>(horizon.value);
+    for (const traffic::BelievedVehicle& other : belief_.vehicles) {
+        // No way is shorter than the straight one; this spares most vehicles the walk along the route.
+        if (std::abs(other.state.x_m - vehicle.state.x_m) > reach ||
+            std::abs(other.state.y_m - vehicle.state.y_m) > reach)
+            continue;
+        if (other.key == vehicle.key || !other.state.lane.exists()) continue;
+        const auto distance = roads::distance_ahead(network_, route, vehicle.state, other.state, horizon);
+        if (distance) ahead.push_back({&other, distance->value});
+    }
+    std::ranges::stable_sort(ahead, {}, &VehicleAhead::distance_m);
+    return ahead;
+}
+
+bool View::may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const {
+    if (!is_on_route(vehicle)) return false;
+    const core::EdgeIndex edge_index = network_.lane(vehicle.state.lane).edge;
+    const roads::Edge& edge = network_.edge(edge_index);
+    if (edge.internal || number >= edge.lane_count) return false;
+    const core::LaneIndex lane = network_.lane_of(edge_index, number);
+    const bool is_emergency = vehicle.vehicle_class == traffic::VehicleClass::emergency;
+    if (!(is_emergency ? network_.lane(lane).allows_emergency : network_.lane(lane).allows_cars))
+        return false;
+    const roads::Route route = route_of(vehicle.key);
+    const core::Metres to_end = roads::distance_to_end(network_, route, vehicle.state);
+    const core::Metres position(vehicle.state.lane_position_m);
+    const core::Metres carried =
+        roads::drivable(network_, route, vehicle.state.route_edge, lane, position, core::Metres(1000.0));
+    return carried.value > far_enough_m || carried.value >= to_end.value - 1.0;
+}
+
+std::vector<std::uint32_t> View::usable_neighbours(const traffic::BelievedVehicle& vehicle) const {
+    std::vector<std::uint32_t> usable;
+    const std::uint32_t number = lane_number(vehicle);
+    if (number > 0 && may_use_lane(vehicle, number - 1)) usable.push_back(number - 1);
+    if (may_use_lane(vehicle, number + 1)) usable.push_back(number + 1);
+    return usable;
+}
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "roads/route.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/lease.hpp"
+
+namespace clearway::policy::detail {
+
+/// A link is taken to exist from this probability on.
+inline constexpr float link_exists = 0.5F;
+/// Below this speed a vehicle counts as standing in a queue, m/s (walking pace is 1.4).
+inline constexpr float halted_mps = 0.5F;
+/// How long a lease of these parts lives unless renewed, s: facts section 3.
+inline constexpr double usual_lease_s = 2.0;
+
+/// A vehicle believed ahead of another on its route.
+struct VehicleAhead {
+    const traffic::BelievedVehicle* vehicle = nullptr;
+    double distance_m = 0.0;  ///< Front to front, along the route.
+};
+
+/// Questions that several parts ask of a belief. Refers to the belief and the network; use it within one
+/// `act`.
+class View {
+  public:
+    View(const roads::Network& network, const traffic::BelievedGraph& belief)
+        : network_(network), belief_(belief) {}
+
+    const roads::Network& network() const { return network_; }
+    const traffic::BelievedGraph& belief() const { return belief_; }
+
+    /// Every emergency vehicle on the road that has a place on its route, by what it knows of itself, or else
+    /// as believed. Ordered by key.
+    std::vector<traffic::BelievedVehicle> emergency_vehicles() const;
+
+    /// Empty when the vehicle is not registered.
+    roads::Route route_of(core::VehicleKey vehicle) const;
+    /// Lane and route are known and fit together, so that questions about the route may be asked.
+    bool is_on_route(const traffic::BelievedVehicle& vehicle) const;
+    /// Highest speed that road and registration allow; 0 for an unregistered vehicle or no lane.
+    core::MetresPerSecond allowed_speed(const traffic::BelievedVehicle& vehicle) const;
+    /// The edge a vehicle is on, nothing without a lane.
+    std::optional<core::EdgeIndex> edge_of(const traffic::BelievedVehicle& vehicle) const;
+    std::uint32_t lane_number(const traffic::BelievedVehicle& vehicle) const {
+        return network_.lane(vehicle.state.lane).number;
+    }
+
+    /// Vehicles believed ahead on the route of `vehicle`, nearest first, itself left out.
+    std::vector<VehicleAhead> vehicles_ahead(const traffic::BelievedVehicle& vehicle,
+                                             core::Metres horizon) const;
+
+    /// Whether lane `number` of the present edge exists, is open to the vehicle, and carries it along its
+    /// route for over 300 m or to the route's end: the rule by which actuation judges.
+    bool may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const;
+    /// The neighbouring lanes that `may_use_lane` allows, the outer (lower) one first.
+    std::vector<std::uint32_t> usable_neighbours(const traffic::BelievedVehicle& vehicle) const;
+
+  private:
+    const roads::Network& network_;
+    const traffic::BelievedGraph& belief_;
+};
+
+/// Writes the leases of one part.
+class LeaseWriter {
+  public:
+    /// `policy` has static storage.
+    LeaseWriter(const char* policy, core::Seconds now, std::vector<traffic::Lease>& leases)
+        : policy_(policy), now_(now), leases_(leases) {}
+
+    /// `reason` has static storage; `beneficiary` is the emergency vehicle served.
+    void add(traffic::Target target, traffic::Action action, const char* reason, core::VehicleKey beneficiary,
+             double duration_s = usual_lease_s) {
+        leases_.push_back(
+            {target, std::move(action), now_ + core::Seconds(duration_s), 0, policy_, reason, beneficiary});
+    }
+
+  private:
+    const char* policy_;
+    core::Seconds now_;
+    std::vector<traffic::Lease>& leases_;
+};
+
+}  // namespace clearway::policy::detail

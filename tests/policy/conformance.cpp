@@ -1,0 +1,149 @@
+#include "policy/conformance.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace clearway::testing {
+namespace {
+
+using traffic::VehicleClass;
+
+const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
+
+std::string describe(const traffic::Lease& lease) {
+    std::ostringstream text;
+    if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) text << "v" << vehicle->value;
+    if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) text << "s" << signal->value;
+    text << ' ' << traffic::name(lease.action) << ' ' << lease.expiry.value << ' ' << lease.priority << ' '
+         << lease.policy << ' ' << lease.reason << ' ' << lease.beneficiary.value;
+    if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) text << ' ' << drive->speed.value;
+    if (const auto* lane = std::get_if<traffic::ChangeLane>(&lease.action)) text << ' ' << lane->lane_number;
+    if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
+        for (const std::uint16_t link : hold->links)
+            text << ' ' << link;
+    }
+    if (const auto* favour = std::get_if<traffic::FavourLinks>(&lease.action)) {
+        for (const std::uint16_t link : favour->links)
+            text << ' ' << link;
+    }
+    return text.str();
+}
+
+void expect_legal_links(core::SignalIndex signal, const std::vector<std::uint16_t>& links) {
+    EXPECT_FALSE(links.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(links));
+    EXPECT_EQ(std::ranges::adjacent_find(links), links.end()) << "a link twice";
+    for (const std::uint16_t link : links)
+        EXPECT_LT(link, two_crossings().signal(signal).links.size());
+}
+
+}  // namespace
+
+core::VehicleKey emergency_key() {
+    return core::vehicle_key("e");
+}
+
+void add_helpful_scene(ActuationBench& bench) {
+    const auto add = [&](const std::string& id, VehicleClass kind, std::vector<std::string> route,
+                         std::uint32_t lane, double position_m, double speed_mps) {
+        bench.add({id, kind, std::move(route), lane, position_m, speed_mps});
+    };
+    add("e", VehicleClass::emergency, eastbound, 1, 370.0, 12.0);
+    add("a1", VehicleClass::automated, eastbound, 1, 400.0, 10.0);
+    add("a2", VehicleClass::automated, eastbound, 0, 366.0, 12.0);
+    add("h1", VehicleClass::human, eastbound, 1, 480.0, 0.0);
+    add("h2", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0);
+    add("h3", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 277.0, 0.0);
+}
+
+void add_needless_scene(ActuationBench& bench) {
+    bench.add({"e", VehicleClass::emergency, {"B_east"}, 0, 150.0, 14.0});
+    bench.add({"a1", VehicleClass::automated, eastbound, 1, 400.0, 10.0});
+    bench.add({"a2", VehicleClass::automated, {"south_a_A", "A_north_a"}, 0, 100.0, 12.0});
+    bench.add({"h1", VehicleClass::human, eastbound, 1, 480.0, 0.0});
+}
+
+void PartRun::act() {
+    traffic::BelievedGraph& belief = bench_.scene.belief();
+    belief.time = bench_.now;
+    belief.signals.state = bench_.shown;
+    std::vector<traffic::Lease> leases;
+    part_->act(belief, leases);
+    for (const traffic::Lease& lease : leases) {
+        expect_legal(lease);
+        leases_.push_back(describe(lease));
+    }
+    bench_.actuator.accept(leases, bench_.now);
+}
+
+void PartRun::run_for(double duration_s) {
+    const double end_s = bench_.now.value + duration_s;
+    while (bench_.now.value < end_s - 1e-9) {
+        act();
+        const double next_s = std::min(end_s, bench_.now.value + 0.5);
+        const std::vector<traffic::Command> commands = bench_.run_until(next_s);
+        commands_.insert(commands_.end(), commands.begin(), commands.end());
+    }
+}
+
+void PartRun::remove(core::VehicleKey vehicle) {
+    bench_.scene.remove(vehicle);
+    bench_.on_road.erase(vehicle);
+}
+
+void PartRun::expect_legal(const traffic::Lease& lease) {
+    SCOPED_TRACE(describe(lease));
+    EXPECT_GT(lease.expiry, bench_.now);
+    EXPECT_LE(lease.expiry.value, bench_.now.value + 60.0);
+    EXPECT_STRNE(lease.reason, "");
+    EXPECT_STRNE(lease.policy, "");
+    if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) {
+        ASSERT_LT(signal->value, two_crossings().signals().size());
+        if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action))
+            expect_legal_links(*signal, hold->links);
+        else
+            expect_legal_links(*signal, std::get<traffic::FavourLinks>(lease.action).links);
+        return;
+    }
+    const core::VehicleKey vehicle = std::get<core::VehicleKey>(lease.target);
+    ASSERT_TRUE(bench_.on_road.contains(vehicle));
+    EXPECT_NE(bench_.scene.roster().find(vehicle)->vehicle_class, VehicleClass::human);
+    const roads::Lane& lane = two_crossings().lane(bench_.on_road.at(vehicle).lane);
+    if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) {
+        EXPECT_TRUE(std::isfinite(drive->speed.value));
+        EXPECT_GE(drive->speed.value, 0.0);
+        EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6);
+    }
+    if (const auto* change = std::get_if<traffic::ChangeLane>(&lease.action)) {
+        EXPECT_LT(change->lane_number, two_crossings().edge(lane.edge).lane_count);
+    }
+}
+
+void expect_all_given_back(const std::vector<traffic::Command>& commands) {
+    std::set<core::VehicleKey> speeds;
+    std::map<core::VehicleKey, int> odd;
+    std::set<std::uint32_t> signals;
+    for (const traffic::Command& command : commands) {
+        if (const auto* set = std::get_if<traffic::SetSpeed>(&command)) speeds.insert(set->vehicle);
+        if (const auto* release = std::get_if<traffic::ReleaseSpeed>(&command)) {
+            EXPECT_EQ(speeds.erase(release->vehicle), 1U) << "released what was not set";
+        }
+        if (const auto* freedom = std::get_if<traffic::SetLaneChangeFreedom>(&command))
+            odd[freedom->vehicle] = freedom->freedom != traffic::LaneChangeFreedom::normal;
+        if (const auto* privilege = std::get_if<traffic::SetJunctionPrivilege>(&command))
+            odd[privilege->vehicle] = privilege->privilege != traffic::JunctionPrivilege::none;
+        if (const auto* state = std::get_if<traffic::SetSignalState>(&command))
+            signals.insert(state->signal.value);
+        if (const auto* restore = std::get_if<traffic::RestoreProgram>(&command)) {
+            EXPECT_EQ(signals.erase(restore->signal.value), 1U) << "restored what was not held";
+        }
+    }
+    EXPECT_TRUE(speeds.empty()) << "a set speed was left behind";
+    EXPECT_TRUE(signals.empty()) << "a signal was left behind";
+    for (const auto& [vehicle, is_odd] : odd)
+        EXPECT_FALSE(is_odd) << "a freedom was left behind";
+}
+
+}  // namespace clearway::testing

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "actuation/fakes.hpp"
+#include "policy/part.hpp"
+
+namespace clearway::testing {
+
+/// The scene that every part has something to do in: an emergency vehicle 120 m before a red signal,
+/// automated vehicles ahead of it on its lane and beside it, and queues of human drivers ahead of it and on
+/// the crossing street.
+void add_helpful_scene(ActuationBench& bench);
+/// The scene in which no part has: traffic of all kinds, but the emergency vehicle is past the last signal
+/// and alone.
+void add_needless_scene(ActuationBench& bench);
+
+/// Key of the emergency vehicle of these scenes.
+core::VehicleKey emergency_key();
+
+/// Runs a part at a period of 0.5 s on what is believed of the bench's vehicles, with its leases carried out.
+/// Vehicles stand still. Checks that each lease is legal, and keeps them all.
+class PartRun {
+  public:
+    PartRun(std::unique_ptr<policy::Part> part, ActuationBench& bench)
+        : part_(std::move(part)), bench_(bench) {}
+
+    void run_for(double duration_s);
+    void remove(core::VehicleKey vehicle);
+
+    /// One line a lease.
+    const std::vector<std::string>& leases() const { return leases_; }
+    const std::vector<traffic::Command>& commands() const { return commands_; }
+
+  private:
+    void act();
+    void expect_legal(const traffic::Lease& lease);
+
+    std::unique_ptr<policy::Part> part_;
+    ActuationBench& bench_;
+    std::vector<std::string> leases_;
+    std::vector<traffic::Command> commands_;
+};
+
+/// Every vehicle and signal is as it was before the commands: whatever was set was given back.
+void expect_all_given_back(const std::vector<traffic::Command>& commands);
+
+}  // namespace clearway::testing

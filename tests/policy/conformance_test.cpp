@@ -1,0 +1,146 @@
+// What every registered part must do, whatever it is for.
+
+#include "policy/conformance.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using traffic::VehicleClass;
+
+class EveryPart : public ::testing::TestWithParam<std::string> {
+  protected:
+    static std::unique_ptr<policy::Part> make() {
+        return policy::make_part(GetParam(), policy::PartContext{two_crossings()});
+    }
+};
+
+TEST_P(EveryPart, knows_its_name) {
+    EXPECT_EQ(make()->name(), GetParam());
+}
+
+TEST_P(EveryPart, acts_in_a_scene_made_for_it) {
+    ActuationBench bench;
+    add_helpful_scene(bench);
+    PartRun run(make(), bench);
+    run.run_for(5.0);
+    EXPECT_FALSE(run.leases().empty());
+}
+
+TEST_P(EveryPart, does_nothing_in_a_scene_made_against_it) {
+    ActuationBench bench;
+    add_needless_scene(bench);
+    PartRun run(make(), bench);
+    run.run_for(5.0);
+    EXPECT_EQ(run.leases(), std::vector<std::string>{});
+}
+
+TEST_P(EveryPart, gives_the_same_leases_for_the_same_belief) {
+    std::vector<std::vector<std::string>> leases;
+    for (int repeat = 0; repeat < 2; ++repeat) {
+        ActuationBench bench;
+        add_helpful_scene(bench);
+        PartRun run(make(), bench);
+        run.run_for(10.0);
+        leases.push_back(run.leases());
+    }
+    EXPECT_EQ(leases[0], leases[1]);
+}
+
+TEST_P(EveryPart, does_nothing_on_an_empty_road) {
+    ActuationBench bench;
+    PartRun run(make(), bench);
+    run.run_for(5.0);
+    EXPECT_TRUE(run.leases().empty());
+}
+
+TEST_P(EveryPart, does_nothing_for_one_vehicle_that_is_no_emergency_vehicle) {
+    for (const VehicleClass kind : {VehicleClass::human, VehicleClass::automated}) {
+        ActuationBench bench;
+        bench.add({"only", kind, {"west_A", "A_B"}, 0, 400.0, 10.0});
+        PartRun run(make(), bench);
+        run.run_for(5.0);
+        EXPECT_TRUE(run.leases().empty());
+    }
+}
+
+TEST_P(EveryPart, gives_legal_leases_for_an_emergency_vehicle_alone_or_first_in_the_queue) {
+    for (const double position_m : {0.5, 300.0, 488.0}) {
+        ActuationBench bench;
+        bench.add({"e", VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 0, position_m, 0.0});
+        PartRun run(make(), bench);
+        run.run_for(10.0);
+    }
+}
+
+TEST_P(EveryPart, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
+    ActuationBench bench;
+    add_helpful_scene(bench);
+    PartRun run(make(), bench);
+    run.run_for(1.0);
+    const core::LaneIndex inside = two_crossings().find_lane(":A_13_0").value();
+    for (traffic::BelievedVehicle& own : bench.scene.belief().own_states)
+        own.state.lane = inside;
+    for (traffic::BelievedVehicle& vehicle : bench.scene.belief().vehicles) {
+        vehicle.state.lane =
+            vehicle.vehicle_class == VehicleClass::emergency ? inside : core::LaneIndex::none();
+    }
+    run.run_for(3.0);
+}
+
+TEST_P(EveryPart, serves_two_emergency_vehicles_that_cross) {
+    ActuationBench bench;
+    add_helpful_scene(bench);
+    bench.add({"e2", VehicleClass::emergency, {"north_a_A", "A_south_a"}, 1, 220.0, 12.0});
+    bench.add({"a3", VehicleClass::automated, {"north_a_A", "A_south_a"}, 1, 245.0, 8.0});
+    PartRun run(make(), bench);
+    run.run_for(20.0);
+    EXPECT_FALSE(run.leases().empty());
+    run.remove(emergency_key());
+    run.run_for(10.0);
+    run.remove(core::vehicle_key("e2"));
+    run.run_for(120.0);
+    std::vector<traffic::Command> commands;
+    bench.actuator.restore_all(commands);
+    for (const traffic::Command& command : commands) {
+        EXPECT_FALSE(std::holds_alternative<traffic::RestoreProgram>(command)) << "back long before";
+    }
+}
+
+TEST_P(EveryPart, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
+    ActuationBench bench;
+    add_helpful_scene(bench);
+    PartRun run(make(), bench);
+    run.run_for(10.0);
+    run.remove(emergency_key());
+    run.run_for(60.0);
+    std::vector<traffic::Command> commands = run.commands();
+    const std::size_t before = commands.size();
+    bench.actuator.restore_all(commands);
+    if (GetParam() != "listing_5_5") {
+        EXPECT_EQ(commands.size(), before) << "all leases had ended already";
+    }
+    // The vehicle that vanished took its own settings with it.
+    std::erase_if(commands, [](const traffic::Command& command) {
+        return std::visit(
+            [](const auto& kind) {
+                if constexpr (requires { kind.vehicle; }) return kind.vehicle == emergency_key();
+                return false;
+            },
+            command);
+    });
+    expect_all_given_back(commands);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+std::vector<std::string> part_names() {
+    std::vector<std::string> names;
+    for (const policy::PartEntry& entry : policy::parts())
+        names.push_back(entry.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, EveryPart, ::testing::ValuesIn(part_names()),
+                         [](const auto& part) { return part.param; });
+
+}  // namespace
+}  // namespace clearway::testing
