@@ -1,7 +1,7 @@
 #include "sumo/session.hpp"
 
-#include <chrono>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -147,7 +147,8 @@ void Session::step() {
     state_->guarded("SUMO cannot step", [this] {
         const auto started = std::chrono::steady_clock::now();
         gateway::step();
-        state_->step_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        state_->step_wall_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
         state_->observer.observe(state_->snapshot, state_->events);
     });
 }

@@ -56,8 +56,8 @@ struct SetSafetyChecks {
     core::VehicleKey vehicle;
     SafetyChecks checks = SafetyChecks::on;
 };
-/// Stand still as soon as braking allows with the usual deceleration, at the latest at `position` of the
-/// present lane.
+/// Stand still at `position` of the present lane or, where the usual deceleration does not suffice for that,
+/// as soon after it as it does. Without effect, and counted, when that is beyond the end of the lane.
 struct StopOnLane {
     core::VehicleKey vehicle;
     core::Metres position;

@@ -1,7 +1,6 @@
 #include "sumo/detail/commander.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -15,17 +14,13 @@ namespace clearway::sumo::detail {
 namespace {
 
 constexpr int speed_mode_default = 31;
+constexpr int speed_mode_pass_red = 15;
 constexpr int lane_change_default = 1621;
 constexpr int lane_change_strategic_only = 1537;
 constexpr int lane_change_none = 1536;
 constexpr int mode_without_checks = 0;
 constexpr double released_speed = -1.0;
 constexpr std::string_view signal_letters = "GgyruosO";
-
-/// How a vehicle with privilege passes red: whenever it turned red, at 20 km/h, still yielding to others in
-/// the junction. The figures are those of SUMO's own emergency device.
-constexpr std::array<std::pair<const char*, const char*>, 2> pass_red = {
-    {{"junctionModel.jmDriveAfterRedTime", "300"}, {"junctionModel.jmDriveRedSpeed", "5.56"}}};
 
 void require(bool holds, const std::string& otherwise) {
     if (!holds) throw std::invalid_argument(otherwise);
@@ -117,12 +112,8 @@ void Commander::run(const traffic::SetLateralAlignment& command) {
 void Commander::run(const traffic::SetJunctionPrivilege& command) {
     Vehicle* vehicle = present(command.vehicle);
     if (vehicle == nullptr) return;
-    std::map<std::string, std::string>& usual = vehicle->controls.usual_parameters;
-    for (const auto& [name, value] : pass_red) {
-        if (!usual.contains(name)) usual.emplace(name, gateway::parameter(vehicle->id, name));
-        const bool granted = command.privilege == traffic::JunctionPrivilege::pass_red;
-        gateway::set_parameter(vehicle->id, name, granted ? value : usual.at(name));
-    }
+    vehicle->controls.privilege = command.privilege;
+    set_modes(*vehicle);
 }
 
 void Commander::run(const traffic::SetLaneChangeFreedom& command) {
@@ -140,10 +131,15 @@ void Commander::run(const traffic::SetSafetyChecks& command) {
 }
 
 void Commander::set_modes(const Vehicle& vehicle) const {
-    const bool checked = vehicle.controls.checks == traffic::SafetyChecks::on;
-    gateway::set_speed_mode(vehicle.id, checked ? speed_mode_default : mode_without_checks);
-    gateway::set_lane_change_mode(vehicle.id,
-                                  checked ? lane_change_mode(vehicle.controls.freedom) : mode_without_checks);
+    const Controls& controls = vehicle.controls;
+    if (controls.checks == traffic::SafetyChecks::off) {
+        gateway::set_speed_mode(vehicle.id, mode_without_checks);
+        gateway::set_lane_change_mode(vehicle.id, mode_without_checks);
+        return;
+    }
+    const bool may_pass_red = controls.privilege == traffic::JunctionPrivilege::pass_red;
+    gateway::set_speed_mode(vehicle.id, may_pass_red ? speed_mode_pass_red : speed_mode_default);
+    gateway::set_lane_change_mode(vehicle.id, lane_change_mode(controls.freedom));
 }
 
 void Commander::run(const traffic::StopOnLane& command) {

@@ -22,7 +22,10 @@ enum class LateralModel : std::uint8_t { lanes, sublanes };
 /// - LaneChangeFreedom::none is 1536: no change of its own, gaps respected, and lateral alignment still
 /// works.
 ///   SUMO's 512 would forbid that as well without saying so.
-/// - SafetyChecks::off is speedMode 0 and laneChangeMode 0, whatever the freedom.
+/// - JunctionPrivilege::pass_red is speedMode 15: red does not hold the vehicle, right of way does. How
+/// slowly
+///   it passes is the type's jmDriveRedSpeed; SUMO 1.15 cannot change that of a vehicle on its way.
+/// - SafetyChecks::off is speedMode 0 and laneChangeMode 0, whatever else is set.
 class Commander {
   public:
     /// `fleet` and `names` outlive the commander.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +19,7 @@ struct Controls {
     traffic::LaneChangeFreedom freedom = traffic::LaneChangeFreedom::normal;
     traffic::SafetyChecks checks = traffic::SafetyChecks::on;
     std::optional<std::string> usual_alignment;
-    std::map<std::string, std::string> usual_parameters;     ///< Of SUMO's junction model.
+    traffic::JunctionPrivilege privilege = traffic::JunctionPrivilege::none;
     std::optional<std::pair<std::string, double>> own_stop;  ///< Lane and position of a commanded stop.
 };
 

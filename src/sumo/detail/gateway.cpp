@@ -237,14 +237,6 @@ void set_lateral_alignment(const std::string& vehicle, const std::string& alignm
     call([&] { api::Vehicle::setLateralAlignment(vehicle, alignment); });
 }
 
-std::string parameter(const std::string& vehicle, const std::string& name) {
-    return call([&] { return api::Vehicle::getParameter(vehicle, name); });
-}
-
-void set_parameter(const std::string& vehicle, const std::string& name, const std::string& value) {
-    call([&] { api::Vehicle::setParameter(vehicle, name, value); });
-}
-
 void stop(const std::string& vehicle, const Stop& stop) {
     call([&] {
         api::Vehicle::setStop(vehicle, stop.edge, stop.position_m, stop.lane_number, stop.duration_s);

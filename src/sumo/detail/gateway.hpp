@@ -109,8 +109,6 @@ void set_lane_change_mode(const std::string& vehicle, int mode);
 void change_lane(const std::string& vehicle, int lane_number, double duration_s);
 std::string lateral_alignment(const std::string& vehicle);
 void set_lateral_alignment(const std::string& vehicle, const std::string& alignment);
-std::string parameter(const std::string& vehicle, const std::string& name);
-void set_parameter(const std::string& vehicle, const std::string& name, const std::string& value);
 
 struct Stop {
     std::string edge;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/error.hpp"
+#include <utility>
+#include <vector>
 
 namespace clearway::sumo::detail {
 namespace {
@@ -140,18 +140,25 @@ void Observer::register_vehicle(Vehicle& vehicle) {
 }
 
 void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
-    fleet_.number_rows();
-    snapshot.resize(fleet_.rows().size());
     const bool check_routes = snapshot.time.value - routes_checked_s_ >= route_check_period_s;
     if (check_routes) routes_checked_s_ = snapshot.time.value;
-    for (Vehicle* vehicle : fleet_.on_road()) {
-        if (!gateway::read(vehicle->id, reading_))
-            throw core::SimulatorError("vehicle '" + vehicle->id +
-                                       "' has left the road without a word from the simulator");
-        if (check_routes) follow_route(*vehicle);
-        store(*vehicle, snapshot);
-        note_braking(*vehicle, events);
-    }
+    std::vector<Vehicle*> gone;
+    do {
+        for (Vehicle* vehicle : std::exchange(gone, {}))
+            fleet_.take_off_road(*vehicle);
+        fleet_.number_rows();
+        snapshot.resize(fleet_.rows().size());
+        for (Vehicle* vehicle : fleet_.on_road()) {
+            if (!gateway::read(vehicle->id, reading_)) {
+                gone.push_back(vehicle);
+                continue;
+            }
+            if (check_routes) follow_route(*vehicle);
+            store(*vehicle, snapshot);
+            note_braking(*vehicle, events);
+        }
+        // SUMO tells of a removal after a collision a step late: the rows are read again without the vehicle.
+    } while (!gone.empty());
 }
 
 void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
@@ -177,10 +184,11 @@ void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
 
 void Observer::note_braking(Vehicle& vehicle, truth::Events& events) const {
     const auto deceleration_mps2 = static_cast<float>(-reading_.acceleration_mps2);
-    const float beyond_usual_mps2 = deceleration_mps2 - vehicle.deceleration_mps2 - braking_tolerance_mps2;
-    const float threshold_mps2 =
+    const float beyond_usual_mps2 = deceleration_mps2 - vehicle.deceleration_mps2;
+    const float reserve_mps2 =
         std::max(braking_tolerance_mps2, vehicle.emergency_deceleration_mps2 - vehicle.deceleration_mps2);
-    const bool is_hard = beyond_usual_mps2 >= threshold_mps2;
+    const bool is_hard = beyond_usual_mps2 > braking_tolerance_mps2 &&
+                         beyond_usual_mps2 + braking_tolerance_mps2 >= reserve_mps2;
     if (is_hard && !vehicle.braking_hard)
         events.emergency_brakings.push_back({vehicle.key, deceleration_mps2});
     vehicle.braking_hard = is_hard;

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "sumo/session.hpp"
+
+namespace clearway::test {
+
+/// A folder of its own for the running test, empty at first and removed with the object.
+class Scene {
+  public:
+    Scene();
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    const std::filesystem::path& folder() const { return folder_; }
+    /// Writes a text file and gives its path.
+    std::filesystem::path write(const std::string& name, const std::string& text) const;
+
+    /// Two edges of two lanes eastward, `in` (0 to 500 m) and `out` (500 to 1000 m), 13.89 m/s, no signal.
+    std::filesystem::path straight_road() const;
+    /// A crossing at (0, 0) with a signal, `c`, and four arms of 200 m and two lanes: edges `west_in`,
+    /// `east_out` and so on.
+    std::filesystem::path crossing() const;
+    /// Types `hv` (Krauss, imperfection 0), `av` and `ev` (IDM), with their class and kind.
+    std::filesystem::path types() const;
+    /// A route file: `vehicles` are XML elements.
+    std::filesystem::path routes(const std::string& vehicles) const;
+    /// A configuration with these types and routes, and the names that stand in the network file.
+    sumo::SessionConfig config(const std::filesystem::path& network, const std::string& vehicles) const;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+/// The names in a network file, in the order of the file.
+sumo::Names read_names(const std::filesystem::path& network);
+
+/// A vehicle element that drives `edges`.
+std::string vehicle(const std::string& id, const std::string& type, double depart_s, const std::string& edges,
+                    const std::string& attributes = "");
+
+/// Steps until `time_s` is reached.
+void step_until(sumo::Session& session, double time_s);
+
+/// The whole text of a file, with the moment of writing, which SUMO puts in a comment, blotted out.
+std::string text_without_date(const std::filesystem::path& file);
+
+inline core::VehicleKey key(const std::string& id) {
+    return core::vehicle_key(id);
+}
+
+}  // namespace clearway::test
