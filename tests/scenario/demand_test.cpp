@@ -1,8 +1,9 @@
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
-#include <regex>
 #include <set>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -27,8 +28,11 @@ struct Row {
 };
 
 std::string attribute(const std::string& element, const std::string& name) {
-    std::smatch match;
-    return std::regex_search(element, match, std::regex(" " + name + "=\"([^\"]*)\"")) ? match[1].str() : "";
+    const std::string mark = " " + name + "=\"";
+    const std::size_t start = element.find(mark);
+    if (start == std::string::npos) return "";
+    const std::size_t end = element.find('"', start + mark.size());
+    return element.substr(start + mark.size(), end - start - mark.size());
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -277,9 +281,10 @@ TEST_F(CustomDemand, emergency_trip_takes_its_own_route_and_departure) {
 TEST_F(CustomDemand, trips_longer_than_the_network_are_refused) {
     init(folder() / "far", "city");
     const std::filesystem::path file = folder() / "far" / "scenario.toml";
-    const std::string text = core::read_file(file);
-    core::write_atomically(file, std::regex_replace(text, std::regex("emergency_minimum_length_m = 1000.0"),
-                                                    "emergency_minimum_length_m = 900000.0"));
+    std::string text = core::read_file(file);
+    const std::string from = "emergency_minimum_length_m = 1000.0";
+    core::write_atomically(
+        file, text.replace(text.find(from), from.size(), "emergency_minimum_length_m = 900000.0"));
     const auto found = problems_of([&] { prepared(file.string()); });
     ASSERT_EQ(found.size(), 1U);
     EXPECT_THAT(found[0].where, HasSubstr("trips.emergency_minimum_length_m"));
