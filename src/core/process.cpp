@@ -67,9 +67,11 @@ std::optional<Exit> collect(const Child& child, int options) {
     return exit;
 }
 
-[[noreturn]] void become(const Command& command, int output, char** arguments, char** environment) {
+[[noreturn]] void become(const Command& command, int output, pid_t parent, char** arguments,
+                         char** environment) {
     // Only calls that are safe after a fork in a program with threads.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(128 + SIGTERM);  // It died before the request stood.
     if (output >= 0) {
         dup2(output, STDOUT_FILENO);
         dup2(output, STDERR_FILENO);
@@ -99,9 +101,12 @@ Child start(const Command& command) {
     const std::vector<char*> arguments = pointers(words);
     const std::vector<char*> environment = pointers(entries);
 
+    const pid_t parent = getpid();
     const pid_t child = fork();
-    if (child == 0)
-        become(command, output, const_cast<char**>(arguments.data()), const_cast<char**>(environment.data()));
+    if (child == 0) {
+        become(command, output, parent, const_cast<char**>(arguments.data()),
+               const_cast<char**>(environment.data()));
+    }
     if (output >= 0) close(output);
     if (child < 0) throw EnvironmentError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
     return {child, std::chrono::steady_clock::now()};

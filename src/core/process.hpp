@@ -13,10 +13,11 @@ namespace clearway::core {
 
 /// How a child process is started. Arguments are passed as they are; no shell is involved.
 struct Command {
-    std::filesystem::path program;                   ///< Path, or a name looked up in PATH.
-    std::vector<std::string> arguments;              ///< Without argv[0].
-    std::map<std::string, std::string> environment;  ///< Added to, or replacing, the parent's.
-    std::filesystem::path output;  ///< Both streams go to this file (created, truncated); empty: inherited.
+    std::filesystem::path program;                        ///< Path, or a name looked up in PATH.
+    std::vector<std::string> arguments = {};              ///< Without argv[0].
+    std::map<std::string, std::string> environment = {};  ///< Added to, or replacing, the parent's.
+    std::filesystem::path output =
+        {};  ///< Both streams go to this file (created, truncated); empty: inherited.
 };
 
 /// How a child ended.

@@ -1,0 +1,55 @@
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clearway::core {
+namespace {
+
+TEST(Problem, PrintsWhereWhatAllowedAndCure) {
+    EXPECT_EQ(format_problem({"city.toml:3", "-3 is negative", "0 to 100", "Use a count"}),
+              "city.toml:3: -3 is negative (allowed: 0 to 100). Use a count");
+    EXPECT_EQ(format_problem({"city.toml:3", "-3 is negative", "", ""}), "city.toml:3: -3 is negative");
+    EXPECT_EQ(format_problem({"--seed", "\"x\" is no number", "a number", ""}),
+              "--seed: \"x\" is no number (allowed: a number)");
+}
+
+TEST(InputError, ListsEveryProblemOnALineOfItsOwn) {
+    const InputError error({{"a", "one", "", ""}, {"b", "two", "", ""}});
+    EXPECT_STREQ(error.what(), "a: one\nb: two");
+    EXPECT_EQ(error.problems().size(), 2u);
+    EXPECT_EQ(error.problems()[1].where, "b");
+    EXPECT_EQ(error.exit_code(), ExitCode::bad_input);
+    EXPECT_STREQ(InputError(Problem{"a", "one", "", ""}).what(), "a: one");
+}
+
+TEST(SimulatorError, GainsContextOnItsWayUp) {
+    const SimulatorError error("cannot insert");
+    EXPECT_STREQ(error.with_context("vehicle e1").with_context("time 12.5 s").what(),
+                 "time 12.5 s: vehicle e1: cannot insert");
+    EXPECT_EQ(error.with_context("x").exit_code(), ExitCode::runs_failed);
+}
+
+TEST(Errors, CarryTheirExitCodes) {
+    EXPECT_EQ(static_cast<int>(EnvironmentError("x").exit_code()), 4);
+    EXPECT_EQ(static_cast<int>(ConflictError("x").exit_code()), 7);
+    EXPECT_EQ(static_cast<int>(InputError(Problem{}).exit_code()), 3);
+    EXPECT_EQ(static_cast<int>(SimulatorError("x").exit_code()), 1);
+}
+
+TEST(Nearest, FindsTheWordThatWasMeant) {
+    const std::vector<std::string> words = {"radius_m", "warm_up_s", "seeds"};
+    EXPECT_EQ(nearest("radius_n", words), "radius_m");
+    EXPECT_EQ(nearest("warmup_s", words), "warm_up_s");
+    EXPECT_EQ(nearest("sedes", words), "seeds");
+    EXPECT_EQ(nearest("seeds", words), "seeds");
+    EXPECT_EQ(nearest("temperature", words), "");
+    EXPECT_EQ(nearest("x", {}), "");
+}
+
+TEST(Nearest, PrefersTheSmallerDistanceThenTheEarlierWord) {
+    EXPECT_EQ(nearest("lanes", {"lines", "lane", "lanes_m"}), "lines");
+    EXPECT_EQ(nearest("lanes", {"planets", "lane"}), "lane");
+}
+
+}  // namespace
+}  // namespace clearway::core

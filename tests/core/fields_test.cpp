@@ -1,0 +1,62 @@
+#include "core/fields.hpp"
+
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/units.hpp"
+
+namespace clearway::core {
+namespace {
+
+struct Config {
+    double radius_m = 50.0;
+    int lanes = 2;
+    std::string name = "city";
+
+    static constexpr auto fields() {
+        return std::make_tuple(
+            Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.", "assumed"},
+            Field{"lanes", "1", &Config::lanes, 1.0, 9.0, "Lanes.", "TABLE I"},
+            Field{"name", "", &Config::name, 0.0, 0.0, "Name.", ""});
+    }
+};
+
+TEST(Fields, AreVisitedInTheOrderOfTheirTable) {
+    std::vector<std::string> names;
+    for_each_field<Config>([&](const auto& field) { names.emplace_back(field.name); });
+    EXPECT_EQ(names, (std::vector<std::string>{"radius_m", "lanes", "name"}));
+}
+
+TEST(Fields, ReachTheirMembers) {
+    Config config;
+    for_each_field<Config>([&](const auto& field) {
+        auto& value = config.*field.member;
+        if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
+            EXPECT_GE(static_cast<double>(value), field.minimum);
+            EXPECT_LE(static_cast<double>(value), field.maximum);
+            value *= 2;
+        } else {
+            value += "!";
+        }
+    });
+    EXPECT_EQ(config.radius_m, 100.0);
+    EXPECT_EQ(config.lanes, 4);
+    EXPECT_EQ(config.name, "city!");
+}
+
+TEST(Units, ConvertAndCompare) {
+    EXPECT_DOUBLE_EQ(from_kmh(36.0).value, 10.0);
+    EXPECT_LT(Seconds(1.0), Seconds(1.5));
+    EXPECT_DOUBLE_EQ((Metres(3.0) - Metres(1.0) * 2.0).value, 1.0);
+    EXPECT_DOUBLE_EQ(Metres(10.0) / Metres(4.0), 2.5);
+    Seconds time(1.0);
+    time += Seconds(0.25);
+    EXPECT_EQ(time, Seconds(1.25));
+}
+
+}  // namespace
+}  // namespace clearway::core

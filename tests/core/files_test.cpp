@@ -1,0 +1,106 @@
+#include "core/files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::core {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FilesTest : public ::testing::Test {
+  protected:
+    std::ptrdiff_t files_in_folder() const {
+        return std::distance(std::filesystem::directory_iterator(folder_.path()),
+                             std::filesystem::directory_iterator());
+    }
+    template <class Exception, class Action>
+    std::string complaint(const Action& action) {
+        try {
+            action();
+        } catch (const Exception& error) {
+            return error.what();
+        }
+        return "no complaint";
+    }
+
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(FilesTest, WritesAndReadsEveryByte) {
+    const auto file = folder_.path() / "data";
+    std::string content;
+    for (int byte = 0; byte < 100'000; ++byte) {
+        content += static_cast<char>(byte % 256);
+    }
+    write_atomically(file, content);
+    EXPECT_EQ(read_file(file), content);
+    write_atomically(file, "short");
+    EXPECT_EQ(read_file(file), "short");
+    write_atomically(file, "");
+    EXPECT_EQ(read_file(file), "");
+    EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(FilesTest, AFullDiskLeavesTheOldFile) {
+    const auto file = folder_.write("result.csv", "old");
+    // What is written aside ends up on a device without room.
+    std::filesystem::create_symlink("/dev/full", file.string() + "." + std::to_string(getpid()) + ".part");
+    const std::string text = complaint<EnvironmentError>([&] { write_atomically(file, "new"); });
+    EXPECT_THAT(text, HasSubstr("result.csv: cannot write: No space left on device"));
+    EXPECT_EQ(read_file(file), "old");
+    EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(FilesTest, NamesTheFileThatCannotBeWritten) {
+    const auto file = folder_.path() / "missing" / "result.csv";
+    EXPECT_THAT(complaint<EnvironmentError>([&] { write_atomically(file, "x"); }),
+                HasSubstr("missing/result.csv: cannot write: No such file or directory"));
+    std::filesystem::create_directory(folder_.path() / "taken");
+    EXPECT_THAT(complaint<EnvironmentError>([&] { write_atomically(folder_.path() / "taken", "x"); }),
+                HasSubstr("taken: cannot write: Is a directory"));
+    EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {
+    EXPECT_THAT(complaint<InputError>([&] { read_file(folder_.path() / "missing.toml"); }),
+                HasSubstr("missing.toml: cannot be read"));
+    EXPECT_THROW(read_file(folder_.path()), InputError);
+}
+
+TEST_F(FilesTest, MakesFoldersWithTheirParents) {
+    const auto folder = folder_.path() / "a" / "b" / "c";
+    make_folder(folder);
+    make_folder(folder);
+    EXPECT_TRUE(std::filesystem::is_directory(folder));
+    folder_.write("file", "x");
+    EXPECT_THAT(complaint<EnvironmentError>([&] { make_folder(folder_.path() / "file" / "below"); }),
+                HasSubstr("below: cannot make this folder"));
+    EXPECT_THROW(make_folder("/proc/clearway"), EnvironmentError);
+}
+
+TEST(ContentHash, GivesThePublishedValueOfXxh3) {
+    EXPECT_EQ(content_hash(""), "99aa06d3014798d86001c324468d497f");
+}
+
+TEST(ContentHash, ChangesWithEveryByte) {
+    const std::string text(1000, 'x');
+    const std::string hash = content_hash(text);
+    EXPECT_EQ(hash.size(), 32u);
+    for (const std::size_t place : {0, 1, 500, 999}) {
+        std::string other = text;
+        other[place] = 'y';
+        EXPECT_NE(content_hash(other), hash);
+    }
+    EXPECT_EQ(content_hash(std::string(1000, 'x')), hash);
+}
+
+}  // namespace
+}  // namespace clearway::core
