@@ -1,0 +1,133 @@
+#include "prediction/learned.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "prediction/darkness.hpp"
+#include "prediction/nets.hpp"
+#include "prediction/shipped_models.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using testing::after_outage;
+using ::testing::HasSubstr;
+using testing::kernel_net;
+using testing::link;
+using testing::random_net;
+
+constexpr const char* platoon = R"(
+    10 m per cell, limit 20 m/s, speed 20 m/s
+    ..e..h.....h..................................
+    ....a........a................................
+)";
+
+TEST(GraphSageCorrected, RestoresLinksByDeadReckonedDistance) {
+    const support::TemporaryFolder folder;
+    write_weights(folder.path() / "kernel.weights", kernel_net());
+    support::Scene scene(platoon);
+    const auto predictor =
+        make_graphsage_corrected({scene.network(), {}, (folder.path() / "kernel.weights").string(), {}});
+    traffic::BelievedGraph belief;
+    predictor->predict(after_outage(scene, 5.0, {"a1"}), belief);
+    EXPECT_GT(link(scene, belief, "a1", "e1").value_or(0.0F), 0.9F);
+    EXPECT_GT(link(scene, belief, "a1", "h1").value_or(0.0F), 0.9F);
+    EXPECT_FALSE(link(scene, belief, "a1", "h2").has_value()) << "70 m apart";
+    EXPECT_NEAR(belief.find(scene.key("a1"))->state.x_m, 145.0F, 1e-3F);
+}
+
+TEST(GraphSageCorrected, ScoresNoPairBeyondTheReachOfItsKernel) {
+    const support::TemporaryFolder folder;
+    write_weights(folder.path() / "kernel.weights", kernel_net());
+    // a1 was last seen 390 m behind e1 and is now there by dead reckoning; h1 was near a1, which then left it
+    // by 400 m: the kernel cannot tell 400 m from 0.
+    support::Scene scene(R"(
+        10 m per cell, limit 40 m/s, speed 40 m/s
+        h.................................................
+        a......................................e..........
+    )");
+    scene.set_speed("h1", core::MetresPerSecond(0.0));
+    scene.set_speed("e1", core::MetresPerSecond(0.0));
+    const auto predictor =
+        make_graphsage_corrected({scene.network(), {}, (folder.path() / "kernel.weights").string(), {}});
+    traffic::BelievedGraph belief;
+    predictor->predict(after_outage(scene, 10.0, {"a1"}), belief);
+    EXPECT_TRUE(link(scene, belief, "a1", "e1").has_value());
+    EXPECT_FALSE(link(scene, belief, "a1", "h1").has_value());
+    EXPECT_EQ(predictor->scores().probability.size(), 2u);
+}
+
+TEST(GraphSageAsPublished, TakesTwoOrFiveInputsAsTheFileSays) {
+    const support::TemporaryFolder folder;
+    support::Scene scene(platoon);
+    const traffic::Observation observation = after_outage(scene, 5.0, {"a1"});
+    for (const FeatureSchema& schema : {as_published_position_schema(), as_published_attributes_schema()}) {
+        const auto file = folder.path() / (schema.name + ".weights");
+        write_weights(file, random_net(schema, 10, 5));
+        const auto predictor = make_graphsage_as_published({scene.network(), {}, file.string(), {}});
+        traffic::BelievedGraph belief;
+        predictor->predict(observation, belief);
+        EXPECT_EQ(predictor->scores().probability.size(), predictor->scores().scene->candidates.size());
+        EXPECT_NEAR(belief.find(scene.key("a1"))->state.x_m, 45.0F, 1e-3F)
+            << "it stays where it was last seen";
+    }
+}
+
+TEST(GraphSageAsPublished, SendsItsMessagesAlongTheListedPairs) {
+    const support::TemporaryFolder folder;
+    const auto file = folder.path() / "net.weights";
+    const Weights weights = random_net(as_published_position_schema(), 10, 5, 0.1);
+    write_weights(file, weights);
+    support::Scene scene(platoon);
+    const auto predictor = make_graphsage_as_published({scene.network(), {}, file.string(), {}});
+    traffic::BelievedGraph belief;
+    predictor->predict(after_outage(scene, 5.0, {"a1"}), belief);
+    const Scene& found = *predictor->scores().scene;
+    ASSERT_GT(found.candidates.size(), 2u);
+
+    std::vector<std::uint32_t> sources;
+    std::vector<std::uint32_t> targets;
+    for (const RowPair pair : found.candidates.rows) {
+        sources.push_back(pair.left);
+        targets.push_back(pair.right);
+    }
+    MessageGraph graph;
+    message_graph_from(sources, targets, found.tracks.size(), graph);
+    std::vector<float> features;
+    as_published_features(found.tracks, as_published_position_schema(), scene.network(), features);
+    std::vector<float> logits;
+    GraphSageNet(weights, as_published_position_schema())
+        .logits(features, graph, found.candidates.rows, logits);
+    for (std::size_t at = 0; at < logits.size(); ++at) {
+        EXPECT_EQ(predictor->scores().probability[at], probability_from_logit(logits[at]));
+    }
+}
+
+TEST(LearnedPredictors, RefuseAModelForOtherFeaturesNamingBoth) {
+    const support::TemporaryFolder folder;
+    const auto file = folder.path() / "net.weights";
+    write_weights(file, random_net(as_published_position_schema(), 10, 5));
+    const support::Scene scene(platoon);
+    try {
+        make_graphsage_corrected({scene.network(), {}, file.string(), {}});
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("as_published_position version 1"),
+                                        HasSubstr("corrected version 1"), HasSubstr(file.string())));
+    }
+    write_weights(file, random_net({"corrected", 2, 5}, 10, 5));
+    EXPECT_THROW(make_graphsage_corrected({scene.network(), {}, file.string(), {}}), core::InputError);
+    EXPECT_THROW(make_graphsage_as_published({scene.network(), {}, file.string(), {}}), core::InputError);
+}
+
+TEST(ShippedModels, AreReadableAndFitTheirPredictor) {
+    const support::Scene scene(platoon);
+    for (const std::string& name : shipped_model_names()) {
+        EXPECT_NO_THROW(make_predictor(name, {scene.network(), {}, "", {}})) << name;
+    }
+    EXPECT_THROW(shipped_model("last_seen"), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearway::prediction

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "prediction/features.hpp"
+#include "prediction/graphsage.hpp"
+#include "prediction/weights.hpp"
+
+namespace clearway::prediction::testing {
+
+/// A net of the published architecture with all parameters 0.
+inline Weights zero_net(const FeatureSchema& features, std::uint32_t hidden, std::uint32_t output) {
+    Weights weights;
+    weights.architecture = GraphSageNet::architecture;
+    weights.features = features;
+    weights.dimensions = {{"input", features.width}, {"hidden", hidden}, {"output", output}};
+    const auto add = [&](const std::string& name, std::vector<std::uint32_t> shape) {
+        std::size_t count = 1;
+        for (const std::uint32_t size : shape) {
+            count *= size;
+        }
+        weights.tensors.push_back({name, std::move(shape), std::vector<float>(count, 0.0F)});
+    };
+    add("graphsage.conv1.lin_l.weight", {hidden, features.width});
+    add("graphsage.conv1.lin_l.bias", {hidden});
+    add("graphsage.conv1.lin_r.weight", {hidden, features.width});
+    add("graphsage.conv2.lin_l.weight", {output, hidden});
+    add("graphsage.conv2.lin_l.bias", {output});
+    add("graphsage.conv2.lin_r.weight", {output, hidden});
+    add("nn.fc1.weight", {hidden, output});
+    add("nn.fc1.bias", {hidden});
+    add("nn.fc2.weight", {1, hidden});
+    add("nn.fc2.bias", {1});
+    return weights;
+}
+
+inline std::vector<float>& values(Weights& weights, const std::string& name) {
+    for (Tensor& tensor : weights.tensors) {
+        if (tensor.name == name) return tensor.values;
+    }
+    throw std::out_of_range(name);
+}
+
+/// Parameters drawn from N(0, scale).
+inline Weights random_net(const FeatureSchema& features, std::uint32_t hidden, std::uint32_t output,
+                          double scale = 0.5) {
+    const core::KeyedRandom random({7}, {0});
+    Weights weights = zero_net(features, hidden, output);
+    std::uint64_t counter = 0;
+    for (Tensor& tensor : weights.tensors) {
+        for (float& value : tensor.values) {
+            value = static_cast<float>(scale * random.normal(core::Purpose::training, 0, ++counter));
+        }
+    }
+    return weights;
+}
+
+/// A net on the corrected features, made by hand: both convolutions pass a vehicle's own inputs on, the
+/// decoder adds the four products of the kernel and compares with their value at 50 m. Its probability falls
+/// with the dead-reckoned distance and is 0.5 at about 50 m.
+inline Weights kernel_net() {
+    Weights weights = zero_net(corrected_schema(), 10, 5);
+    for (std::size_t at = 0; at < 5; ++at) {
+        values(weights, "graphsage.conv1.lin_r.weight")[at * 5 + at] = 1.0F;
+        values(weights, "graphsage.conv2.lin_r.weight")[at * 10 + at] = 1.0F;
+    }
+    for (std::size_t product = 0; product < 4; ++product) {
+        values(weights, "nn.fc1.weight")[product] = 1.0F;
+    }
+    values(weights, "nn.fc2.weight")[0] = 40.0F;
+    values(weights, "nn.fc2.bias")[0] = -40.0F * 1.7071068F;  // 1 + cos(2 pi 50 m / 400 m)
+    return weights;
+}
+
+}  // namespace clearway::prediction::testing
