@@ -1,0 +1,247 @@
+#include "metrics/recorder.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "metrics/detail/elements.hpp"
+#include "metrics/detail/link_comparison.hpp"
+#include "metrics/detail/trace_hash.hpp"
+
+namespace clearway::metrics {
+namespace {
+
+using traffic::VehicleClass;
+
+/// Rows of a run while the tripinfo files are read.
+class RowTable {
+  public:
+    explicit RowTable(const std::vector<PlannedVehicle>& planned) {
+        rows_.reserve(planned.size());
+        for (const PlannedVehicle& vehicle : planned) {
+            VehicleRow row;
+            row.id = vehicle.id;
+            row.key = core::vehicle_key(vehicle.id);
+            row.vehicle_class = vehicle.vehicle_class;
+            row.kind = vehicle.kind;
+            row.planned_depart_s = vehicle.depart_s;
+            row.outcome = VehicleOutcome::not_inserted;
+            if (!row_of_.emplace(row.key, rows_.size()).second) {
+                throw core::SimulatorError(fmt::format("vehicle {} is planned twice", vehicle.id));
+            }
+            rows_.push_back(std::move(row));
+        }
+    }
+
+    void read(const std::filesystem::path& tripinfo) {
+        try {
+            detail::for_each_element(tripinfo, [this](const detail::Element& element) {
+                if (element.name() == "tripinfo") take(element);
+            });
+        } catch (const std::runtime_error& error) {
+            throw core::SimulatorError(error.what());
+        }
+    }
+
+    void set_teleports(const std::unordered_map<core::VehicleKey, std::uint32_t>& teleports) {
+        for (const auto& [vehicle, count] : teleports) {
+            const auto found = row_of_.find(vehicle);
+            if (found == row_of_.end())
+                throw core::SimulatorError("a vehicle that nobody planned teleported");
+            rows_[found->second].teleports = count;
+            rows_[found->second].outcome = VehicleOutcome::teleported;
+        }
+    }
+
+    std::vector<VehicleRow> take_rows() {
+        std::ranges::sort(rows_, {},
+                          [](const VehicleRow& row) { return std::tie(row.planned_depart_s, row.id); });
+        return std::move(rows_);
+    }
+
+  private:
+    void take(const detail::Element& element) {
+        const std::string id(element.text("id"));
+        const auto found = row_of_.find(core::vehicle_key(id));
+        if (found == row_of_.end()) throw std::runtime_error(fmt::format("vehicle {} was not planned", id));
+        VehicleRow& row = rows_[found->second];
+        if (row.depart_s) throw std::runtime_error(fmt::format("vehicle {} stands there twice", id));
+        const double depart_s = element.number("depart");
+        if (depart_s < 0.0) return;  // Listed by SUMO as never inserted.
+        row.depart_s = depart_s;
+        row.depart_delay_s = element.number("departDelay");
+        row.travel_time_s = element.number("duration");
+        row.time_loss_s = element.number("timeLoss");
+        row.waiting_time_s = element.number("waitingTime");
+        row.waiting_count = static_cast<std::uint32_t>(element.number("waitingCount"));
+        row.route_length_m = element.number("routeLength");
+        const double arrival_s = element.number("arrival");
+        const std::string_view vaporized = element.text("vaporized");
+        if (!vaporized.empty() && vaporized != "end") {
+            row.outcome = VehicleOutcome::removed;
+        } else if (arrival_s < 0.0) {
+            row.outcome = VehicleOutcome::running_at_end;
+        } else {
+            row.outcome = VehicleOutcome::arrived;
+            row.arrival_s = arrival_s;
+        }
+    }
+
+    std::vector<VehicleRow> rows_;
+    std::unordered_map<core::VehicleKey, std::size_t> row_of_;
+};
+
+struct Mean {
+    double sum = 0.0;
+    std::uint64_t count = 0;
+
+    void add(const std::optional<double>& value) {
+        if (!value) return;
+        sum += *value;
+        ++count;
+    }
+    std::optional<double> value() const {
+        if (count == 0) return std::nullopt;
+        return sum / static_cast<double>(count);
+    }
+};
+
+void count_outcomes(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
+    metrics.vehicle_count = rows.size();
+    for (const VehicleRow& row : rows) {
+        const bool arrived = row.outcome == VehicleOutcome::arrived;
+        if (row.vehicle_class == VehicleClass::emergency) {
+            ++metrics.emergency_count;
+            if (arrived) ++metrics.emergency_arrived;
+        }
+        if (arrived) ++metrics.arrived;
+        if (row.outcome == VehicleOutcome::running_at_end) ++metrics.unfinished;
+        if (row.outcome == VehicleOutcome::not_inserted) ++metrics.not_inserted;
+        if (row.outcome == VehicleOutcome::removed) ++metrics.removed;
+    }
+}
+
+/// Means of one group of vehicles.
+struct GroupMeans {
+    Mean travel_time_s;        ///< Of those that arrived.
+    Mean arrived_time_loss_s;  ///< Of those that arrived.
+    Mean time_loss_s;          ///< Of those inserted.
+    Mean waiting_time_s;       ///< Of those inserted.
+    Mean depart_delay_s;       ///< Of those inserted.
+
+    void add(const VehicleRow& row) {
+        if (row.outcome == VehicleOutcome::arrived) {
+            travel_time_s.add(row.travel_time_s);
+            arrived_time_loss_s.add(row.time_loss_s);
+        }
+        time_loss_s.add(row.time_loss_s);
+        waiting_time_s.add(row.waiting_time_s);
+        depart_delay_s.add(row.depart_delay_s);
+    }
+};
+
+void average(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
+    GroupMeans emergency;
+    GroupMeans others;
+    GroupMeans everybody;
+    for (const VehicleRow& row : rows) {
+        (row.vehicle_class == VehicleClass::emergency ? emergency : others).add(row);
+        everybody.add(row);
+    }
+    metrics.emergency_travel_time_s = emergency.travel_time_s.value();
+    metrics.emergency_time_loss_s = emergency.arrived_time_loss_s.value();
+    metrics.emergency_waiting_time_s = emergency.waiting_time_s.value();
+    metrics.emergency_depart_delay_s = emergency.depart_delay_s.value();
+    metrics.depart_delay_s = everybody.depart_delay_s.value();
+    metrics.waiting_time_s = everybody.waiting_time_s.value();
+    metrics.others_depart_delay_s = others.depart_delay_s.value();
+    metrics.others_travel_time_s = others.travel_time_s.value();
+    metrics.others_time_loss_s = others.time_loss_s.value();
+    metrics.others_waiting_time_s = others.waiting_time_s.value();
+}
+
+}  // namespace
+
+struct Recorder::State {
+    RecorderConfig config;
+    detail::TraceHash trace;
+    detail::LinkComparison links;
+    RunMetrics counted;  ///< What events and snapshots say so far.
+    std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
+};
+
+Recorder::Recorder(RecorderConfig config) : state_(std::make_unique<State>()) {
+    state_->config = config;
+}
+Recorder::~Recorder() = default;
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+void Recorder::configure(RecorderConfig config) {
+    state_->config = config;
+}
+
+void Recorder::step(const truth::Snapshot& snapshot, const truth::Events& events,
+                    std::span<const traffic::Lease> leases) {
+    state_->trace.add(snapshot);
+    state_->trace.add(leases);
+    RunMetrics& counted = state_->counted;
+    counted.vehicle_steps += snapshot.size();
+    counted.teleports += events.teleported.size();
+    counted.emergency_brakings += events.emergency_brakings.size();
+    counted.collisions += events.collisions.size();
+    for (const truth::Collision& collision : events.collisions) {
+        if (collision.place == truth::CollisionPlace::junction) ++counted.junction_collisions;
+        if (collision.with_emergency_vehicle) ++counted.emergency_collisions;
+    }
+    for (const core::VehicleKey vehicle : events.teleported)
+        ++state_->teleports[vehicle];
+}
+
+void Recorder::links(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+                     const traffic::BelievedGraph& belief) {
+    state_->links.add(snapshot, true_graph, belief, state_->config.fresh_age_s);
+}
+
+RunSummary Recorder::finish(const RunEnd& end) const {
+    RowTable table(end.planned);
+    for (const std::filesystem::path& file : end.tripinfo_files)
+        table.read(file);
+    table.set_teleports(state_->teleports);
+
+    RunSummary summary;
+    summary.vehicles = table.take_rows();
+    summary.trace_hash = state_->trace.digest();
+    RunMetrics& metrics = summary.metrics;
+    metrics = state_->counted;
+    count_outcomes(summary.vehicles, metrics);
+    average(summary.vehicles, metrics);
+    metrics.simulated_s = end.time.value;
+    metrics.leases_issued = end.leases.issued;
+    metrics.leases_renewed = end.leases.renewed;
+    metrics.leases_refused = end.leases.refused;
+    metrics.leases_expired = end.leases.expired;
+    metrics.links_true_positive = link_counts().true_positive;
+    metrics.links_false_positive = link_counts().false_positive;
+    metrics.links_false_negative = link_counts().false_negative;
+    metrics.links_f1 = link_counts().f1();
+    metrics.dark_links_true_positive = dark_link_counts().true_positive;
+    metrics.dark_links_false_positive = dark_link_counts().false_positive;
+    metrics.dark_links_false_negative = dark_link_counts().false_negative;
+    metrics.dark_links_f1 = dark_link_counts().f1();
+    return summary;
+}
+
+const LinkCounts& Recorder::link_counts() const {
+    return state_->links.all;
+}
+
+const LinkCounts& Recorder::dark_link_counts() const {
+    return state_->links.dark;
+}
+
+}  // namespace clearway::metrics

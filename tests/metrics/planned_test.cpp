@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "metrics/recorder.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::metrics {
+namespace {
+
+using traffic::VehicleClass;
+using traffic::VehicleKind;
+
+constexpr auto types = R"(<additional>
+    <vType id="av_van" vClass="delivery">
+        <param key="clearway.class" value="automated"/>
+        <param key="clearway.kind" value="van"/>
+    </vType>
+    <vType id="plain"/>
+</additional>)";
+
+TEST(ReadPlanned, TakesClassAndKindFromTheTypeAndEmergencyVehiclesLast) {
+    const support::TemporaryFolder folder;
+    const std::vector<std::filesystem::path> files = {folder.write("types.xml", types),
+                                                      folder.write("routes.xml", R"(<routes>
+    <vehicle id="one" type="av_van" depart="1.50"><route edges="a b"/><param key="clearway.class" value="human"/></vehicle>
+    <vehicle id="two" type="plain" depart="2"><route edges="a b"/></vehicle>
+</routes>)")};
+    traffic::EmergencyDeparture departure;
+    departure.id = "e1";
+    departure.kind = VehicleKind::fire_engine;
+    departure.depart = core::Seconds(60.0);
+    const auto planned = read_planned(files, std::vector{departure});
+    ASSERT_EQ(planned.size(), 3U);
+    EXPECT_EQ(planned[0].vehicle_class, VehicleClass::automated);
+    EXPECT_EQ(planned[0].kind, VehicleKind::van);
+    EXPECT_DOUBLE_EQ(planned[0].depart_s, 1.5);
+    EXPECT_EQ(planned[1].vehicle_class, VehicleClass::human);
+    EXPECT_EQ(planned[1].kind, VehicleKind::other);
+    EXPECT_EQ(planned[2].vehicle_class, VehicleClass::emergency);
+    EXPECT_EQ(planned[2].kind, VehicleKind::fire_engine);
+}
+
+TEST(ReadPlanned, RefusesFlowsAndDeparturesThatAreNoTimesNamingTheLine) {
+    const support::TemporaryFolder folder;
+    for (const char* element : {"<flow id='f' begin='0' end='9'/>", "<vehicle id='v' depart='triggered'/>"}) {
+        const std::vector files = {folder.write("r.xml", std::string("<routes>\n") + element + "</routes>")};
+        try {
+            read_planned(files, {});
+            FAIL() << element;
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("r.xml:2"));
+        }
+    }
+    EXPECT_THROW(read_planned(std::vector{folder.path() / "none.xml"}, {}), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearway::metrics

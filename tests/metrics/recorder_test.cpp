@@ -1,0 +1,251 @@
+#include "metrics/recorder.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::metrics {
+namespace {
+
+using core::VehicleKey;
+using traffic::VehicleClass;
+using traffic::VehicleKind;
+
+/// Attributes as SUMO 1.15 writes them.
+std::string trip(const std::string& id, const std::string& depart, const std::string& delay,
+                 const std::string& arrival, const std::string& duration, const std::string& waiting,
+                 const std::string& loss, const std::string& vaporized = "") {
+    return "<tripinfo id=\"" + id + "\" depart=\"" + depart + "\" departDelay=\"" + delay + "\" arrival=\"" +
+           arrival + "\" duration=\"" + duration + "\" routeLength=\"500.00\" waitingTime=\"" + waiting +
+           "\" waitingCount=\"1\" timeLoss=\"" + loss + "\" vaporized=\"" + vaporized + "\"/>\n";
+}
+
+std::string tripinfos(const std::string& trips) {
+    return "<tripinfos>\n" + trips + "</tripinfos>\n";
+}
+
+PlannedVehicle planned(const std::string& id, VehicleClass vehicle_class, double depart_s) {
+    return {id, vehicle_class, VehicleKind::car, depart_s};
+}
+
+/// Three EVs (one still driving, one never inserted), three others (one teleported, one removed).
+class RecorderAtTheEnd : public testing::Test {
+  protected:
+    RunEnd end(const std::string& trips) {
+        RunEnd result;
+        result.tripinfo_files = {folder_.write("tripinfo.xml", tripinfos(trips))};
+        result.planned = {
+            planned("h1", VehicleClass::human, 0.0),      planned("a1", VehicleClass::automated, 1.0),
+            planned("h2", VehicleClass::human, 2.0),      planned("e1", VehicleClass::emergency, 60.0),
+            planned("e2", VehicleClass::emergency, 60.0), planned("e3", VehicleClass::emergency, 70.0)};
+        result.time = core::Seconds(100.0);
+        return result;
+    }
+
+    const std::string all_trips_ = trip("h1", "0.00", "0.00", "50.00", "50.00", "4.00", "10.00") +
+                                   trip("a1", "3.00", "2.00", "43.00", "40.00", "20.00", "30.00") +
+                                   trip("h2", "2.00", "0.00", "22.00", "20.00", "0.00", "2.00", "collision") +
+                                   trip("e1", "61.00", "1.00", "81.00", "20.00", "2.00", "5.00") +
+                                   trip("e2", "63.00", "3.00", "-1.00", "37.00", "6.00", "25.00", "end") +
+                                   trip("e3", "-1", "30.00", "-1.00", "0.00", "0.00", "0.00", "end");
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(RecorderAtTheEnd, AveragesOverThoseThatArrivedOrWereInserted) {
+    const RunMetrics metrics = Recorder().finish(end(all_trips_)).metrics;
+    EXPECT_DOUBLE_EQ(*metrics.emergency_travel_time_s, 20.0);  // e1
+    EXPECT_DOUBLE_EQ(*metrics.emergency_time_loss_s, 5.0);     // e1
+    EXPECT_DOUBLE_EQ(*metrics.emergency_waiting_time_s, 4.0);  // e1, e2
+    EXPECT_DOUBLE_EQ(*metrics.emergency_depart_delay_s, 2.0);  // e1, e2
+    EXPECT_DOUBLE_EQ(*metrics.others_time_loss_s, 14.0);       // 10, 30, 2
+    EXPECT_DOUBLE_EQ(*metrics.others_waiting_time_s, 8.0);     // 4, 20, 0
+    EXPECT_DOUBLE_EQ(*metrics.waiting_time_s, 32.0 / 5.0);     // e3 has none
+    EXPECT_DOUBLE_EQ(*metrics.depart_delay_s, 6.0 / 5.0);
+    EXPECT_DOUBLE_EQ(*metrics.others_travel_time_s, 45.0);  // h1, a1
+    EXPECT_DOUBLE_EQ(metrics.simulated_s, 100.0);
+}
+
+TEST_F(RecorderAtTheEnd, CountsThoseWhoseMeansLackThem) {
+    const RunMetrics metrics = Recorder().finish(end(all_trips_)).metrics;
+    EXPECT_EQ(metrics.emergency_count, 3U);
+    EXPECT_EQ(metrics.emergency_arrived, 1U);
+    EXPECT_EQ(metrics.vehicle_count, 6U);
+    EXPECT_EQ(metrics.arrived, 3U);
+    EXPECT_EQ(metrics.unfinished, 1U);
+    EXPECT_EQ(metrics.not_inserted, 1U);
+    EXPECT_EQ(metrics.removed, 1U);
+}
+
+TEST_F(RecorderAtTheEnd, ATeleportedVehicleDidNotArriveHoweverItsTripinfoLooks) {
+    Recorder recorder;
+    truth::Events events;
+    events.teleported = {core::vehicle_key("e1")};
+    recorder.step({}, events, {});
+    const RunSummary summary = recorder.finish(end(all_trips_));
+    EXPECT_EQ(summary.metrics.emergency_arrived, 0U);
+    EXPECT_FALSE(summary.metrics.emergency_travel_time_s);
+    EXPECT_EQ(summary.metrics.teleports, 1U);
+    const auto row = std::ranges::find(summary.vehicles, "e1", &VehicleRow::id);
+    EXPECT_EQ(row->outcome, VehicleOutcome::teleported);
+    EXPECT_EQ(row->teleports, 1U);
+}
+
+TEST_F(RecorderAtTheEnd, AVehicleWithoutTripinfoWasNotInserted) {
+    const RunSummary summary =
+        Recorder().finish(end(trip("h1", "0.00", "0.00", "5.00", "5.00", "0.00", "0.00")));
+    EXPECT_EQ(summary.metrics.not_inserted, 5U);
+    EXPECT_FALSE(summary.metrics.emergency_waiting_time_s);
+    EXPECT_FALSE(summary.vehicles.back().depart_s);
+}
+
+TEST_F(RecorderAtTheEnd, RefusesATripinfoThatIsCutOffUnknownOrDouble) {
+    RunEnd cut = end(all_trips_);
+    folder_.write("tripinfo.xml", "<tripinfos>\n" + all_trips_);
+    EXPECT_THROW(Recorder().finish(cut), core::SimulatorError);
+    EXPECT_THROW(Recorder().finish(end(trip("x", "0.00", "0.00", "5.00", "5.00", "0.00", "0.00"))),
+                 core::SimulatorError);
+    EXPECT_THROW(Recorder().finish(end(all_trips_ + all_trips_)), core::SimulatorError);
+    EXPECT_THROW(Recorder().finish(end(trip("h1", "soon", "0.00", "5.00", "5.00", "0.00", "0.00"))),
+                 core::SimulatorError);
+    RunEnd missing = end(all_trips_);
+    missing.tripinfo_files = {folder_.path() / "none.xml"};
+    EXPECT_THROW(Recorder().finish(missing), core::SimulatorError);
+}
+
+TEST_F(RecorderAtTheEnd, TakesOneFilePerVehicleOfASoloRun) {
+    RunEnd solo;
+    solo.planned = {planned("e2", VehicleClass::emergency, 9.0), planned("e1", VehicleClass::emergency, 5.0)};
+    solo.tripinfo_files = {
+        folder_.write("1.xml", tripinfos(trip("e1", "5.00", "0.00", "15.00", "10.00", "0.00", "0.00"))),
+        folder_.write("2.xml", tripinfos(trip("e2", "9.00", "0.00", "29.00", "20.00", "0.00", "0.00")))};
+    const RunSummary summary = Recorder().finish(solo);
+    EXPECT_DOUBLE_EQ(*summary.metrics.emergency_travel_time_s, 15.0);
+    EXPECT_EQ(summary.vehicles.front().id, "e1");
+}
+
+TEST(Recorder, CountsEventsOverAllSteps) {
+    Recorder recorder;
+    truth::Snapshot snapshot;
+    snapshot.resize(3);
+    truth::Events events;
+    truth::Collision at_junction;
+    at_junction.place = truth::CollisionPlace::junction;
+    truth::Collision with_emergency;
+    with_emergency.with_emergency_vehicle = true;
+    events.collisions = {at_junction, with_emergency};
+    events.emergency_brakings.resize(4);
+    recorder.step(snapshot, events, {});
+    recorder.step(snapshot, events, {});
+    const RunMetrics metrics = recorder.finish({}).metrics;
+    EXPECT_EQ(metrics.collisions, 4U);
+    EXPECT_EQ(metrics.junction_collisions, 2U);
+    EXPECT_EQ(metrics.emergency_collisions, 2U);
+    EXPECT_EQ(metrics.emergency_brakings, 8U);
+    EXPECT_EQ(metrics.vehicle_steps, 6U);
+}
+
+/// Four vehicles in a row of keys 1 to 4; true links 1-2, 2-3, 3-4.
+struct LinkScene {
+    LinkScene() {
+        snapshot.resize(4);
+        for (std::uint32_t row = 0; row < 4; ++row)
+            snapshot.key[row] = VehicleKey{row + 1};
+        graph.first = {0, 1, 3, 5, 6};
+        graph.neighbour = {1, 0, 2, 1, 3, 2};
+        graph.distance_m.resize(6);
+    }
+    truth::Snapshot snapshot;
+    graph::ProximityGraph graph;
+};
+
+TEST(RecorderLinks, AreComparedByKeyWithDarkEndsApart) {
+    const LinkScene scene;
+    traffic::BelievedGraph belief;  // 1 and 2 fresh, 4 dark, 9 has left; 3 was never seen.
+    for (const auto& [key, age_s] : {std::pair(1U, 0.0F), {2U, 0.0F}, {4U, 5.0F}, {9U, 7.0F}}) {
+        traffic::BelievedVehicle vehicle;
+        vehicle.key = VehicleKey{key};
+        vehicle.age_s = age_s;
+        belief.vehicles.push_back(vehicle);
+    }
+    // Links 1-2 (true), 2-4 (false, dark), 4-9 (a ghost: false, dark).
+    belief.first_link = {0, 1, 3, 5, 6};
+    for (const std::uint32_t neighbour : {1U, 0U, 2U, 1U, 3U, 2U})
+        belief.links.push_back({neighbour, 10.0F, 1.0F});
+
+    Recorder recorder;
+    recorder.links(scene.snapshot, scene.graph, belief);
+    EXPECT_EQ(recorder.link_counts(), (LinkCounts{1, 2, 2}));
+    EXPECT_EQ(recorder.dark_link_counts(), (LinkCounts{0, 2, 2}));  // Lost: 2-3 and 3-4, both ends of 3.
+    recorder.links(scene.snapshot, scene.graph, belief);
+    EXPECT_EQ(recorder.link_counts(), (LinkCounts{2, 4, 4}));
+    EXPECT_DOUBLE_EQ(*recorder.link_counts().f1(), 4.0 / (4.0 + 4.0 + 4.0));
+    EXPECT_DOUBLE_EQ(*recorder.link_counts().precision(), 1.0 / 3.0);
+    EXPECT_DOUBLE_EQ(*recorder.link_counts().recall(), 1.0 / 3.0);
+}
+
+TEST(RecorderLinks, OlderReportsAreFreshWhereTheSensorIsLate) {
+    const LinkScene scene;
+    traffic::BelievedGraph belief;
+    belief.first_link = {0, 0, 0, 0, 0};
+    for (std::uint64_t key = 1; key <= 4; ++key) {
+        traffic::BelievedVehicle vehicle;
+        vehicle.key = VehicleKey{key};
+        vehicle.age_s = 2.0F;
+        belief.vehicles.push_back(vehicle);
+    }
+    Recorder strict;
+    strict.links(scene.snapshot, scene.graph, belief);
+    EXPECT_EQ(strict.dark_link_counts().false_negative, 3U);
+    Recorder late(RecorderConfig{2.01F});
+    late.links(scene.snapshot, scene.graph, belief);
+    EXPECT_EQ(late.dark_link_counts().false_negative, 0U);
+    EXPECT_EQ(late.link_counts().false_negative, 3U);
+}
+
+TEST(LinkCounts, HaveNoQualityWithoutLinks) {
+    EXPECT_FALSE(LinkCounts{}.f1());
+    EXPECT_FALSE(LinkCounts{}.precision());
+    EXPECT_DOUBLE_EQ(*(LinkCounts{0, 0, 3}.recall()), 0.0);
+}
+
+class TraceHashOfARun : public testing::Test {
+  protected:
+    TraceHashOfARun() { snapshot_.resize(2); }
+    std::string hash(const std::vector<traffic::Lease>& leases = {}) const {
+        Recorder recorder;
+        recorder.step(snapshot_, {}, leases);
+        return recorder.finish({}).trace_hash;
+    }
+    truth::Snapshot snapshot_;
+};
+
+TEST_F(TraceHashOfARun, MovesWithEveryNumberOfASnapshot) {
+    const std::string before = hash();
+    EXPECT_EQ(before.size(), 32U);
+    EXPECT_EQ(hash(), before);
+    snapshot_.speed_mps[1] = 0.001F;
+    const std::string faster = hash();
+    EXPECT_NE(faster, before);
+    snapshot_.signals.state = {"Gr"};
+    EXPECT_NE(hash(), faster);
+}
+
+TEST_F(TraceHashOfARun, MovesWithTargetActionAndExpiryOfALease) {
+    traffic::Lease lease;
+    lease.target = VehicleKey{1};
+    lease.action = traffic::DriveAt{core::MetresPerSecond(5.0)};
+    const std::string first = hash({lease});
+    EXPECT_NE(first, hash());
+    lease.expiry = core::Seconds(3.0);
+    const std::string later = hash({lease});
+    EXPECT_NE(later, first);
+    lease.action = traffic::DriveAt{core::MetresPerSecond(5.5)};
+    const std::string faster = hash({lease});
+    EXPECT_NE(faster, later);
+    lease.target = core::SignalIndex{1};
+    EXPECT_NE(hash({lease}), faster);
+}
+
+}  // namespace
+}  // namespace clearway::metrics
