@@ -1,0 +1,164 @@
+#include "policy/clear_lane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy {
+namespace {
+
+using detail::LeaseWriter;
+using detail::VehicleAhead;
+using detail::View;
+
+constexpr char part_name[] = "clear_lane";
+/// Slower than this counts as this when times are compared, m/s.
+constexpr double crawl_mps = 1.0;
+/// Two vehicles nearer along the road than this cannot be side by side on the way to one lane, m.
+constexpr double side_room_m = 12.0;
+
+/// Clears the way of one emergency vehicle.
+class Way {
+  public:
+    Way(const View& view, const ClearLaneConfig& config, const traffic::BelievedVehicle& emergency,
+        LeaseWriter& write)
+        : view_(view),
+          config_(config),
+          emergency_(emergency),
+          write_(write),
+          route_(view.route_of(emergency.key)),
+          ahead_(view.vehicles_ahead(emergency, core::Metres(config.horizon_m))) {}
+
+    void clear() {
+        const std::optional<std::uint32_t> wanted = choose_lane();
+        if (wanted) {
+            write_.add(emergency_.key, traffic::ChangeLane{*wanted}, "less delay ahead", emergency_.key);
+            open_gap(*wanted);
+        }
+        for (const VehicleAhead& ahead : ahead_) {
+            if (ahead.vehicle->vehicle_class == traffic::VehicleClass::automated) ask(ahead);
+        }
+    }
+
+  private:
+    /// Lane at `distance` ahead when the emergency vehicle starts on lane `start`.
+    core::LaneIndex lane_at(core::LaneIndex start, double distance_m) const {
+        traffic::MotionState state = emergency_.state;
+        state.lane = start;
+        return roads::advance(view_.network(), route_, state, core::Metres(distance_m)).state.lane;
+    }
+
+    void ask(const VehicleAhead& ahead) {
+        const traffic::BelievedVehicle& vehicle = *ahead.vehicle;
+        if (!view_.is_on_route(vehicle)) return;
+        const roads::Lane& lane = view_.network().lane(vehicle.state.lane);
+        if (view_.network().edge(lane.edge).internal) return;
+        const core::LaneIndex ours = lane_at(emergency_.state.lane, ahead.distance_m);
+        if (ours == vehicle.state.lane) {
+            if (const auto target = way_out(vehicle))
+                write_.add(vehicle.key, traffic::ChangeLane{*target}, "ahead of an emergency vehicle",
+                           emergency_.key);
+        } else if (view_.network().lane(ours).edge == lane.edge) {
+            write_.add(vehicle.key, traffic::HoldLane{}, "keeps out of an emergency vehicle's lane",
+                       emergency_.key);
+        }
+    }
+
+    /// The usable neighbouring lane with fewer vehicles beside, the outer one of equals.
+    std::optional<std::uint32_t> way_out(const traffic::BelievedVehicle& vehicle) const {
+        std::optional<std::uint32_t> best;
+        long fewest = 0;
+        for (const std::uint32_t number : view_.usable_neighbours(vehicle)) {
+            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(vehicle), number);
+            const long beside = std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
+                const traffic::MotionState& state = other.vehicle->state;
+                return state.lane == lane &&
+                       std::abs(state.lane_position_m - vehicle.state.lane_position_m) < side_room_m;
+            });
+            if (!best || beside < fewest) {
+                best = number;
+                fewest = beside;
+            }
+        }
+        return best;
+    }
+
+    /// Expected time over the next `choice_m` when starting on `lane`, s.
+    double time_on(core::LaneIndex lane) const {
+        const double free_mps = std::max(view_.allowed_speed(emergency_).value, crawl_mps);
+        const double free_s = config_.choice_m / free_mps;
+        double behind_slowest_s = free_s;
+        double standing_s = 0.0;
+        for (const VehicleAhead& ahead : ahead_) {
+            if (ahead.distance_m > config_.choice_m) break;
+            const traffic::MotionState& state = ahead.vehicle->state;
+            if (lane_at(lane, ahead.distance_m) != state.lane) continue;
+            const bool leaves = ahead.vehicle->vehicle_class == traffic::VehicleClass::automated;
+            const double weight = leaves ? config_.automated_weight : 1.0;
+            if (state.speed_mps < detail::halted_mps) {
+                standing_s += weight * config_.halted_delay_s;
+                continue;
+            }
+            const double its_s =
+                (config_.choice_m - ahead.distance_m) / std::max<double>(state.speed_mps, crawl_mps);
+            behind_slowest_s = std::max(behind_slowest_s, free_s + weight * std::max(0.0, its_s - free_s));
+        }
+        return behind_slowest_s + standing_s;
+    }
+
+    std::optional<std::uint32_t> choose_lane() const {
+        const core::EdgeIndex edge = *view_.edge_of(emergency_);
+        if (view_.network().edge(edge).internal) return std::nullopt;
+        const double here_s = time_on(emergency_.state.lane);
+        std::optional<std::uint32_t> best;
+        double best_s = here_s - config_.worth_s;
+        for (const std::uint32_t number : view_.usable_neighbours(emergency_)) {
+            const double there_s = time_on(view_.network().lane_of(edge, number));
+            if (there_s < best_s) {
+                best_s = there_s;
+                best = number;
+            }
+        }
+        return best;
+    }
+
+    /// The nearest automated vehicle that is a little behind on the wanted lane drops back.
+    void open_gap(std::uint32_t wanted) {
+        const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(emergency_), wanted);
+        const traffic::BelievedVehicle* nearest = nullptr;
+        for (const traffic::BelievedVehicle& vehicle : view_.belief().vehicles) {
+            const double behind_m = emergency_.state.lane_position_m - vehicle.state.lane_position_m;
+            if (vehicle.state.lane != lane || behind_m < 0.0 || behind_m > config_.beside_m) continue;
+            if (nearest == nullptr || vehicle.state.lane_position_m > nearest->state.lane_position_m)
+                nearest = &vehicle;
+        }
+        if (nearest == nullptr || nearest->vehicle_class != traffic::VehicleClass::automated) return;
+        const double wished = std::max(config_.gap_factor * emergency_.state.speed_mps, config_.slowest_mps);
+        const core::MetresPerSecond speed(std::min(wished, view_.allowed_speed(*nearest).value));
+        write_.add(nearest->key, traffic::DriveAt{speed}, "opens a gap", emergency_.key);
+    }
+
+    const View& view_;
+    const ClearLaneConfig& config_;
+    const traffic::BelievedVehicle& emergency_;
+    LeaseWriter& write_;
+    roads::Route route_;
+    std::vector<VehicleAhead> ahead_;
+};
+
+}  // namespace
+
+ClearLane::ClearLane(const PartContext& context, ClearLaneConfig config)
+    : network_(context.network), config_(config) {}
+
+void ClearLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
+    const View view(network_, belief);
+    LeaseWriter write(part_name, belief.time, leases);
+    for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
+        Way(view, config_, emergency, write).clear();
+    }
+}
+
+}  // namespace clearway::policy

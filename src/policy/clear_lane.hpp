@@ -1,0 +1,38 @@
+#pragma once
+
+#include "policy/part.hpp"
+
+namespace clearway::policy {
+
+/// Numbers of ClearLane.
+struct ClearLaneConfig {
+    double horizon_m =
+        300.0;  ///< Lanes are cleared this far ahead; (0, 1000]. facts: 150 to 300 m is the better trade.
+    double beside_m = 20.0;    ///< An automated vehicle at most this far behind the emergency vehicle's front
+                               ///< opens a gap; assumed: a gap of two cars.
+    double gap_factor = 0.8;   ///< By driving at this share of the emergency vehicle's speed, (0, 1].
+    double slowest_mps = 5.0;  ///< But not below; as the dissertation part.
+    double choice_m = 200.0;   ///< Stretch over which lanes are compared; assumed: some 12 s at 60 km/h.
+    double halted_delay_s =
+        2.0;  ///< A standing vehicle ahead costs this much; saturation headway, facts: 2 s.
+    double automated_weight =
+        0.5;  ///< Delay by vehicles that will leave the lane counts only this much, [0, 1]; assumed.
+    double worth_s = 2.0;  ///< A lane must be this much faster for a change; assumed: what a change costs.
+};
+
+/// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the
+/// neighbouring lanes stay there, and one beside opens a gap when the emergency vehicle wants that lane. The
+/// emergency vehicle takes the lane with the least delay ahead. Only lanes that continue are used.
+class ClearLane : public Part {
+  public:
+    explicit ClearLane(const PartContext& context, ClearLaneConfig config = {});
+
+    std::string_view name() const override { return "clear_lane"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    const roads::Network& network_;
+    ClearLaneConfig config_;
+};
+
+}  // namespace clearway::policy

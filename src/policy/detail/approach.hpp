@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy::detail {
+
+/// A signal that an emergency vehicle will pass.
+struct Approach {
+    core::SignalIndex signal;
+    double distance_m = 0.0;               ///< To the first stop line of the signal.
+    std::vector<std::uint16_t> own_links;  ///< Links that the emergency vehicle itself may take, ascending.
+    /// These and all other links of its approaches that do not conflict with them, ascending: a left-turner
+    /// ahead that may not go would hold it up.
+    std::vector<std::uint16_t> links;
+};
+
+/// Signals ahead of `vehicle` within `horizon`, nearest first. Stop lines of one signal that follow each
+/// other (joined junctions) are one approach.
+std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
+                                 core::Metres horizon);
+
+/// Vehicles that stand ahead on the way to a stop line `distance` away: on each edge the longest queue of its
+/// lanes.
+std::size_t halted_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);
+
+/// Time to drive `distance` along the route at the speed the vehicle is allowed on each edge, s.
+double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include "policy/green_wave.hpp"
+#include "policy/preempt_signals.hpp"
+#include "policy/recover_signals.hpp"
+#include "policy/red_privilege.hpp"
+#include "support/crossing_scene.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using traffic::VehicleClass;
+
+const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
+// The approach is 489.6 m long; 16.67 m/s are allowed.
+constexpr double line_m = 489.6;
+
+std::vector<traffic::Lease> act(policy::Part& part, CrossingScene& scene, double time_s = 100.0,
+                                const std::optional<std::string>& signals = std::nullopt) {
+    traffic::BelievedGraph& belief = scene.belief(signals);
+    belief.time = core::Seconds(time_s);
+    std::vector<traffic::Lease> leases;
+    part.act(belief, leases);
+    return leases;
+}
+
+CrossingScene emergency_at(double before_line_m, double speed_mps = 16.0,
+                           const std::vector<std::string>& route = eastbound) {
+    CrossingScene scene;
+    scene.add({"e", VehicleClass::emergency, route, 1, line_m - before_line_m, speed_mps});
+    return scene;
+}
+
+TEST(PreemptSignals, asks_eight_seconds_before_arrival_and_not_earlier) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene far = emergency_at(130.0);
+    EXPECT_TRUE(act(part, far).empty());
+    CrossingScene near = emergency_at(126.0);
+    const auto leases = act(part, near);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), two_crossings().find_signal("A"));
+    EXPECT_EQ(leases[0].beneficiary, core::vehicle_key("e"));
+}
+
+TEST(PreemptSignals, asks_two_seconds_earlier_for_each_vehicle_in_the_longest_queue_ahead) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(180.0);
+    scene.add({"h1", VehicleClass::human, eastbound, 1, 485.0, 0.0});
+    scene.add({"h2", VehicleClass::human, eastbound, 0, 485.0, 0.0});
+    EXPECT_TRUE(act(part, scene).empty()) << "11.25 s away, lead 10 s: two queues of one";
+    scene.add({"h3", VehicleClass::human, eastbound, 0, 477.0, 0.0});
+    EXPECT_EQ(act(part, scene).size(), 1U) << "lead 12 s";
+}
+
+TEST(PreemptSignals, asks_for_the_whole_approach_and_nothing_else) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(50.0);
+    const auto leases = act(part, scene);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).links,
+              (std::vector<std::uint16_t>{12, 13, 14, 15}));
+}
+
+TEST(PreemptSignals, serves_a_left_turn_with_its_approach) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(50.0, 10.0, {"west_A", "A_north_a"});
+    const auto leases = act(part, scene);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).links,
+              (std::vector<std::uint16_t>{12, 13, 14, 15}));
+}
+
+TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_it) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(50.0);
+    scene.belief();
+    traffic::BelievedGraph belief = scene.belief();
+    belief.vehicles.clear();
+    belief.first_link = {0};
+    std::vector<traffic::Lease> leases;
+    part.act(belief, leases);
+    EXPECT_EQ(leases.size(), 1U);
+}
+
+TEST(GreenWave, opens_each_signal_around_the_planned_arrival_whatever_happens) {
+    policy::GreenWave part({two_crossings()});
+    CrossingScene scene = emergency_at(200.0);
+    EXPECT_TRUE(act(part, scene, 100.0).empty()) << "200 m at 16.67 m/s: 12 s, asked for 8 s before";
+    const auto first = act(part, scene, 104.5);
+    ASSERT_EQ(first.size(), 1U);
+    EXPECT_EQ(std::get<core::SignalIndex>(first[0].target), two_crossings().find_signal("A"));
+    const auto second = act(part, scene, 128.0);
+    ASSERT_EQ(second.size(), 1U) << "it still stands where it was";
+    EXPECT_EQ(std::get<core::SignalIndex>(second[0].target), two_crossings().find_signal("B"));
+    EXPECT_TRUE(act(part, scene, 150.0).empty());
+}
+
+TEST(RecoverSignals, favours_those_who_stand_where_the_next_green_serves_most) {
+    policy::RecoverSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(100.0);
+    EXPECT_TRUE(act(part, scene).empty()) << "nobody waits";
+    scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
+    scene.add({"h2", VehicleClass::human, {"B_A", "A_west"}, 0, 275.0, 0.0});
+    scene.add({"h3", VehicleClass::human, {"south_a_A", "A_north_a"}, 1, 285.0, 0.0});
+    const auto leases = act(part, scene);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<traffic::FavourLinks>(leases[0].action).links,
+              (std::vector<std::uint16_t>{0, 1, 10, 11}));
+}
+
+TEST(RecoverSignals, goes_on_for_a_while_after_the_emergency_vehicle_has_passed) {
+    policy::RecoverSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(10.0);
+    scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
+    EXPECT_EQ(act(part, scene, 100.0).size(), 1U);
+    scene.remove(core::vehicle_key("e"));
+    EXPECT_EQ(act(part, scene, 119.0).size(), 1U);
+    EXPECT_TRUE(act(part, scene, 120.5).empty());
+}
+
+TEST(RedPrivilege, is_asked_for_before_red_and_not_before_green) {
+    policy::RedPrivilege part({two_crossings()});
+    CrossingScene scene = emergency_at(100.0);
+    ASSERT_EQ(act(part, scene).size(), 1U) << "the first phase serves north and south";
+    EXPECT_TRUE(act(part, scene, 100.0, "rrrrGGGgrrrrGGGg").empty());
+    CrossingScene far = emergency_at(250.0);
+    EXPECT_TRUE(act(part, far).empty());
+}
+
+}  // namespace
+}  // namespace clearway::testing
