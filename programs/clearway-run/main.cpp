@@ -1,0 +1,42 @@
+#include <cstdio>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "loop/dataset.hpp"
+#include "loop/worker.hpp"
+#include "sumo/session.hpp"
+
+namespace {
+
+constexpr const char* usage =
+    "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
+    "  clearway-run --unit FILE      run the conditions of a unit file\n"
+    "  clearway-run --dataset FILE   record a data set as a dataset file says\n"
+    "  clearway-run --version\n";
+
+int fail_usage() {
+    fmt::print(stderr, "{}", usage);
+    return static_cast<int>(clearway::core::ExitCode::usage);
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+    using namespace clearway;
+    const std::string_view order = argument_count > 1 ? arguments[1] : "";
+    try {
+        if (order == "--version") {
+            fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, sumo::version());
+            return 0;
+        }
+        if (argument_count != 3) return fail_usage();
+        if (order == "--unit") return static_cast<int>(loop::run_unit(arguments[2]));
+        if (order == "--dataset") return static_cast<int>(loop::record_dataset(arguments[2]));
+        return fail_usage();
+    } catch (const core::Error& error) {
+        fmt::print(stderr, "clearway-run: {}\n", error.what());
+        return static_cast<int>(error.exit_code());
+    }
+}

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "actuation/actuator.hpp"
+#include "core/fields.hpp"
+#include "core/units.hpp"
+#include "graph/proximity.hpp"
+#include "metrics/recorder.hpp"
+#include "policy/part.hpp"
+#include "prediction/predictor.hpp"
+#include "sensing/sensor.hpp"
+#include "sumo/session.hpp"
+#include "traffic/belief.hpp"
+
+namespace clearway::loop {
+
+/// How the closed loop runs, the same in every condition of a study.
+struct LoopConfig {
+    double policy_period_s = 0.5;  ///< Between two decisions of the policy.
+    double link_radius_m = 50.0;
+
+    static constexpr auto fields() {
+        return std::make_tuple(
+            core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
+                        "Time between two decisions of the policy", "assumed: half a report interval"},
+            core::Field{"link_radius_m", "m", &LoopConfig::link_radius_m, 1.0, 1000.0,
+                        "Two vehicles nearer than this are linked",
+                        "assumed 50 m: the dissertation states no value"});
+    }
+};
+
+/// What a condition is made of, ready to run.
+struct Machinery {
+    std::unique_ptr<sensing::SensorModel> sensor;
+    std::unique_ptr<prediction::Predictor> predictor;
+    std::vector<std::unique_ptr<policy::Part>> parts;
+    std::unique_ptr<actuation::Actuator> actuator;
+};
+
+/// Where the time of a run went, s of wall time.
+struct LoopTiming {
+    double simulator_s = 0.0;  ///< SUMO's own step.
+    double coupling_s =
+        0.0;  ///< Everything else: reading, sensing, graph, prediction, policy, commands, metrics.
+    std::uint64_t steps = 0;
+    std::uint64_t vehicle_steps = 0;
+};
+
+/// Watches a run step by step, for data sets and traces. It has the truth, so nothing that decides may be
+/// one.
+class StepListener {
+  public:
+    StepListener() = default;
+    StepListener(const StepListener&) = delete;
+    StepListener& operator=(const StepListener&) = delete;
+    virtual ~StepListener() = default;
+    virtual void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) = 0;
+};
+
+/// The only place that knows the order of the design: truth -> sensing -> prediction -> policy -> actuation
+/// -> simulator, with metrics beside it. One run; one thread.
+class ClosedLoop {
+  public:
+    /// All references outlive the loop. `listener` may be null.
+    ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
+               metrics::Recorder& recorder, StepListener* listener = nullptr);
+
+    /// Steps until no vehicle is left or `horizon` is reached, then gives back all that is held.
+    /// Throws core::SimulatorError as the session does.
+    void run(core::Seconds horizon);
+
+    const LoopTiming& timing() const { return timing_; }
+    const actuation::Actuator& actuator() const { return *machinery_.actuator; }
+
+  private:
+    void step();
+    void decide(const truth::Snapshot& snapshot);
+    void score(const truth::Snapshot& snapshot);
+    bool decision_is_due(core::Seconds now) const;
+
+    sumo::Session& session_;
+    Machinery machinery_;
+    LoopConfig config_;
+    metrics::Recorder& recorder_;
+    StepListener* listener_;
+
+    graph::LinkRules rules_;
+    graph::ProximityBuilder builder_;
+    graph::ProximityGraph true_graph_;
+    traffic::Observation observation_;
+    traffic::BelievedGraph belief_;
+    std::vector<traffic::Lease> leases_;
+    std::vector<traffic::Command> commands_;
+    std::uint64_t decisions_ = 0;
+    LoopTiming timing_;
+};
+
+}  // namespace clearway::loop

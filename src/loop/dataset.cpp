@@ -1,0 +1,120 @@
+#include "loop/dataset.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "loop/recording.hpp"
+#include "loop/unit_run.hpp"
+
+namespace clearway::loop {
+namespace {
+
+/// Removes its folder in the end.
+class WorkFolder {
+  public:
+    explicit WorkFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+        core::make_folder(folder_);
+    }
+    ~WorkFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+    const std::filesystem::path& path() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+/// Passes every step on to several recorders.
+class Recorders : public StepListener {
+  public:
+    void add(SampleRecorder& recorder) { recorders_.push_back(&recorder); }
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override {
+        for (SampleRecorder* const recorder : recorders_) {
+            recorder->on_step(snapshot, roster);
+        }
+    }
+
+  private:
+    std::vector<SampleRecorder*> recorders_;
+};
+
+/// Car-following alone: data sets show traffic that no policy has touched.
+results::ConditionSpec plain_traffic() {
+    results::ConditionSpec condition;
+    condition.name = "dataset";
+    return condition;
+}
+
+void record_published(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+    const prediction::FeatureSchema schema = order.feature_count == 2
+                                                 ? prediction::as_published_position_schema()
+                                                 : prediction::as_published_attributes_schema();
+    PairDatasetRecorder recorder(run.network(), rules, schema, order.pairs);
+    run.record(plain_traffic(), recorder);
+    const prediction::PairDataset& dataset = recorder.dataset();
+    if (dataset.pair_count() == 0) {
+        throw core::InputError({order.scenario,
+                                "no two vehicles of linkable classes ever came near each other",
+                                "at least one link", "Raise the density, or choose another seed"});
+    }
+    prediction::write_pair_dataset(order.output, dataset);
+    fmt::print("{}: {} vehicles, {} pairs at {:.2f} s\n", order.output.string(), dataset.vehicle_count(),
+               dataset.pair_count(), recorder.time().value);
+}
+
+void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    std::vector<std::unique_ptr<SampleRecorder>> recorders;
+    Recorders all;
+    for (const std::string& failure : order.failures) {
+        const prediction::GraphSampleOrigin origin{.scenario = order.scenario,
+                                                   .failure = failure,
+                                                   .features = prediction::corrected_schema(),
+                                                   .study_seed = order.study_seed,
+                                                   .replication = order.replication,
+                                                   .link_radius_m = rules.radius_m};
+        recorders.push_back(
+            std::make_unique<SampleRecorder>(run.network(), rules, origin,
+                                             sensing::make_sensor(sensing::failure_from(failure), random,
+                                                                  {.network = run.network(), .rules = rules}),
+                                             core::Seconds(order.interval_s)));
+        all.add(*recorders.back());
+    }
+    run.record(plain_traffic(), all);
+    for (std::size_t i = 0; i < recorders.size(); ++i) {
+        const std::filesystem::path file =
+            order.output / fmt::format("{}-{}-{:04}{}", order.scenario, order.failures[i], order.replication,
+                                       prediction::graph_sample_extension);
+        recorders[i]->writer().write(file);
+        fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
+    }
+}
+
+}  // namespace
+
+core::ExitCode record_dataset(const std::filesystem::path& order_file) {
+    const results::DatasetOrder order = results::read_dataset_order(order_file);
+    core::make_folder(order.output);
+    const WorkFolder work(order.output / fmt::format("work-{}-{}", order.scenario, order.replication));
+    results::UnitSpec unit;
+    unit.scenario = order.scenario;
+    unit.scenario_file = order.scenario_file;
+    unit.network_folder = order.network_folder;
+    unit.study_seed = order.study_seed;
+    unit.replication = order.replication;
+    UnitRun run(unit, work.path(), work.path());
+    graph::LinkRules rules;
+    rules.radius_m = run.loop_config().link_radius_m;
+    order.kind == results::DatasetKind::published ? record_published(order, run, rules)
+                                                  : record_samples(order, run, rules);
+    return core::ExitCode::ok;
+}
+
+}  // namespace clearway::loop

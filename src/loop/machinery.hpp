@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/random.hpp"
+#include "loop/closed_loop.hpp"
+#include "results/unit.hpp"
+#include "roads/network.hpp"
+
+namespace clearway::loop {
+
+/// What every condition of a worker shares; references outlive what is made from it.
+struct Surroundings {
+    const roads::Network& network;
+    core::KeyedRandom random;
+    LoopConfig loop;
+};
+
+/// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not
+/// exist.
+Machinery make_machinery(const results::ConditionSpec& condition, const Surroundings& surroundings);
+
+}  // namespace clearway::loop

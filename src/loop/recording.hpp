@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "graph/proximity.hpp"
+#include "loop/closed_loop.hpp"
+#include "prediction/candidates.hpp"
+#include "prediction/dataset_files.hpp"
+#include "prediction/features.hpp"
+#include "prediction/graph_sample.hpp"
+#include "results/dataset_order.hpp"
+
+namespace clearway::loop {
+
+/// Records what a predictor was given at report rounds, with the true answer beside it: data to train and to
+/// judge with.
+class SampleRecorder : public StepListener {
+  public:
+    /// Watches through `sensor`. One sample every `interval` of simulation time, at the first report round
+    /// then. `network` outlives the recorder.
+    SampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                   const prediction::GraphSampleOrigin& origin, std::unique_ptr<sensing::SensorModel> sensor,
+                   core::Seconds interval);
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
+    const prediction::GraphSampleWriter& writer() const { return writer_; }
+
+  private:
+    prediction::GraphSample sample_of(const truth::Snapshot& snapshot) const;
+
+    graph::LinkRules rules_;
+    std::unique_ptr<sensing::SensorModel> sensor_;
+    traffic::Observation observation_;
+    prediction::SceneBuilder scenes_;
+    prediction::Scene scene_;
+    prediction::ObservedMessages messages_;
+    prediction::MessageGraph observed_;
+    std::vector<float> features_;
+    prediction::GraphSampleWriter writer_;
+    double interval_s_;
+    double next_s_ = 0.0;
+};
+
+/// Records one snapshot as chapter 5.4 of the dissertation stores it: the one with the most links of the run.
+class PairDatasetRecorder : public StepListener {
+  public:
+    PairDatasetRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                        const prediction::FeatureSchema& features, results::ListedPairs pairs);
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
+    /// Empty when no two vehicles ever met.
+    const prediction::PairDataset& dataset() const { return dataset_; }
+    core::Seconds time() const { return time_; }
+
+  private:
+    void take(const truth::Snapshot& snapshot);
+
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    std::uint32_t feature_count_;
+    results::ListedPairs pairs_;
+    graph::ProximityBuilder builder_;
+    graph::ProximityGraph links_;
+    graph::ProximityGraph near_;
+    std::size_t most_links_ = 0;
+    prediction::PairDataset dataset_;
+    core::Seconds time_;
+};
+
+}  // namespace clearway::loop

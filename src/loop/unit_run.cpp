@@ -1,0 +1,177 @@
+#include "loop/unit_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <sys/resource.h>
+
+namespace clearway::loop {
+namespace {
+
+/// Width of a lane's lateral cells in the sublane model, m (facts: 0.5).
+constexpr const char* lateral_resolution_m = "0.5";
+
+sumo::Names names_of(const roads::Network& network) {
+    sumo::Names names;
+    for (const roads::Lane& lane : network.lanes()) {
+        names.lanes.push_back(lane.id);
+    }
+    for (const roads::Edge& edge : network.edges()) {
+        names.edges.push_back(edge.id);
+    }
+    for (const roads::Signal& signal : network.signals()) {
+        names.signals.push_back(signal.id);
+    }
+    return names;
+}
+
+sumo::SessionConfig session_config(const results::UnitSpec& unit, const scenario::Prepared& prepared,
+                                   const roads::Network& network, const std::filesystem::path& folder) {
+    sumo::SessionConfig config;
+    config.network = prepared.network_file;
+    if (unit.engine != results::Engine::solo) config.route_files = prepared.route_files;
+    config.additional_files = prepared.additional_files;
+    config.folder = folder;
+    config.step_length = core::Seconds(prepared.time.step_length_s);
+    config.seed = prepared.simulator_seed;
+    if (unit.engine == results::Engine::sublane) {
+        config.extra_arguments = {"--lateral-resolution", lateral_resolution_m};
+    }
+    config.names = names_of(network);
+    return config;
+}
+
+metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
+    metrics::LeaseTotals totals;
+    for (const auto& [part, counts] : actuator.counts()) {
+        totals.issued += counts.issued;
+        totals.renewed += counts.renewed;
+        totals.expired += counts.expired;
+        for (const auto& [reason, refused] : counts.refused) {
+            totals.refused += refused;
+        }
+    }
+    return totals;
+}
+
+long peak_kib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+}  // namespace
+
+UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
+                 const std::filesystem::path& folder)
+    : unit_(unit),
+      config_(scenario::load(unit.scenario_file.string())),
+      network_(scenario::open_network(config_, unit.network_folder)),
+      prepared_(scenario::prepare(config_, network_, core::StudySeed{unit.study_seed},
+                                  core::Replication{unit.replication}, demand_folder)),
+      folder_(folder),
+      session_(std::make_unique<sumo::Session>(session_config(unit, prepared_, network_.network, folder))) {
+    if (unit_.engine != results::Engine::solo) warm_up();
+}
+
+void UnitRun::warm_up() {
+    double first = prepared_.time.horizon_s;
+    for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
+        first = std::min(first, departure.depart.value);
+    }
+    while (session_->time().value + prepared_.time.step_length_s <= first - lead_before_emergency.value) {
+        session_->step();
+        recorder_.step(session_->snapshot(), session_->events(), {});
+    }
+}
+
+results::RunRecord UnitRun::finish(const results::ConditionSpec& condition,
+                                   const std::filesystem::path& folder, results::RunTiming& timing) {
+    const auto started = std::chrono::steady_clock::now();
+    session_->continue_in(folder);
+    LoopTiming spent;
+    metrics::RunEnd end;
+    if (condition.engine == results::Engine::solo) {
+        run_solo();
+        end.planned = metrics::read_planned({}, prepared_.emergency);
+    } else {
+        spent = run_condition(condition, nullptr, end.leases);
+        std::vector<std::filesystem::path> files = prepared_.additional_files;
+        files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
+        end.planned = metrics::read_planned(files, prepared_.emergency);
+    }
+    end.time = session_->time();
+    session_->close();
+    end.tripinfo_files = {folder / "tripinfo.xml"};
+    metrics::RunSummary summary = recorder_.finish(end);
+
+    timing.simulator_s = spent.simulator_s;
+    timing.coupling_s = spent.coupling_s;
+    timing.peak_kib = peak_kib();
+    timing.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return {.key = {unit_.scenario, condition.name, unit_.replication},
+            .condition = condition,
+            .provenance = provenance(summary.trace_hash),
+            .metrics = summary.metrics,
+            .vehicles = std::move(summary.vehicles)};
+}
+
+void UnitRun::record(const results::ConditionSpec& condition, StepListener& listener) {
+    metrics::LeaseTotals leases;
+    run_condition(condition, &listener, leases);
+    session_->close();
+}
+
+LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepListener* listener,
+                                  metrics::LeaseTotals& leases) {
+    add_emergency_vehicles();
+    const Surroundings surroundings{
+        .network = network_.network,
+        .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
+        .loop = loop_};
+    ClosedLoop loop(*session_, make_machinery(condition, surroundings), loop_, recorder_, listener);
+    loop.run(core::Seconds(prepared_.time.horizon_s));
+    leases = totals_of(loop.actuator());
+    return loop.timing();
+}
+
+void UnitRun::add_emergency_vehicles() {
+    for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
+        session_->add(departure);
+    }
+}
+
+void UnitRun::run_solo() {
+    open_all_signals();
+    for (traffic::EmergencyDeparture departure : prepared_.emergency) {
+        departure.depart = session_->time();
+        session_->add(departure);
+        const double limit_s = session_->time().value + prepared_.time.horizon_s;
+        while (session_->expected_vehicles() > 0 && session_->time().value < limit_s) {
+            session_->step();
+            recorder_.step(session_->snapshot(), session_->events(), {});
+        }
+    }
+}
+
+void UnitRun::open_all_signals() {
+    std::vector<traffic::Command> commands;
+    for (std::uint32_t signal = 0; signal < network_.network.signals().size(); ++signal) {
+        const std::size_t links =
+            network_.network.signal(core::SignalIndex{signal}).program.front().state.size();
+        commands.emplace_back(traffic::SetSignalState{core::SignalIndex{signal}, std::string(links, 'G')});
+    }
+    session_->apply(commands);
+}
+
+results::Provenance UnitRun::provenance(const std::string& trace_hash) const {
+    return {.clearway_version = CLEARWAY_VERSION,
+            .sumo_version = sumo::version(),
+            .configuration_hash = scenario::configuration_hash(config_),
+            .demand_hash = prepared_.demand_hash,
+            .study_seed = unit_.study_seed,
+            .simulator_seed = prepared_.simulator_seed,
+            .trace_hash = trace_hash};
+}
+
+}  // namespace clearway::loop

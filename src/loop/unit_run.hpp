@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "loop/closed_loop.hpp"
+#include "loop/machinery.hpp"
+#include "metrics/recorder.hpp"
+#include "results/store.hpp"
+#include "results/unit.hpp"
+#include "scenario/prepare.hpp"
+#include "sumo/session.hpp"
+
+namespace clearway::loop {
+
+/// Time before the first emergency vehicle at which conditions part: sensors fill, and nothing depends on the
+/// condition before it.
+inline constexpr core::Seconds lead_before_emergency{60.0};
+
+/// A scenario and replication, loaded and warmed up, from which conditions start.
+class UnitRun {
+  public:
+    /// Prepares the demand, loads SUMO and steps to `lead_before_emergency` before the first emergency
+    /// vehicle. Outputs go to `folder`, the demand to `demand_folder`.
+    UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
+            const std::filesystem::path& folder);
+
+    /// Runs one condition to its end in this process, which was forked for it. Outputs move to `folder`.
+    results::RunRecord finish(const results::ConditionSpec& condition, const std::filesystem::path& folder,
+                              results::RunTiming& timing);
+    /// The same with a listener and without results: for recording data.
+    void record(const results::ConditionSpec& condition, StepListener& listener);
+
+    const roads::Network& network() const { return network_.network; }
+    const LoopConfig& loop_config() const { return loop_; }
+
+  private:
+    void warm_up();
+    void add_emergency_vehicles();
+    /// Each emergency vehicle alone, one after the other, with every signal open.
+    void run_solo();
+    void open_all_signals();
+    LoopTiming run_condition(const results::ConditionSpec& condition, StepListener* listener,
+                             metrics::LeaseTotals& leases);
+    results::Provenance provenance(const std::string& trace_hash) const;
+
+    results::UnitSpec unit_;
+    scenario::ScenarioConfig config_;
+    scenario::BuiltNetwork network_;
+    scenario::Prepared prepared_;
+    LoopConfig loop_;
+    std::filesystem::path folder_;
+    std::unique_ptr<sumo::Session> session_;
+    metrics::Recorder recorder_;
+};
+
+}  // namespace clearway::loop
