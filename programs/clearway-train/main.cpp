@@ -1,10 +1,15 @@
 // clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
 // MB at each launch; `clearway train` becomes this program.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -51,10 +56,9 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
         auto& member = config.*field.member;
         using Member = std::remove_reference_t<decltype(member)>;
         options.push_back(
-            app.add_option(option, member,
-                           fmt::format("{}, {} to {:g}", field.doc, field.minimum, field.maximum))
+            app.add_option(option, member, field.doc)
                 ->check(CLI::Range(static_cast<Member>(field.minimum), static_cast<Member>(field.maximum)))
-                ->capture_default_str()
+                ->option_text(fmt::format("NUMBER, {:g} to {:g} [{}]", field.minimum, field.maximum, member))
                 ->group(group));
     });
     return options;
@@ -65,8 +69,11 @@ void declare_options(CLI::App& app, Arguments& arguments) {
                    "Folder with edge_list.csv, vehicle_features.csv and target_y.csv; with --corrected, with "
                    "*.samples files. "
                    "Both come from `clearway dataset`")
-        ->required();
-    app.add_option("--out", arguments.out, "Folder for the results; made when absent")->required();
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("--out", arguments.out, "Folder for the results; made when absent")
+        ->required()
+        ->option_text("DIR (required)");
     auto* const corrected = app.add_flag_callback(
         "--corrected", [&] { arguments.mode = Mode::corrected; },
         "Train on many snapshots, split by seed, without messages along the labels");
@@ -75,7 +82,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
                    "those labelled 1")
         ->transform(CLI::CheckedTransformer(std::map<std::string, PairChoice>{
             {"candidates", PairChoice::candidates}, {"true", PairChoice::true_only}}))
-        ->default_str("candidates")
+        ->option_text("candidates|true [candidates]")
         ->excludes(corrected);
     app.add_flag_callback(
         "--quiet", [&] { arguments.printing = Printing::closing_only; },

@@ -1,0 +1,235 @@
+#include "training/corrected.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "synthetic_samples.hpp"
+#include "training/state_dict.hpp"
+
+namespace clearway::training {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <class Call>
+std::string message_of(Call&& call) {
+    try {
+        call();
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+std::vector<DataSeed> seeds_upto(std::uint32_t count) {
+    std::vector<DataSeed> seeds;
+    for (std::uint32_t replication = 0; replication < count; ++replication)
+        seeds.push_back({1, replication});
+    return seeds;
+}
+
+TEST(AppendSample, moves_indices_behind_the_vehicles_already_there) {
+    const prediction::GraphSample two{0.0, 2, {1, 2}, {{0, 1}}, {{0, 1, 10.0F, 1}}};
+    const prediction::GraphSample three{1.0, 3, {3, 4, 5}, {{1, 2}}, {{0, 2, 60.0F, 0}}};
+    GraphBatch batch;
+    append_sample(two, 1, 200.0, batch);
+    append_sample(three, 1, 200.0, batch);
+    EXPECT_THAT(batch.features, ElementsAre(1, 2, 3, 4, 5));
+    EXPECT_THAT(batch.message_source, ElementsAre(0, 1, 3, 4));
+    EXPECT_THAT(batch.message_target, ElementsAre(1, 0, 4, 3));
+    EXPECT_THAT(batch.pair_left, ElementsAre(0, 2));
+    EXPECT_THAT(batch.pair_right, ElementsAre(1, 4));
+    EXPECT_THAT(batch.label, ElementsAre(1.0F, 0.0F));
+}
+
+TEST(AppendSample, a_batch_scores_each_snapshot_as_if_alone) {
+    const prediction::GraphSampleFile file = SyntheticRun(5).file(0, 4);
+    const TorchNet net({{5, 10, 5}, 5, 0.01});
+    GraphBatch together;
+    std::vector<float> alone;
+    for (const prediction::GraphSample& sample : file.samples) {
+        append_sample(sample, 5, 200.0, together);
+        GraphBatch single;
+        append_sample(sample, 5, 200.0, single);
+        for (const float logit : net.logits(single))
+            alone.push_back(logit);
+    }
+    EXPECT_GT(alone.size(), 100U);
+    EXPECT_THAT(net.logits(together), testing::Pointwise(testing::FloatNear(1e-6F), alone));
+}
+
+TEST(AppendSample, messages_flow_along_observed_edges_only) {
+    prediction::GraphSample sample = SyntheticRun(6).file(0, 1).samples[0];
+    GraphBatch before;
+    append_sample(sample, 5, 200.0, before);
+    EXPECT_EQ(before.message_source.size(), 2 * sample.observed_edges.size());
+    // Labels and candidates move no message.
+    for (prediction::CandidatePair& pair : sample.candidates)
+        pair.linked = 1 - pair.linked;
+    GraphBatch flipped;
+    append_sample(sample, 5, 200.0, flipped);
+    EXPECT_EQ(flipped.message_source, before.message_source);
+    EXPECT_EQ(flipped.message_target, before.message_target);
+    const TorchNet net({{5, 10, 5}, 6, 0.01});
+    EXPECT_EQ(net.logits(flipped), net.logits(before));
+}
+
+TEST(AppendSample, pairs_out_of_reach_are_left_out) {
+    const prediction::GraphSample sample{
+        0.0, 3, {1, 2, 3}, {}, {{0, 1, 199.0F, 0}, {0, 2, 200.0F, 0}, {1, 2, 250.0F, 1}}};
+    GraphBatch batch;
+    append_sample(sample, 1, 200.0, batch);
+    EXPECT_THAT(batch.pair_right, ElementsAre(1));
+}
+
+TEST(SplitSeeds, every_seed_is_in_one_part) {
+    const SeedSplit split = split_seeds(seeds_upto(20), {});
+    EXPECT_EQ(split.test.size(), 4U);
+    EXPECT_EQ(split.validation.size(), 4U);
+    EXPECT_EQ(split.train.size(), 12U);
+    std::set<DataSeed> all;
+    for (const auto* part : {&split.train, &split.validation, &split.test}) {
+        EXPECT_TRUE(std::ranges::is_sorted(*part));
+        all.insert(part->begin(), part->end());
+    }
+    EXPECT_EQ(all.size(), 20U);
+}
+
+TEST(SplitSeeds, neither_order_nor_repetition_of_the_files_matters) {
+    std::vector<DataSeed> seeds = seeds_upto(10);
+    const SeedSplit split = split_seeds(seeds, {});
+    std::ranges::reverse(seeds);
+    seeds.insert(seeds.end(), seeds.begin(), seeds.begin() + 5);
+    EXPECT_EQ(split_seeds(seeds, {}).test, split.test);
+    EXPECT_EQ(split_seeds(seeds, {}).train, split.train);
+}
+
+TEST(SplitSeeds, the_training_seed_deals_them) {
+    CorrectedConfig other;
+    other.training.seed = 2;
+    EXPECT_NE(split_seeds(seeds_upto(40), {}).test, split_seeds(seeds_upto(40), other).test);
+}
+
+TEST(SplitSeeds, no_part_is_empty) {
+    CorrectedConfig greedy;
+    greedy.test_share = 0.8;
+    greedy.validation_share = 0.8;
+    const SeedSplit split = split_seeds(seeds_upto(3), greedy);
+    EXPECT_EQ(split.train.size(), 1U);
+    EXPECT_EQ(split.validation.size(), 1U);
+    EXPECT_EQ(split.test.size(), 1U);
+    EXPECT_THAT(message_of([] { split_seeds(seeds_upto(2), {}); }),
+                HasSubstr("runs of 2 seeds (allowed: 3 seeds or more)"));
+}
+
+TEST(TrainCorrected, learns_links_of_unseen_seeds) {
+    CorrectedConfig config;
+    config.training.epochs = 30;
+    const CorrectedResult result = train_corrected(synthetic_files(10, 40), config);
+    ASSERT_EQ(result.groups.size(), 2U);
+    const metrics::LinkQuality& quality = result.groups[0].net;
+    EXPECT_GT(quality.pairs, 1000U);
+    EXPECT_GT(*quality.auc, 0.9);
+    EXPECT_GT(*quality.f1, 0.75);
+    EXPECT_LT(*quality.log_loss, 0.45);
+    EXPECT_LT(*quality.ece, 0.1);
+    EXPECT_EQ(result.groups[1].scenario, "line");
+    EXPECT_EQ(result.groups[1].net.pairs, quality.pairs);
+    EXPECT_GT(*result.groups[0].dead_reckoning.auc, 0.9);
+}
+
+TEST(TrainCorrected, shuffled_labels_teach_nothing) {
+    std::vector<prediction::GraphSampleFile> files = synthetic_files(10, 40);
+    std::mt19937 random(1);
+    for (prediction::GraphSampleFile& file : files) {
+        for (prediction::GraphSample& sample : file.samples) {
+            for (prediction::CandidatePair& pair : sample.candidates)
+                pair.linked = random() % 2 == 0 ? 1 : 0;
+        }
+    }
+    CorrectedConfig config;
+    config.training.epochs = 10;
+    EXPECT_NEAR(*train_corrected(files, config).groups[0].net.auc, 0.5, 0.06);
+}
+
+TEST(TrainCorrected, keeps_the_epoch_that_validates_best_and_stops_early) {
+    CorrectedConfig config;
+    config.training.epochs = 1000;
+    config.training.learning_rate = 0.05;
+    config.patience = 2;
+    const CorrectedResult result = train_corrected(synthetic_files(5, 10), config);
+    EXPECT_EQ(result.outcome, Outcome::stopped_early);
+    ASSERT_LT(result.losses.size(), 1000U);
+    EXPECT_EQ(result.best_epoch + 2, result.losses.size() - 1);
+    for (const EpochLoss& loss : result.losses)
+        EXPECT_GE(loss.held_out, result.losses[result.best_epoch].held_out);
+}
+
+TEST(TrainCorrected, same_seed_same_bytes) {
+    CorrectedConfig config;
+    config.training.epochs = 3;
+    const auto files = synthetic_files(4, 10);
+    const std::string first = format_pth(train_corrected(files, config).state, "net");
+    EXPECT_EQ(format_pth(train_corrected(files, config).state, "net"), first);
+    config.training.seed = 2;
+    EXPECT_NE(format_pth(train_corrected(files, config).state, "net"), first);
+}
+
+TEST(TrainCorrected, candidates_out_of_reach_count_as_predicted_unlinked) {
+    auto files = synthetic_files(3, 5);
+    std::uint64_t within = 0;
+    CorrectedConfig config;
+    config.training.epochs = 2;
+    within = train_corrected(files, config).groups[0].net.pairs;
+    for (prediction::GraphSampleFile& file : files)
+        file.samples[0].candidates.push_back({0, 1, 500.0F, 1});
+    const CorrectedResult result = train_corrected(files, config);
+    EXPECT_EQ(result.groups[0].net.pairs, within + 1);
+    // A true link with probability 0 costs 15 ln 10 at the clamp.
+    EXPECT_GT(*result.groups[0].net.log_loss * static_cast<double>(within + 1), 15 * std::log(10.0));
+}
+
+TEST(TrainCorrected, divergence_keeps_the_best_epoch) {
+    CorrectedConfig config;
+    config.training.learning_rate = 1e20;
+    const CorrectedResult result = train_corrected(synthetic_files(3, 40), config);
+    EXPECT_EQ(result.outcome, Outcome::diverged);
+    EXPECT_TRUE(result.state.empty());
+    EXPECT_TRUE(result.groups.empty());
+}
+
+TEST(TrainCorrected, files_of_different_features_are_refused) {
+    auto files = synthetic_files(3, 2);
+    files[1].origin.features.version = 2;
+    EXPECT_THAT(message_of([&] { train_corrected(files, {}); }),
+                testing::AllOf(HasSubstr("line, B10, replication 1"), HasSubstr("corrected 2")));
+    EXPECT_THAT(message_of([] { train_corrected({}, {}); }), HasSubstr("no graph samples"));
+}
+
+TEST(TrainCorrected, a_part_without_pairs_is_said) {
+    auto files = synthetic_files(3, 2);
+    for (auto& file : files) {
+        for (auto& sample : file.samples)
+            sample.candidates.clear();
+    }
+    EXPECT_THAT(message_of([&] { train_corrected(files, {}); }),
+                HasSubstr("the training seeds hold no candidate pair"));
+}
+
+TEST(TrainCorrected, interruption_keeps_the_best_so_far) {
+    int asked = 0;
+    const CorrectedResult result =
+        train_corrected(synthetic_files(3, 5), {}, {{}, [&] { return ++asked > 2; }});
+    EXPECT_EQ(result.outcome, Outcome::interrupted);
+    EXPECT_EQ(result.losses.size(), 2U);
+    EXPECT_FALSE(result.state.empty());
+    EXPECT_FALSE(result.groups.empty());
+}
+
+}  // namespace
+}  // namespace clearway::training

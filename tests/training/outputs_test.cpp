@@ -1,0 +1,158 @@
+#include "training/outputs.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "support/temporary_folder.hpp"
+#include "training/loss_curve.hpp"
+#include "training/state_dict.hpp"
+
+namespace clearway::training {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Pth, libtorch_reads_names_shapes_and_values) {
+    const support::TemporaryFolder folder;
+    const StateDict written = TorchNet({{2, 10, 5}, 3, 0.01}).state();
+    write_pth(folder.path() / "GraphSAGENet.pth", written);
+    const StateDict read = read_pth(folder.path() / "GraphSAGENet.pth");
+    std::vector<std::string> names;
+    for (std::size_t at = 0; at < read.size(); ++at) {
+        names.push_back(read[at].name);
+        EXPECT_EQ(read[at].shape, written[at].shape) << read[at].name;
+        EXPECT_EQ(read[at].values, written[at].values) << read[at].name;
+    }
+    EXPECT_THAT(names, ElementsAre("graphsage.conv1.lin_l.weight", "graphsage.conv1.lin_l.bias",
+                                   "graphsage.conv1.lin_r.weight", "graphsage.conv2.lin_l.weight",
+                                   "graphsage.conv2.lin_l.bias", "graphsage.conv2.lin_r.weight",
+                                   "nn.fc1.weight", "nn.fc1.bias", "nn.fc2.weight", "nn.fc2.bias"));
+    EXPECT_THAT(read[0].shape, ElementsAre(10, 2));
+    EXPECT_THAT(read[2].shape, ElementsAre(10, 2));
+    EXPECT_THAT(read[3].shape, ElementsAre(5, 10));
+    EXPECT_THAT(read[6].shape, ElementsAre(10, 5));
+    EXPECT_THAT(read[8].shape, ElementsAre(1, 10));
+    EXPECT_THAT(read[9].shape, ElementsAre(1));
+}
+
+TEST(Pth, data_start_at_multiples_of_64) {
+    const std::string bytes = format_pth(TorchNet({{2, 10, 5}, 3, 0.01}).state(), "net");
+    const std::size_t member = bytes.find("net/data/0");
+    ASSERT_NE(member, std::string::npos);
+    const auto extra =
+        static_cast<unsigned char>(bytes[member - 2]) + 256 * static_cast<unsigned char>(bytes[member - 1]);
+    EXPECT_EQ((member + 10 + static_cast<std::size_t>(extra)) % 64, 0U);
+}
+
+TEST(Pth, what_is_no_state_dict_is_refused) {
+    const support::TemporaryFolder folder;
+    const std::string file = folder.write("x.pth", "not an archive");
+    EXPECT_THROW(read_pth(file), core::InputError);
+    EXPECT_THROW(read_pth((folder.path() / "missing.pth").string()), core::InputError);
+}
+
+TEST(Losses, csv_counts_epochs_from_zero_and_leaves_cells_empty) {
+    EXPECT_EQ(losses_csv({{0.5, 0.25}, {nan, 0.125}}, "test"),
+              "epoch,train_loss_nat,test_loss_nat\n0,0.5,0.25\n1,,0.125\n");
+}
+
+TEST(LossCurve, draws_both_losses_with_axes_and_legend) {
+    const std::string svg = loss_curve_svg({{1.0, 2.0}, {0.5, 1.0}, {0.25, 0.5}}, "Test Loss");
+    EXPECT_THAT(svg, testing::StartsWith("<svg"));
+    EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
+    for (const char* text : {">Epoch<", ">Loss (nat)<", ">Train Loss<", ">Test Loss<"})
+        EXPECT_THAT(svg, HasSubstr(text));
+    // The plot spans 70 to 620 and 20 to 350; the axis ends at 2.1.
+    EXPECT_THAT(svg, HasSubstr("M70.0 192.9L345.0 271.4L620.0 310.7"));
+    EXPECT_THAT(svg, HasSubstr("M70.0 35.7L345.0 192.9L620.0 271.4"));
+}
+
+TEST(LossCurve, leaves_a_gap_where_a_loss_is_not_finite) {
+    const std::string svg = loss_curve_svg({{1.0, 1.0}, {nan, 1.0}, {1.0, 1.0}, {1.0, nan}}, "a<b");
+    EXPECT_THAT(svg, testing::Not(HasSubstr("nan")));
+    EXPECT_THAT(svg, HasSubstr("a&lt;b"));
+    EXPECT_THAT(loss_curve_svg({}, "Test Loss"), testing::EndsWith("</svg>\n"));
+}
+
+AsPublishedResult small_result() {
+    const prediction::PairDataset dataset{
+        2, {0, 0, 1, 0, 2, 1}, {0, 1, 2, 0, 1}, {1, 2, 0, 2, 0}, {1, 1, 0, 1, 0}};
+    TrainingConfig config;
+    config.epochs = 4;
+    return train_as_published(dataset, PairChoice::candidates, config);
+}
+
+TEST(Outputs, predictions_list_every_pair_in_its_part) {
+    const AsPublishedResult result = small_result();
+    const std::string csv = predictions_csv(result);
+    EXPECT_THAT(csv, testing::StartsWith("pair,source,target,label,split,logit,probability\n0,0,1,1,train,"));
+    EXPECT_THAT(csv, HasSubstr("\n3,0,2,1,train,"));
+    EXPECT_THAT(csv, HasSubstr("\n4,1,0,0,test,"));
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
+}
+
+TEST(Outputs, the_summary_has_null_where_a_figure_is_undefined) {
+    const AsPublishedResult result = small_result();
+    const auto summary = summary_of(result, PairChoice::candidates, {"data", "abc", {}});
+    EXPECT_EQ(summary["mode"], "as_published");
+    EXPECT_EQ(summary["outcome"], "finished");
+    EXPECT_EQ(summary["pairs"], "candidates");
+    EXPECT_EQ(summary["pair_count"], 5);
+    EXPECT_EQ(summary["train_pair_count"], 4);
+    EXPECT_EQ(summary["final_test_loss_nat"], result.losses.back().held_out);
+    EXPECT_TRUE(summary["test"]["auc"].is_null());
+    EXPECT_EQ(summary["test"]["pairs"], 1);
+    EXPECT_EQ(summary["configuration"]["learning_rate"], 0.01);
+}
+
+TEST(Outputs, the_folder_holds_a_model_that_inference_takes) {
+    const support::TemporaryFolder folder;
+    const AsPublishedResult result = small_result();
+    TrainingConfig config;
+    write_outputs(folder.path(), result, summary_of(result, PairChoice::candidates, {"data", "abc", config}),
+                  config);
+    for (const char* name :
+         {"losses.csv", "train_test_curve.svg", "summary.json", "predictions.csv", "GraphSAGENet.pth"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+    }
+    const prediction::Weights weights =
+        prediction::read_weights(folder.path() / "graphsage_as_published.weights");
+    const prediction::GraphSageNet net(weights, as_published_schema(2));
+    EXPECT_EQ(net.dimensions(), (prediction::GraphSageDimensions{2, 10, 5}));
+    EXPECT_THAT(weights.notes, ElementsAre("trained by clearway train, as_published, seed 1, data abc"));
+}
+
+TEST(Outputs, without_good_parameters_there_is_no_model) {
+    const support::TemporaryFolder folder;
+    AsPublishedResult result = small_result();
+    result.state.clear();
+    result.outcome = Outcome::diverged;
+    write_outputs(folder.path(), result, summary_of(result, PairChoice::candidates, {"data", "abc", {}}), {});
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "losses.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "GraphSAGENet.pth"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "graphsage_as_published.weights"));
+}
+
+TEST(Outputs, metrics_of_groups_have_a_column_for_every_figure) {
+    CorrectedResult result;
+    GroupQuality group{"merge", "B10", {}, {}};
+    group.net.pairs = 7;
+    group.net.ap = 0.5;
+    group.dead_reckoning.auc = 0.75;
+    result.groups = {group};
+    EXPECT_EQ(metrics_csv(result),
+              "scenario,failure,pairs,true_links,auc,ap,f1,log_loss_nat,ece,threshold,dead_reckoning_auc,"
+              "dead_reckoning_ap,dead_reckoning_f1\nmerge,B10,7,0,,0.5,,,,0.5,0.75,,\n");
+}
+
+}  // namespace
+}  // namespace clearway::training

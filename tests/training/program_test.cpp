@@ -1,0 +1,166 @@
+// Drives clearway-train as a user would.
+#include <cstdlib>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "prediction/graph_sample.hpp"
+#include "support/temporary_folder.hpp"
+#include "synthetic_samples.hpp"
+
+namespace clearway::training {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Ended {
+    core::Exit exit;
+    std::string output;  ///< Both streams.
+};
+
+class TrainProgramTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_.write("edge_list.csv", "0,0,1,1,2,2,3,4\n1,2,2,3,3,4,4,0\n");
+        folder_.write("vehicle_features.csv", "0,0\n0.5,0.25\n1,0\n1.5,0.25\n2,1\n");
+        folder_.write("target_y.csv", "1,0,1,1,0,1,0,1\n");
+    }
+
+    Ended train(std::vector<std::string> arguments) const {
+        const std::filesystem::path log = folder_.path() / "output.txt";
+        const core::Exit exit = core::run(
+            {std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin" / "clearway-train", arguments, {}, log});
+        return {exit, core::read_file(log)};
+    }
+    std::string data() const { return folder_.path(); }
+    std::string out() const { return folder_.path() / "out"; }
+
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(TrainProgramTest, prints_three_lines_an_epoch_as_published) {
+    const Ended ended = train({"--data", data(), "--out", out()});
+    EXPECT_EQ(ended.exit.code, 0) << ended.output;
+    EXPECT_THAT(ended.output, testing::ContainsRegex("epoch: 0\n=======\nloss: [0-9.]+ [0-9.]+\nepoch: 1\n"));
+    EXPECT_THAT(ended.output, HasSubstr("epoch: 99\n=======\nloss: "));
+    EXPECT_THAT(ended.output, testing::Not(HasSubstr("epoch: 100")));
+}
+
+TEST_F(TrainProgramTest, quiet_prints_the_closing_figures_only) {
+    const Ended ended = train({"--data", data(), "--out", out(), "--quiet"});
+    EXPECT_THAT(ended.output, AllOf(testing::Not(HasSubstr("epoch:")), HasSubstr("test: 1 pairs")));
+}
+
+TEST_F(TrainProgramTest, json_is_all_that_is_printed) {
+    const Ended ended = train({"--data", data(), "--out", out(), "--json", "--epochs", "7", "--seed", "3"});
+    const auto summary = nlohmann::json::parse(ended.output);
+    EXPECT_EQ(summary["epochs_run"], 7);
+    EXPECT_EQ(summary["configuration"]["seed"], 3);
+    EXPECT_EQ(summary, nlohmann::json::parse(core::read_file(folder_.path() / "out" / "summary.json")));
+}
+
+TEST_F(TrainProgramTest, python_computes_the_same_logits_from_the_pth) {
+    ASSERT_EQ(train({"--data", data(), "--out", out(), "--quiet"}).exit.code, 0);
+    const std::filesystem::path log = folder_.path() / "python.txt";
+    const core::Exit exit =
+        core::run({"/usr/bin/python3",
+                   {std::string(CLEARWAY_SOURCE_DIR) + "/tests/training/check_pth.py", data(), out()},
+                   {},
+                   log});
+    if (exit.code == 77 || exit.code == 127)
+        GTEST_SKIP() << "Python with torch (package python3-torch) is not installed";
+    EXPECT_TRUE(exit.ok()) << core::read_file(log);
+}
+
+TEST_F(TrainProgramTest, same_seed_same_files) {
+    for (const char* name : {"a", "b"}) {
+        ASSERT_EQ(train({"--data", data(), "--out", folder_.path() / name, "--quiet"}).exit.code, 0);
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "a")) {
+        const auto name = entry.path().filename();
+        EXPECT_EQ(core::read_file(entry.path()), core::read_file(folder_.path() / "b" / name)) << name;
+    }
+}
+
+TEST_F(TrainProgramTest, bad_data_exit_with_3_and_name_file_and_line) {
+    folder_.write("vehicle_features.csv", "0,0\n0.5,nan\n1\n1.5,0.25\n2,1\n");
+    const Ended ended = train({"--data", data(), "--out", out()});
+    EXPECT_EQ(ended.exit.code, 3);
+    EXPECT_THAT(ended.output, AllOf(HasSubstr("vehicle_features.csv:2: value 2: `nan`"),
+                                    HasSubstr("vehicle_features.csv:3: 1 values")));
+}
+
+TEST_F(TrainProgramTest, a_missing_folder_exits_with_3) {
+    const Ended ended = train({"--data", data() + "/none", "--out", out()});
+    EXPECT_EQ(ended.exit.code, 3);
+    EXPECT_THAT(ended.output, HasSubstr("clearway dataset"));
+}
+
+TEST_F(TrainProgramTest, an_unwritable_out_folder_exits_with_4_before_training) {
+    const Ended ended = train({"--data", data(), "--out", data() + "/target_y.csv/out"});
+    EXPECT_EQ(ended.exit.code, 4);
+    EXPECT_THAT(ended.output, AllOf(HasSubstr("target_y.csv/out"), testing::Not(HasSubstr("epoch"))));
+}
+
+TEST_F(TrainProgramTest, a_full_disk_exits_with_4) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
+    const Ended ended = train({"--data", data(), "--out", "/dev/full/out"});
+    EXPECT_EQ(ended.exit.code, 4);
+}
+
+TEST_F(TrainProgramTest, wrong_usage_exits_with_2) {
+    EXPECT_EQ(train({"--data", data()}).exit.code, 2);
+    EXPECT_EQ(train({"--data", data(), "--out", out(), "--epochs", "-1"}).exit.code, 2);
+    EXPECT_EQ(train({"--data", data(), "--out", out(), "--pairs", "some"}).exit.code, 2);
+    EXPECT_EQ(train({"--data", data(), "--out", out(), "--patience", "3"}).exit.code, 2);
+    EXPECT_EQ(train({"--data", data(), "--out", out(), "--unknown"}).exit.code, 2);
+}
+
+TEST_F(TrainProgramTest, divergence_exits_with_1_says_so_and_keeps_a_model) {
+    const Ended ended = train({"--data", data(), "--out", out(), "--quiet", "--learning-rate", "1e20"});
+    EXPECT_EQ(ended.exit.code, 1);
+    EXPECT_THAT(ended.output, HasSubstr("training diverged in epoch 1"));
+    EXPECT_TRUE(std::filesystem::exists(out() + "/GraphSAGENet.pth"));
+    EXPECT_THAT(core::read_file(out() + "/summary.json"), HasSubstr("\"outcome\": \"diverged\""));
+}
+
+TEST_F(TrainProgramTest, corrected_training_reads_sample_files) {
+    for (const auto& file : synthetic_files(4, 5)) {
+        prediction::GraphSampleWriter writer(file.origin);
+        for (const auto& sample : file.samples)
+            writer.add(sample);
+        writer.write(folder_.path() / ("line_B10_" + std::to_string(file.origin.replication) + ".samples"));
+    }
+    const Ended ended = train({"--corrected", "--data", data(), "--out", out(), "--epochs", "3", "--json"});
+    EXPECT_EQ(ended.exit.code, 0) << ended.output;
+    const auto summary = nlohmann::json::parse(ended.output);
+    EXPECT_EQ(summary["mode"], "corrected");
+    EXPECT_EQ(summary["seeds"]["test"].size(), 1U);
+    EXPECT_EQ(summary["test"][0]["scenario"], "all");
+    EXPECT_EQ(summary["test"][1]["failure"], "B10");
+    for (const char* name :
+         {"graphsage_corrected.weights", "GraphSAGENet.pth", "metrics.csv", "losses.csv"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / name)) << name;
+    }
+}
+
+TEST_F(TrainProgramTest, corrected_training_without_samples_exits_with_3) {
+    const Ended ended = train({"--corrected", "--data", data(), "--out", out()});
+    EXPECT_EQ(ended.exit.code, 3);
+    EXPECT_THAT(ended.output, HasSubstr("holds no file of graph samples"));
+}
+
+TEST_F(TrainProgramTest, help_names_units_defaults_and_an_example) {
+    const Ended ended = train({"--help"});
+    EXPECT_EQ(ended.exit.code, 0);
+    EXPECT_THAT(ended.output, AllOf(HasSubstr("--learning-rate"), HasSubstr("[0.01]"), HasSubstr("[100]"),
+                                    HasSubstr("nat"), HasSubstr("clearway train --data")));
+}
+
+}  // namespace
+}  // namespace clearway::training
