@@ -210,22 +210,61 @@ TEST(Commands, AlignmentMovesAVehicleWithinItsLaneAndBack) {
     EXPECT_NEAR(across(session, "a"), usual_m, 0.1F);
 }
 
-TEST(Commands, PrivilegedVehiclePassesRedAndTheOthersDoNot) {
+TEST(Commands, PrivilegedVehiclePassesRedSlowlyAndTheOthersDoNot) {
     const Scene scene;
-    Session session(scene.config(scene.crossing(),
-                                 vehicle("free", "ev", 0, "west_in east_out", R"(departLane="1")") +
-                                     vehicle("bound", "hv", 0, "south_in north_out") +
-                                     vehicle("once", "ev", 0, "east_in west_out", R"(departLane="1")")));
+    const auto config =
+        scene.config(scene.crossing(), vehicle("free", "ev", 0, "west_in east_out", R"(departLane="1")") +
+                                           vehicle("bound", "hv", 0, "south_in north_out") +
+                                           vehicle("once", "ev", 0, "east_in west_out", R"(departLane="1")"));
+    Session session(config);
     session.step();
     const std::size_t links = session.snapshot().signals.state.at(0).size();
     apply(session, traffic::SetSignalState{core::SignalIndex{0}, std::string(links, 'r')});
     apply(session, traffic::SetJunctionPrivilege{key("free"), traffic::JunctionPrivilege::pass_red});
     apply(session, traffic::SetJunctionPrivilege{key("once"), traffic::JunctionPrivilege::pass_red});
     apply(session, traffic::SetJunctionPrivilege{key("once"), traffic::JunctionPrivilege::none});
-    step_until(session, 60.0);
+    float approach_mps = 0.0F;
+    float at_line_mps = -1.0F;
+    while (session.time().value < 60.0) {
+        session.step();
+        const auto row = session.snapshot().row_of(key("free"));
+        if (!row || at_line_mps >= 0.0F) continue;
+        const bool in_junction = config.names.lanes.at(session.snapshot().lane[*row].value).starts_with(':');
+        approach_mps = std::max(approach_mps, speed(session, "free"));
+        if (in_junction) at_line_mps = speed(session, "free");
+    }
     EXPECT_FALSE(session.snapshot().row_of(key("free"))) << "should have passed and arrived";
+    EXPECT_GT(approach_mps, 12.0F);
+    EXPECT_GT(at_line_mps, 0.0F);
+    EXPECT_LT(at_line_mps, 7.0F) << "its type says 5 m/s at red";
     EXPECT_EQ(speed(session, "bound"), 0.0F);
     EXPECT_EQ(speed(session, "once"), 0.0F);
+}
+
+TEST(Commands, PrivilegedVehicleYieldsToThoseWithGreen) {
+    const Scene scene;
+    std::string crossing_traffic;
+    for (int i = 0; i < 40; ++i) {
+        crossing_traffic += vehicle("cross" + std::to_string(i), "hv", 1.5 * i, "south_in north_out",
+                                    R"(departLane="random" departSpeed="max")");
+    }
+    Session session(
+        scene.config(scene.crossing(),
+                     vehicle("free", "ev", 0, "west_in east_out", R"(departLane="1")") + crossing_traffic));
+    session.step();
+    std::string state;
+    for (const char letter : session.snapshot().signals.state.at(0)) {
+        state += letter == 'r' ? 'r' : 'G';
+    }
+    const bool west_is_red = state[0] == 'G';  // links are numbered from the north, clockwise
+    ASSERT_TRUE(west_is_red) << state;
+    apply(session, traffic::SetSignalState{core::SignalIndex{0}, state});
+    apply(session, traffic::SetJunctionPrivilege{key("free"), traffic::JunctionPrivilege::pass_red});
+    while (session.expected_vehicles() > 0 && session.time().value < 150.0) {
+        session.step();
+        EXPECT_TRUE(session.events().collisions.empty()) << session.time().value;
+    }
+    EXPECT_FALSE(session.snapshot().row_of(key("free")));
 }
 
 TEST(Commands, SignalShowsTheStateAndReturnsToItsProgram) {

@@ -137,12 +137,12 @@ TEST(Fault, ConfigurationProblemsAreCollected) {
     config.step_length = core::Seconds(1.5);
     config.begin = core::Seconds(-1.0);
     config.time_to_teleport = core::Seconds(std::numeric_limits<double>::quiet_NaN());
-    config.extra_arguments = {"--seed", "5", "-e", "100", "--step-length=0.5"};
+    config.extra_arguments = {"--seed", "5", "-e", "100", "--step-length=0.5", "--max-depart-delay", "10"};
     try {
         Session session(config);
         FAIL() << "was accepted";
     } catch (const core::InputError& error) {
-        EXPECT_EQ(error.problems().size(), 6U) << error.what();
+        EXPECT_EQ(error.problems().size(), 7U) << error.what();
     }
     config = scene.config(scene.straight_road(), "");
     config.step_length = core::Seconds(0.0333333);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -18,8 +17,9 @@ namespace {
 
 using Option = std::pair<std::string, std::string>;
 
-/// What the session decides itself: an extra argument must not change it behind its back.
-constexpr std::array<std::string_view, 14> reserved = {"--net-file",
+/// What the session decides itself: an extra argument must not change it behind its back. The last one drops
+/// vehicles without a trace, even from the trip table.
+constexpr std::array<std::string_view, 15> reserved = {"--net-file",
                                                        "--route-files",
                                                        "--additional-files",
                                                        "--begin",
@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, 14> reserved = {"--net-file",
                                                        "--remote-port",
                                                        "--configuration-file",
                                                        "--end",
-                                                       "--load-state"};
+                                                       "--load-state",
+                                                       "--max-depart-delay"};
 
 /// `--step-length` of `--step-length=0.5`; empty for a value.
 std::string option_name(const std::string& argument) {
@@ -41,11 +42,11 @@ std::string option_name(const std::string& argument) {
 }
 
 std::string joined(const std::vector<std::filesystem::path>& files) {
-    std::vector<std::string> names;
+    std::string names;
     for (const std::filesystem::path& file : files) {
-        names.push_back(file.string());
+        names += (names.empty() ? "" : ",") + file.string();
     }
-    return fmt::format("{}", fmt::join(names, ","));
+    return names;
 }
 
 /// Which faults SUMO reports, and how it treats them.
