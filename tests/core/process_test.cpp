@@ -126,8 +126,6 @@ TEST_F(ProcessTest, ChildrenEndWithTheirParent) {
     }
     pid_t grandchild = 0;
     ASSERT_EQ(read(ends[0], &grandchild, sizeof grandchild), static_cast<ssize_t>(sizeof grandchild));
-    std::this_thread::sleep_for(
-        50ms);  // Lets it reach its program; before that the request may not stand yet.
     EXPECT_NE(state_of(grandchild), 'X');
     kill(parent, SIGKILL);
     waitpid(parent, nullptr, 0);

@@ -1,0 +1,78 @@
+# Run as a script by the tests of this folder. MODULE is the module under test; FOLDERS are the include folders that its
+# own sources are compiled with; FORBIDDEN and USED are modules (with commas); SOURCES is the folder of all modules.
+foreach(list FORBIDDEN USED FOLDERS)
+    string(REPLACE "," ";" ${list} "${${list}}")
+endforeach()
+file(MAKE_DIRECTORY ${WORK})
+set(flags)
+foreach(folder ${FOLDERS})
+    list(APPEND flags -I${folder})
+endforeach()
+
+# Compiles a source of MODULE with these lines. `result` is "found", "missing" (a header of `folder` is not found) or
+# "broken" (anything else).
+function(try_lines lines folder result)
+    file(WRITE ${WORK}/probe.cpp "${lines}")
+    execute_process(COMMAND ${COMPILER} -std=c++20 -E ${flags} ${WORK}/probe.cpp -o ${WORK}/probe.ii
+                    RESULT_VARIABLE code ERROR_VARIABLE message)
+    if(code EQUAL 0)
+        set(${result} found PARENT_SCOPE)
+    elseif(message MATCHES "fatal error: ${folder}/[^ ]*: No such file or directory")
+        set(${result} missing PARENT_SCOPE)
+    else()
+        message(STATUS "${message}")
+        set(${result} broken PARENT_SCOPE)
+    endif()
+endfunction()
+
+function(expect lines folder wanted)
+    try_lines("${lines}" ${folder} result)
+    if(NOT result STREQUAL "${wanted}")
+        message(SEND_ERROR "a source of ${MODULE} with ${lines} is ${result}, expected ${wanted}")
+    endif()
+endfunction()
+
+# Positive control: the same probe finds every header that the module may include.
+set(lines)
+foreach(other ${USED})
+    file(GLOB headers RELATIVE ${SOURCES} ${SOURCES}/${other}/*.hpp)
+    foreach(header ${headers})
+        string(APPEND lines "#include \"${header}\"\n")
+    endforeach()
+endforeach()
+expect("${lines}" ${MODULE} found)
+
+# One header of each forbidden module is enough: the include root is there for all of them or for none.
+foreach(other ${FORBIDDEN})
+    file(GLOB headers RELATIVE ${SOURCES} ${SOURCES}/${other}/*.hpp)
+    if(headers)
+        list(GET headers 0 header)
+        expect("#include \"${header}\"\n" ${other} missing)
+    endif()
+endforeach()
+
+# libtorch belongs to training alone. SUMO's headers lie in a system folder, where every compiler finds them: there the
+# sources themselves are searched.
+if(MODULE STREQUAL "training")
+    expect("#include <torch/torch.h>\n" torch found)
+else()
+    expect("#include <torch/torch.h>\n" torch missing)
+endif()
+file(GLOB_RECURSE files ${SOURCES}/${MODULE}/*.hpp ${SOURCES}/${MODULE}/*.cpp)
+set(sumo_users 0)
+foreach(file ${files})
+    file(STRINGS ${file} lines REGEX "#include *[<\"](libsumo|libtraci|torch|ATen|c10)/")
+    foreach(line ${lines})
+        if(line MATCHES "lib(sumo|traci)/")
+            math(EXPR sumo_users "${sumo_users} + 1")
+            if(NOT MODULE STREQUAL "sumo")
+                message(SEND_ERROR "${file}: only the module sumo may write ${line}")
+            endif()
+        elseif(NOT MODULE STREQUAL "training")
+            message(SEND_ERROR "${file}: only the module training may write ${line}")
+        endif()
+    endforeach()
+endforeach()
+if(MODULE STREQUAL "sumo" AND sumo_users EQUAL 0)
+    message(SEND_ERROR "the search for SUMO's headers finds none where they are used")
+endif()
