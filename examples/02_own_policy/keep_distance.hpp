@@ -1,0 +1,42 @@
+#pragma once
+
+// A policy part of your own: automated vehicles close behind an emergency vehicle drop back. See README.md.
+
+#include "policy/part.hpp"
+
+namespace clearway::policy {
+
+class KeepDistance : public Part {
+  public:
+    explicit KeepDistance(const PartContext&) {}
+
+    std::string_view name() const override { return "keep_distance"; }
+
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override {
+        for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
+            const traffic::BelievedVehicle& emergency = belief.vehicles[row];
+            if (emergency.vehicle_class != traffic::VehicleClass::emergency) continue;
+            for (const traffic::BelievedLink& link : belief.links_of(row)) {
+                ask(emergency, belief.vehicles[link.neighbour], belief.time, leases);
+            }
+        }
+    }
+
+  private:
+    static void ask(const traffic::BelievedVehicle& emergency, const traffic::BelievedVehicle& follower,
+                    core::Seconds now, std::vector<traffic::Lease>& leases) {
+        const float behind_m = emergency.state.lane_position_m - follower.state.lane_position_m;
+        if (follower.vehicle_class != traffic::VehicleClass::automated) return;
+        if (follower.state.lane != emergency.state.lane || behind_m <= 0.0F || behind_m > 20.0F) return;
+        traffic::Lease lease;
+        lease.target = follower.key;
+        lease.action = traffic::DriveAt{core::MetresPerSecond(0.8 * emergency.state.speed_mps)};
+        lease.expiry = now + core::Seconds(2.0);  // It ends by itself: nothing to release.
+        lease.policy = "keep_distance";
+        lease.reason = "close behind an emergency vehicle";
+        lease.beneficiary = emergency.key;
+        leases.push_back(lease);
+    }
+};
+
+}  // namespace clearway::policy
