@@ -16,6 +16,10 @@ namespace clearway::testing {
 /// Vehicles that answer as the test tells them to.
 class FakeSelfKnowledge : public truth::SelfKnowledge {
   public:
+    FakeSelfKnowledge() {
+        for (std::uint32_t number = 0; number < 2; ++number) outlook[number] = {number, 800.0F, 0};
+    }
+
     std::optional<bool> could_change_lane(core::VehicleKey, truth::Neighbour) const override {
         return room_beside;
     }
@@ -28,7 +32,8 @@ class FakeSelfKnowledge : public truth::SelfKnowledge {
 
     bool room_beside = true;
     double allowed_mps = 16.67;
-    std::vector<truth::LaneOutlook> outlook = {{0, 800.0F, 0}, {1, 800.0F, 0}};
+    /// Two lanes that both continue.
+    std::vector<truth::LaneOutlook> outlook = std::vector<truth::LaneOutlook>(2);
 };
 
 /// An actuator with the two crossings, a clock and a record of every command.
