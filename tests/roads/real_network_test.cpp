@@ -1,0 +1,170 @@
+// Networks that package sumo-tools installs, and SUMO's own router as an oracle.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "core/random.hpp"
+#include "roads/network.hpp"
+#include "roads/route.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::roads {
+namespace {
+
+std::filesystem::path sumo_folder() {
+    const char* home = std::getenv("SUMO_HOME");
+    return home == nullptr ? "/usr/share/sumo" : home;
+}
+
+Network berlin() {
+    return Network::read(sumo_folder() / "tools/game/DRT/osm.net.xml");
+}
+
+bool open_to_cars(const Network& network, const Edge& edge) {
+    const auto lanes = network.lanes().subspan(edge.first_lane, edge.lane_count);
+    return !edge.internal && std::ranges::any_of(lanes, &Lane::allows_cars);
+}
+
+TEST(RealNetwork, BerlinAdlershofIsAsMeasured) {
+    const Network network = berlin();
+    std::size_t car_edges = 0;
+    double length_m = 0.0;
+    for (const Edge& edge : network.edges()) {
+        if (!open_to_cars(network, edge)) continue;
+        ++car_edges;
+        length_m += edge.length_m;
+    }
+    EXPECT_EQ(car_edges, 740u);
+    EXPECT_NEAR(length_m, 37'700.0, 50.0);
+    EXPECT_EQ(network.signals().size(), 15u);
+    EXPECT_EQ(largest_car_component(network).size(), 696u);
+    EXPECT_DOUBLE_EQ(network.location().offset_y_m, -5809246.45);
+}
+
+TEST(RealNetwork, EverySignalLinkOfBolognaHasItsWayAndItsFoes) {
+    const Network network = Network::read(
+        sumo_folder() / "tools/sumolib/scenario/scenarios/RealWorld/joined/joined_buslanes.net.xml");
+    ASSERT_EQ(network.signals().size(), 13u);
+    for (const Signal& signal : network.signals()) {
+        std::size_t foes = 0;
+        for (std::size_t link = 0; link < signal.links.size(); ++link) {
+            EXPECT_FALSE(signal.foes[link][link]) << signal.id;
+            for (std::size_t other = 0; other < signal.links.size(); ++other) {
+                EXPECT_EQ(signal.foes[link][other], signal.foes[other][link]) << signal.id;
+                foes += signal.foes[link][other] ? 1U : 0U;
+            }
+        }
+        EXPECT_GT(foes, 0u) << signal.id;
+        // No program gives unconditional green (G) to two ways that cross.
+        for (const Phase& phase : signal.program) {
+            for (std::size_t link = 0; link < signal.links.size(); ++link) {
+                for (std::size_t other = 0; other < link; ++other) {
+                    const bool both_free = phase.state[link] == 'G' && phase.state[other] == 'G';
+                    EXPECT_FALSE(both_free && signal.foes[link][other])
+                        << signal.id << " " << phase.state << " " << other << " " << link;
+                }
+            }
+        }
+    }
+}
+
+double edge_time_s(const Network& network, core::EdgeIndex index) {
+    const Edge& edge = network.edge(index);
+    float limit_mps = 0.0F;
+    for (const Lane& lane : network.lanes().subspan(edge.first_lane, edge.lane_count)) {
+        if (lane.allows_cars) limit_mps = std::max(limit_mps, lane.speed_limit_mps);
+    }
+    return edge.length_m / limit_mps;
+}
+
+double way_time_s(const Network& network, core::EdgeIndex from, core::EdgeIndex to) {
+    double best_s = std::numeric_limits<double>::infinity();
+    for (std::uint32_t number = 0; number < network.edge(from).lane_count; ++number) {
+        for (const Connection& connection : network.connections_from(network.lane_of(from, number))) {
+            if (network.lane(connection.to).edge != to || !connection.allows_cars) continue;
+            double time_s = 0.0;
+            for (core::LaneIndex lane = connection.via; lane.exists();
+                 lane = network.connections_from(lane)[0].via) {
+                time_s += network.lane(lane).length_m / network.lane(lane).speed_limit_mps;
+            }
+            best_s = std::min(best_s, time_s);
+        }
+    }
+    return best_s;
+}
+
+double time_of(const Network& network, Route route) {
+    double time_s = 0.0;
+    for (std::size_t place = 0; place < route.size(); ++place) {
+        if (place > 0) time_s += edge_time_s(network, route[place]);
+        if (place > 0) time_s += way_time_s(network, route[place - 1], route[place]);
+    }
+    return time_s;
+}
+
+/// The routes in a file of duarouter, in its order.
+std::vector<std::vector<core::EdgeIndex>> routes_in(const Network& network, const std::string& text) {
+    std::vector<std::vector<core::EdgeIndex>> routes;
+    const std::string mark = "edges=\"";
+    for (std::size_t place = text.find(mark); place != std::string::npos; place = text.find(mark, place)) {
+        place += mark.size();
+        const std::size_t end = text.find('"', place);
+        std::vector<core::EdgeIndex>& route = routes.emplace_back();
+        while (place < end) {
+            const std::size_t stop = std::min(text.find(' ', place), end);
+            route.push_back(*network.find_edge(text.substr(place, stop - place)));
+            place = stop + 1;
+        }
+    }
+    return routes;
+}
+
+TEST(RealNetwork, NoRouteOfSumosRouterIsFasterThanOurs) {
+    const Network network = berlin();
+    const std::vector<core::EdgeIndex> edges = largest_car_component(network);
+    const core::KeyedRandom random({1}, {0});
+    constexpr std::uint64_t trips = 200;
+    const auto end = [&](std::uint64_t trip, std::uint64_t which) {
+        return edges[random.below(edges.size(), core::Purpose::demand, trip, which)];
+    };
+    std::string text = "<routes><vType id=\"t\" maxSpeed=\"100\" speedFactor=\"1\" speedDev=\"0\"/>\n";
+    for (std::uint64_t trip = 0; trip < trips; ++trip) {
+        text += fmt::format("<trip id=\"{}\" type=\"t\" depart=\"{}\" from=\"{}\" to=\"{}\"/>\n", trip, trip,
+                            network.edge(end(trip, 0)).id, network.edge(end(trip, 1)).id);
+    }
+    const support::TemporaryFolder folder;
+    const auto trip_file = folder.write("trips.xml", text + "</routes>\n");
+    const auto route_file = folder.path() / "routes.xml";
+    const core::Exit exit =
+        core::run({.program = "duarouter",
+                   .arguments = {"-n", (sumo_folder() / "tools/game/DRT/osm.net.xml").string(), "-r",
+                                 trip_file.string(), "-o", route_file.string(), "--xml-validation", "never",
+                                 "--weights.minor-penalty", "0"},
+                   .environment = {{"SUMO_HOME", sumo_folder().string()}},
+                   .output = folder.path() / "log"});
+    ASSERT_TRUE(exit.ok()) << core::tail(folder.path() / "log", 20);
+    const auto theirs = routes_in(network, core::read_file(route_file));
+    ASSERT_EQ(theirs.size(), trips);
+    std::size_t same = 0;
+    for (std::uint64_t trip = 0; trip < trips; ++trip) {
+        const auto ours = fastest_route(network, end(trip, 0), end(trip, 1));
+        ASSERT_TRUE(ours.has_value()) << trip;
+        const double ours_s = time_of(network, *ours);
+        const double theirs_s = time_of(network, theirs[trip]);
+        EXPECT_LE(ours_s, theirs_s + 1e-3) << trip;
+        EXPECT_GE(ours_s, theirs_s * 0.97 - 1.0) << trip;
+        same += *ours == theirs[trip] ? 1U : 0U;
+    }
+    EXPECT_GT(same, trips * 8 / 10);
+    RecordProperty("same", static_cast<int>(same));
+}
+
+}  // namespace
+}  // namespace clearway::roads
