@@ -73,25 +73,35 @@ void PairwisePredictor::collect_links() {
         const float distance_m = believed_distance_m(pair);
         if (distance_m < radius_m && both_present(pair)) links_.push_back({pair, distance_m, 1.0F});
     }
+    group_.clear();
     for (std::size_t at = 0; at < scene_.candidates.size(); ++at) {
         const RowPair pair = scene_.candidates.rows[at];
         if (probabilities_[at] < threshold_ || probabilities_[at] <= 0.0F || !both_present(pair)) continue;
-        links_.push_back({pair, believed_distance_m(pair), probabilities_[at]});
+        group_.push_back({pair, believed_distance_m(pair), probabilities_[at]});
     }
+    merge_group();
     collect_detected();
-    // Three ordered groups: the known ones come first and are all there is where nothing is dark.
-    if (!std::ranges::is_sorted(links_, {}, &Link::rows)) std::ranges::sort(links_, {}, &Link::rows);
+    merge_group();
 }
 
 void PairwisePredictor::collect_detected() {
+    group_.clear();
     const auto below_radius_m = std::nextafter(static_cast<float>(rules_.radius_m), 0.0F);
     for (std::size_t at = 0; at < scene_.detected.size(); ++at) {
         const RowPair pair = scene_.detected.rows[at];
         if (!both_present(pair)) continue;
         const float range_m = scene_.detected_range_m[at];
         const float distance_m = range_m >= 0.0F ? range_m : believed_distance_m(pair);
-        links_.push_back({pair, std::min(distance_m, below_radius_m), 1.0F});
+        group_.push_back({pair, std::min(distance_m, below_radius_m), 1.0F});
     }
+}
+
+/// Both are ordered by rows.
+void PairwisePredictor::merge_group() {
+    if (group_.empty()) return;
+    merged_.resize(links_.size() + group_.size());
+    std::ranges::merge(links_, group_, merged_.begin(), {}, &Link::rows, &Link::rows);
+    std::swap(links_, merged_);
 }
 
 void PairwisePredictor::write_links(traffic::BelievedGraph& belief) {

@@ -46,6 +46,7 @@ class PairwisePredictor : public Predictor {
     void place_vehicles(traffic::BelievedGraph& belief);
     void collect_links();
     void collect_detected();
+    void merge_group();
     void write_links(traffic::BelievedGraph& belief);
     float believed_distance_m(RowPair pair) const;
     bool both_present(RowPair pair) const;
@@ -58,7 +59,7 @@ class PairwisePredictor : public Predictor {
     std::vector<RowBelief> beliefs_;
     std::vector<float> probabilities_;
     std::vector<core::VehicleIndex> believed_row_;
-    std::vector<Link> links_;
+    std::vector<Link> links_, group_, merged_;
 };
 
 }  // namespace clearway::prediction::detail
