@@ -35,6 +35,7 @@ class Store {
     const std::filesystem::path& folder() const { return folder_; }
     const Manifest& manifest() const { return manifest_; }
 
+    /// Effective configuration and files of a scenario; its network is in `network` below it.
     std::filesystem::path scenario_folder(const std::string& scenario) const;
     /// Folder of a run, whether or not it exists.
     std::filesystem::path run_folder(const RunKey& key) const;
@@ -58,6 +59,8 @@ class Store {
     std::optional<FailureRecord> read_failure(const RunKey& key) const;
     /// Forgets a failure so that the run can be tried again.
     void forget_failure(const RunKey& key) const;
+    /// Removes what killed writers left behind. Only while nobody writes.
+    void remove_leftovers() const;
 
   private:
     Store(std::filesystem::path folder, Manifest manifest);

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "results/detail/json.hpp"
+
+namespace clearway::results::detail {
+
+/// A cell of a CSV file (RFC 4180): quoted only where it must be.
+std::string csv_text(std::string_view text);
+
+/// Shortest decimal text that reads back as the same number.
+template <class Value>
+std::string csv_cell(const Value& value) {
+    if constexpr (OptionalValue<Value>::value) {
+        return value ? csv_cell(*value) : std::string();
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        return fmt::format("{}", value);
+    } else {
+        return csv_text(value);
+    }
+}
+
+/// `,name` for every member of a field table.
+template <class Struct>
+void append_header(std::string& line) {
+    core::for_each_field<Struct>([&](const auto& field) { line += fmt::format(",{}", field.name); });
+}
+
+/// `,value` for every member of a field table; nothing after the comma for an empty optional.
+template <class Struct>
+void append_cells(std::string& line, const Struct& source) {
+    core::for_each_field<Struct>([&](const auto& field) { line += "," + csv_cell(source.*field.member); });
+}
+
+/// As many commas as `append_cells` would write.
+template <class Struct>
+void append_empty_cells(std::string& line) {
+    core::for_each_field<Struct>([&](const auto&) { line += ","; });
+}
+
+/// Takes a CSV text apart. Throws std::runtime_error for a quote that does not end.
+std::vector<std::vector<std::string>> parse_csv(std::string_view text);
+
+/// The opposite of `csv_cell`. Throws std::runtime_error for text that is no such value.
+template <class Value>
+void read_cell(const std::string& cell, Value& target) {
+    if constexpr (OptionalValue<Value>::value) {
+        if (cell.empty()) {
+            target = std::nullopt;
+        } else {
+            target.emplace();
+            read_cell(cell, *target);
+        }
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), target);
+        if (error != std::errc() || end != cell.data() + cell.size())
+            throw std::runtime_error(fmt::format("\"{}\" is not a number", cell));
+    } else {
+        target = cell;
+    }
+}
+
+}  // namespace clearway::results::detail

@@ -1,0 +1,222 @@
+#include "results/detail/database.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "results/detail/json.hpp"
+
+namespace clearway::results::detail {
+namespace {
+
+struct CloseDatabase {
+    void operator()(sqlite3* database) const { sqlite3_close(database); }
+};
+struct FinishStatement {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
+
+/// An SQLite file that is being written.
+class Database {
+  public:
+    explicit Database(const std::filesystem::path& file) : file_(file) {
+        sqlite3* opened = nullptr;
+        const int code = sqlite3_open(file.c_str(), &opened);
+        handle_.reset(opened);
+        check(code);
+    }
+    void execute(const std::string& sql) {
+        check(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr));
+    }
+    Statement prepare(const std::string& sql) {
+        sqlite3_stmt* statement = nullptr;
+        check(sqlite3_prepare_v2(handle_.get(), sql.c_str(), -1, &statement, nullptr));
+        return Statement(statement);
+    }
+    void check(int code) {
+        if (code == SQLITE_OK || code == SQLITE_DONE) return;
+        throw core::EnvironmentError(
+            fmt::format("{}: {}", file_.string(), handle_ ? sqlite3_errmsg(handle_.get()) : "no memory"));
+    }
+
+  private:
+    std::filesystem::path file_;
+    std::unique_ptr<sqlite3, CloseDatabase> handle_;
+};
+
+/// Fills one row after the other; values go to the columns in their order.
+class Inserter {
+  public:
+    Inserter(Database& database, const std::string& sql)
+        : database_(database), statement_(database.prepare(sql)) {}
+
+    void add(std::string_view text) {
+        database_.check(sqlite3_bind_text(statement_.get(), ++column_, text.data(),
+                                          static_cast<int>(text.size()), SQLITE_TRANSIENT));
+    }
+    void add(double number) { database_.check(sqlite3_bind_double(statement_.get(), ++column_, number)); }
+    /// SQLite's integers have a sign; seeds above 2^63 keep their bits.
+    void add(std::uint64_t number) {
+        database_.check(sqlite3_bind_int64(statement_.get(), ++column_, static_cast<sqlite3_int64>(number)));
+    }
+    void add(std::uint32_t number) { add(std::uint64_t{number}); }
+    template <class Value>
+    void add(const std::optional<Value>& value) {
+        if (value) {
+            add(*value);
+        } else {
+            database_.check(sqlite3_bind_null(statement_.get(), ++column_));
+        }
+    }
+    template <class Struct>
+    void add_fields(const Struct& source) {
+        core::for_each_field<Struct>([&](const auto& field) { add(source.*field.member); });
+    }
+    void add_key(const RunKey& key) {
+        add(std::string_view(key.scenario));
+        add(std::string_view(key.condition));
+        add(key.replication);
+    }
+    void insert() {
+        database_.check(sqlite3_step(statement_.get()));
+        database_.check(sqlite3_reset(statement_.get()));
+        column_ = 0;
+    }
+
+  private:
+    Database& database_;
+    Statement statement_;
+    int column_ = 0;
+};
+
+template <class Value>
+constexpr const char* column_type() {
+    if constexpr (OptionalValue<Value>::value) {
+        return column_type<typename Value::value_type>();
+    } else if constexpr (std::is_integral_v<Value>) {
+        return "INTEGER";
+    } else {
+        return std::is_floating_point_v<Value> ? "REAL" : "TEXT";
+    }
+}
+
+template <class Struct>
+std::string columns() {
+    std::string text;
+    core::for_each_field<Struct>([&](const auto& field) {
+        using Member = std::decay_t<decltype(std::declval<Struct>().*field.member)>;
+        text += fmt::format(", {} {}", field.name, column_type<Member>());
+    });
+    return text;
+}
+
+/// `(?, ?, ?)` for the key, some words, and the members of field tables.
+template <class... Structs>
+std::string places(int words) {
+    int count = 3 + words;
+    (core::for_each_field<Structs>([&](const auto&) { ++count; }), ...);
+    std::string text = "(?";
+    while (--count > 0)
+        text += ", ?";
+    return text + ")";
+}
+
+constexpr const char* key_columns = "scenario TEXT, condition TEXT, replication INTEGER";
+
+void write_study(Database& database, const Manifest& manifest) {
+    database.execute("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)");
+    Inserter row(database, "INSERT INTO study VALUES (?, ?)");
+    for (const auto& [key, value] : {std::pair<const char*, std::string>{"manifest", to_json(manifest)},
+                                     {"manifest_hash", manifest_hash(manifest)},
+                                     {"format", fmt::format("{}", manifest.format)}}) {
+        row.add(std::string_view(key));
+        row.add(std::string_view(value));
+        row.insert();
+    }
+}
+
+void write_runs(Database& database, const Results& results) {
+    database.execute(fmt::format("CREATE TABLE runs ({}{}{}, PRIMARY KEY (scenario, condition, replication))",
+                                 key_columns, columns<metrics::RunMetrics>(), columns<Provenance>()));
+    Inserter row(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(0));
+    for (const RunRecord& run : results.runs) {
+        row.add_key(run.key);
+        row.add_fields(run.metrics);
+        row.add_fields(run.provenance);
+        row.insert();
+    }
+}
+
+void write_vehicles(Database& database, const Results& results) {
+    database.execute(
+        fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
+                    "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
+                    key_columns, columns<metrics::VehicleRow>()));
+    Inserter row(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4));
+    for (const RunRecord& run : results.runs) {
+        for (const metrics::VehicleRow& vehicle : run.vehicles) {
+            row.add_key(run.key);
+            row.add(std::string_view(vehicle.id));
+            row.add(traffic::name(vehicle.vehicle_class));
+            row.add(traffic::name(vehicle.kind));
+            row.add(metrics::name(vehicle.outcome));
+            row.add_fields(vehicle);
+            row.insert();
+        }
+    }
+}
+
+void write_failures(Database& database, const Results& results) {
+    database.execute(
+        fmt::format("CREATE TABLE failures ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
+    Inserter row(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)");
+    for (const FailureRecord& failure : results.failures) {
+        row.add_key(failure.key);
+        row.add(std::string_view("failed"));
+        row.add(name(failure.cause));
+        row.add(std::string_view(failure.message));
+        row.insert();
+    }
+    for (const RunKey& key : results.missing) {
+        row.add_key(key);
+        row.add(std::string_view("missing"));
+        row.add(std::string_view());
+        row.add(std::string_view());
+        row.insert();
+    }
+}
+
+}  // namespace
+
+void write_database(const std::filesystem::path& file, const Results& results) {
+    const std::filesystem::path part = file.string() + fmt::format(".{}.part", ::getpid());
+    try {
+        std::filesystem::remove(part);
+        Database database(part);
+        // A damaged part is thrown away whole, so it needs no journal; the file is flushed once, at the end.
+        database.execute("PRAGMA journal_mode = OFF");
+        database.execute("BEGIN");
+        write_study(database, results.manifest);
+        write_runs(database, results);
+        write_vehicles(database, results);
+        write_failures(database, results);
+        database.execute("COMMIT");
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw;
+    }
+    std::error_code error;
+    std::filesystem::rename(part, file, error);
+    if (error) throw core::EnvironmentError(fmt::format("{}: {}", file.string(), error.message()));
+}
+
+}  // namespace clearway::results::detail

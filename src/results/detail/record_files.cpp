@@ -1,0 +1,158 @@
+#include "results/detail/record_files.hpp"
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "results/detail/condition_json.hpp"
+#include "results/detail/csv.hpp"
+#include "results/detail/json.hpp"
+
+namespace clearway::results::detail {
+namespace {
+
+void write_key(Json& object, const RunKey& key) {
+    object["scenario"] = key.scenario;
+    object["condition"] = key.condition;
+    object["replication"] = key.replication;
+}
+
+void read_key(ObjectReader& reader, RunKey& key) {
+    reader.read("scenario", key.scenario);
+    reader.read("condition", key.condition);
+    reader.read("replication", key.replication);
+}
+
+/// What follows the four words that stand first in a line.
+constexpr std::size_t first_number = 4;
+
+metrics::VehicleRow vehicle_from(const std::vector<std::string>& cells) {
+    metrics::VehicleRow row;
+    std::size_t column = first_number;
+    core::for_each_field<metrics::VehicleRow>([&](const auto& field) {
+        if (column == cells.size()) throw std::runtime_error("is too short");
+        read_cell(cells[column++], row.*field.member);
+    });
+    if (column != cells.size()) throw std::runtime_error("is too long");
+    const auto vehicle_class = traffic::vehicle_class_from(cells[1]);
+    const auto kind = traffic::vehicle_kind_from(cells[2]);
+    const auto outcome = metrics::vehicle_outcome_from(cells[3]);
+    if (!vehicle_class || !kind || !outcome)
+        throw std::runtime_error("has an unknown class, kind or outcome");
+    row.id = cells[0];
+    row.key = core::vehicle_key(row.id);
+    row.vehicle_class = *vehicle_class;
+    row.kind = *kind;
+    row.outcome = *outcome;
+    return row;
+}
+
+}  // namespace
+
+std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv) {
+    Json object;
+    write_key(object, record.key);
+    object["condition_spec"] = to_json(record.condition);
+    write_fields(object["provenance"], record.provenance);
+    write_fields(object["metrics"], record.metrics);
+    object["vehicles_hash"] = core::content_hash(vehicles_csv);
+    return to_text(object);
+}
+
+RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where) {
+    const Json object = parse_object(text, where);
+    RunRecord record;
+    std::string vehicles_hash;
+    std::vector<core::Problem> problems;
+    ObjectReader reader(object, where, problems);
+    read_key(reader, record.key);
+    record.condition = condition_from(reader.child("condition_spec", Json::value_t::object), where, problems);
+    ObjectReader(reader.child("provenance", Json::value_t::object), where + ": provenance", problems)
+        .read_fields(record.provenance);
+    ObjectReader(reader.child("metrics", Json::value_t::object), where + ": metrics", problems)
+        .read_fields(record.metrics);
+    reader.read("vehicles_hash", vehicles_hash);
+    if (problems.empty() && vehicles_hash != core::content_hash(vehicles_csv))
+        reader.problem("vehicles_hash", "does not fit vehicles.csv");
+    if (!problems.empty()) throw core::InputError(problems);
+    return record;
+}
+
+std::string vehicle_header() {
+    std::string line = "id,class,kind,outcome";
+    append_header<metrics::VehicleRow>(line);
+    return line;
+}
+
+std::string vehicle_cells(const metrics::VehicleRow& vehicle) {
+    std::string line = fmt::format("{},{},{},{}", csv_text(vehicle.id), traffic::name(vehicle.vehicle_class),
+                                   traffic::name(vehicle.kind), metrics::name(vehicle.outcome));
+    append_cells(line, vehicle);
+    return line;
+}
+
+std::string vehicles_to_csv(const std::vector<metrics::VehicleRow>& vehicles) {
+    std::string text = vehicle_header() + "\n";
+    for (const metrics::VehicleRow& vehicle : vehicles)
+        text += vehicle_cells(vehicle) + "\n";
+    return text;
+}
+
+std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, const std::string& where) {
+    std::vector<metrics::VehicleRow> vehicles;
+    if (!text.starts_with(vehicle_header() + "\n"))
+        throw core::InputError({where + ":1", "is not the header of this version", vehicle_header(), ""});
+    std::size_t line = 1;
+    try {
+        const auto rows = parse_csv(text);
+        for (; line < rows.size(); ++line)
+            vehicles.push_back(vehicle_from(rows[line]));
+    } catch (const std::runtime_error& error) {
+        throw core::InputError({fmt::format("{}:{}", where, line + 1), error.what(), "", ""});
+    }
+    return vehicles;
+}
+
+std::string timing_to_json(const RunTiming& timing) {
+    Json object;
+    write_fields(object, timing);
+    return to_text(object);
+}
+
+RunTiming timing_from_json(const std::string& text, const std::string& where) {
+    const Json object = parse_object(text, where);
+    RunTiming timing;
+    std::vector<core::Problem> problems;
+    ObjectReader(object, where, problems).read_fields(timing);
+    if (!problems.empty()) throw core::InputError(problems);
+    return timing;
+}
+
+std::string failure_to_json(const FailureRecord& failure) {
+    Json object;
+    write_key(object, failure.key);
+    object["cause"] = name(failure.cause);
+    object["message"] = failure.message;
+    object["exit_code"] = failure.exit_code;
+    object["signal"] = failure.signal;
+    object["attempts"] = failure.attempts;
+    object["log_tail"] = failure.log_tail;
+    return to_text(object);
+}
+
+FailureRecord failure_from_json(const std::string& text, const std::string& where) {
+    const Json object = parse_object(text, where);
+    FailureRecord failure;
+    std::vector<core::Problem> problems;
+    ObjectReader reader(object, where, problems);
+    read_key(reader, failure.key);
+    reader.read_name("cause", failure.cause, failure_cause_from);
+    reader.read("message", failure.message);
+    reader.read("exit_code", failure.exit_code);
+    reader.read("signal", failure.signal);
+    reader.read("attempts", failure.attempts);
+    reader.read("log_tail", failure.log_tail);
+    if (!problems.empty()) throw core::InputError(problems);
+    return failure;
+}
+
+}  // namespace clearway::results::detail

@@ -1,0 +1,109 @@
+#include "results/manifest.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "results/detail/condition_json.hpp"
+#include "results/detail/json.hpp"
+
+namespace clearway::results {
+namespace {
+
+using detail::Json;
+using detail::ObjectReader;
+
+Json to_object(const Manifest& manifest) {
+    Json object;
+    object["format"] = manifest.format;
+    object["study"] = manifest.study;
+    object["clearway_version"] = manifest.clearway_version;
+    object["sumo_version"] = manifest.sumo_version;
+    object["study_seed"] = manifest.study_seed;
+    object["replications"] = manifest.replications;
+    object["scenarios"] = Json::array();
+    for (const ScenarioEntry& scenario : manifest.scenarios) {
+        Json entry;
+        entry["name"] = scenario.name;
+        entry["version"] = scenario.version;
+        entry["title"] = scenario.title;
+        entry["configuration_hash"] = scenario.configuration_hash;
+        entry["attribution"] = scenario.attribution;
+        entry["configuration"] = scenario.configuration;
+        object["scenarios"].push_back(std::move(entry));
+    }
+    object["conditions"] = Json::array();
+    for (const ConditionSpec& condition : manifest.conditions)
+        object["conditions"].push_back(detail::to_json(condition));
+    return object;
+}
+
+ScenarioEntry scenario_from(const Json& object, const std::string& where,
+                            std::vector<core::Problem>& problems) {
+    ScenarioEntry scenario;
+    ObjectReader reader(object, where, problems);
+    reader.read("name", scenario.name);
+    reader.read("version", scenario.version);
+    reader.read("title", scenario.title);
+    reader.read("configuration_hash", scenario.configuration_hash);
+    reader.read("attribution", scenario.attribution);
+    reader.read("configuration", scenario.configuration);
+    return scenario;
+}
+
+void check_format(const Json& object, const std::string& where) {
+    const Manifest known;
+    const auto format = object.find("format");
+    if (format != object.end() && *format == known.format) return;
+    throw core::InputError(
+        {where + ": format", fmt::format("is {}", format == object.end() ? "missing" : format->dump()),
+         fmt::format("{}", known.format), "Read this folder with the version of Clearway that wrote it"});
+}
+
+}  // namespace
+
+std::vector<RunKey> Manifest::runs() const {
+    std::vector<RunKey> keys;
+    for (const ScenarioEntry& scenario : scenarios)
+        for (const ConditionSpec& condition : conditions)
+            for (std::uint32_t replication = 0; replication < replications; ++replication)
+                keys.push_back({scenario.name, condition.name, replication});
+    std::ranges::sort(keys);
+    return keys;
+}
+
+std::string manifest_hash(const Manifest& manifest) {
+    return core::content_hash(detail::to_text(to_object(manifest)));
+}
+
+std::string to_json(const Manifest& manifest) {
+    Json object = to_object(manifest);
+    object["hash"] = manifest_hash(manifest);
+    return detail::to_text(object);
+}
+
+Manifest manifest_from_json(const std::string& text, const std::string& where) {
+    const Json object = detail::parse_object(text, where);
+    check_format(object, where);
+    Manifest manifest;
+    std::string hash;
+    std::vector<core::Problem> problems;
+    ObjectReader reader(object, where, problems);
+    reader.read("study", manifest.study);
+    reader.read("clearway_version", manifest.clearway_version);
+    reader.read("sumo_version", manifest.sumo_version);
+    reader.read("study_seed", manifest.study_seed);
+    reader.read("replications", manifest.replications);
+    for (const Json& scenario : reader.child("scenarios", Json::value_t::array))
+        manifest.scenarios.push_back(scenario_from(scenario, where + ": scenarios", problems));
+    for (const Json& condition : reader.child("conditions", Json::value_t::array))
+        manifest.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
+    reader.read("hash", hash);
+    if (problems.empty() && hash != manifest_hash(manifest)) reader.problem("hash", "does not fit the rest");
+    if (!problems.empty()) throw core::InputError(problems);
+    return manifest;
+}
+
+}  // namespace clearway::results

@@ -1,0 +1,218 @@
+#include "results/store.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "results/detail/record_files.hpp"
+
+namespace clearway::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* manifest_name = "manifest.json";
+constexpr const char* part_suffix = ".part";
+
+/// Makes the entries of a folder survive a loss of power. File systems that cannot do so are not an error.
+void flush_folder(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+/// A folder that is being filled; goes with this object unless it was put in place.
+class PartFolder {
+  public:
+    explicit PartFolder(const fs::path& target)
+        : target_(target),
+          part_(target.parent_path() /
+                fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), part_suffix)) {
+        core::make_folder(part_);
+    }
+    ~PartFolder() {
+        std::error_code ignored;
+        fs::remove_all(part_, ignored);
+    }
+    PartFolder(const PartFolder&) = delete;
+    PartFolder& operator=(const PartFolder&) = delete;
+
+    const fs::path& path() const { return part_; }
+
+    /// False when the target exists. rename(2) never replaces a folder that is not empty, on any file system.
+    bool put_in_place() {
+        flush_folder(part_);
+        if (::rename(part_.c_str(), target_.c_str()) != 0) {
+            if (errno == EEXIST || errno == ENOTEMPTY) return false;
+            throw core::EnvironmentError(
+                fmt::format("{}: cannot be put in place: {}", target_.string(), std::strerror(errno)));
+        }
+        flush_folder(target_.parent_path());
+        return true;
+    }
+
+  private:
+    fs::path target_;
+    fs::path part_;
+};
+
+/// Names of the parts in which two manifests differ.
+std::string differences(const Manifest& stored, const Manifest& wanted) {
+    std::string list;
+    const auto add = [&](bool differs, const char* part) {
+        if (differs) list += (list.empty() ? "" : ", ") + std::string(part);
+    };
+    add(stored.study != wanted.study, "study name");
+    add(stored.clearway_version != wanted.clearway_version, "Clearway version");
+    add(stored.sumo_version != wanted.sumo_version, "SUMO version");
+    add(stored.study_seed != wanted.study_seed, "seed");
+    add(stored.replications != wanted.replications, "replications");
+    add(stored.scenarios != wanted.scenarios, "scenarios");
+    add(stored.conditions != wanted.conditions, "conditions");
+    return list;
+}
+
+bool holds_something(const fs::path& folder) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (!entry.path().filename().string().starts_with(".")) return true;
+    }
+    return false;
+}
+
+void require_same(const fs::path& file, const std::string& content, const RunKey& key) {
+    if (core::read_file(file) == content) return;
+    throw core::ConflictError(
+        fmt::format("{}: run {} is stored with another content. Equal inputs must give equal bytes; "
+                    "keep both folders and compare versions and machines",
+                    file.string(), to_text(key)));
+}
+
+}  // namespace
+
+Store::Store(fs::path folder, Manifest manifest)
+    : folder_(std::move(folder)), manifest_(std::move(manifest)) {}
+
+Store Store::create(const fs::path& folder, const Manifest& manifest) {
+    core::make_folder(folder);
+    const fs::path file = folder / manifest_name;
+    if (fs::exists(file)) {
+        Store store = open(folder);
+        const std::string differing = differences(store.manifest(), manifest);
+        if (differing.empty()) return store;
+        throw core::InputError({folder.string(), "holds another study: different " + differing, "",
+                                "Choose another folder with --out, or ask for the same study to resume it"});
+    }
+    if (holds_something(folder))
+        throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
+                                "Choose another folder with --out"});
+    core::write_atomically(file, to_json(manifest));
+    flush_folder(folder);
+    return {folder, manifest};
+}
+
+Store Store::open(const fs::path& folder) {
+    const fs::path file = folder / manifest_name;
+    if (!fs::exists(file))
+        throw core::InputError({folder.string(), "is not a run folder: it has no manifest.json",
+                                "a folder written with --out", ""});
+    return {folder, manifest_from_json(core::read_file(file), file.string())};
+}
+
+fs::path Store::scenario_folder(const std::string& scenario) const {
+    return folder_ / "scenarios" / scenario;
+}
+
+fs::path Store::run_folder(const RunKey& key) const {
+    return folder_ / "runs" / key.scenario / key.condition / fmt::format("{:05}", key.replication);
+}
+
+fs::path Store::failure_file(const RunKey& key) const {
+    return folder_ / "failures" / key.scenario / key.condition / fmt::format("{:05}.json", key.replication);
+}
+
+fs::path Store::unit_file(const std::string& unit) const {
+    return folder_ / "units" / (unit + ".json");
+}
+
+fs::path Store::log_file(const std::string& unit) const {
+    return folder_ / "logs" / (unit + ".log");
+}
+
+Store::Written Store::write(const RunRecord& record, const RunTiming& timing) const {
+    const fs::path target = run_folder(record.key);
+    const std::string vehicles = detail::vehicles_to_csv(record.vehicles);
+    const std::string run = detail::run_to_json(record, vehicles);
+    core::make_folder(target.parent_path());
+    PartFolder part(target);
+    core::write_atomically(part.path() / "vehicles.csv", vehicles);
+    core::write_atomically(part.path() / "timing.json", detail::timing_to_json(timing));
+    core::write_atomically(part.path() / "run.json", run);
+    const bool first = part.put_in_place();
+    if (!first) {
+        require_same(target / "run.json", run, record.key);
+        require_same(target / "vehicles.csv", vehicles, record.key);
+    }
+    forget_failure(record.key);
+    return first ? Written::first : Written::already_there;
+}
+
+void Store::write(const FailureRecord& failure) const {
+    if (complete(failure.key)) return;
+    const fs::path file = failure_file(failure.key);
+    core::make_folder(file.parent_path());
+    core::write_atomically(file, detail::failure_to_json(failure));
+}
+
+bool Store::complete(const RunKey& key) const {
+    return fs::exists(run_folder(key) / "run.json");
+}
+
+std::optional<RunRecord> Store::read(const RunKey& key) const {
+    if (!complete(key)) return std::nullopt;
+    const fs::path folder = run_folder(key);
+    const std::string vehicles = core::read_file(folder / "vehicles.csv");
+    RunRecord record =
+        detail::run_from_json(core::read_file(folder / "run.json"), vehicles, (folder / "run.json").string());
+    record.vehicles = detail::vehicles_from_csv(vehicles, (folder / "vehicles.csv").string());
+    if (record.key != key)
+        throw core::InputError(
+            {(folder / "run.json").string(), "is of run " + to_text(record.key), to_text(key), ""});
+    return record;
+}
+
+std::optional<RunTiming> Store::read_timing(const RunKey& key) const {
+    const fs::path file = run_folder(key) / "timing.json";
+    if (!fs::exists(file)) return std::nullopt;
+    return detail::timing_from_json(core::read_file(file), file.string());
+}
+
+std::optional<FailureRecord> Store::read_failure(const RunKey& key) const {
+    const fs::path file = failure_file(key);
+    if (!fs::exists(file)) return std::nullopt;
+    return detail::failure_from_json(core::read_file(file), file.string());
+}
+
+void Store::forget_failure(const RunKey& key) const {
+    std::error_code ignored;
+    fs::remove(failure_file(key), ignored);
+}
+
+void Store::remove_leftovers() const {
+    std::error_code error;
+    std::vector<fs::path> leftovers;
+    for (auto entry = fs::recursive_directory_iterator(folder_, error);
+         !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+        if (entry->path().extension() == part_suffix) leftovers.push_back(entry->path());
+    }
+    for (const fs::path& leftover : leftovers)
+        fs::remove_all(leftover, error);
+}
+
+}  // namespace clearway::results

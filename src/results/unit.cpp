@@ -1,0 +1,109 @@
+#include "results/unit.hpp"
+
+#include "core/files.hpp"
+#include "results/detail/condition_json.hpp"
+#include "results/detail/json.hpp"
+
+namespace clearway::results {
+namespace {
+
+std::string_view text_of(traffic::SafetyChecks checks) {
+    return checks == traffic::SafetyChecks::on ? "on" : "off";
+}
+
+std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word) {
+    if (word == "on") return traffic::SafetyChecks::on;
+    if (word == "off") return traffic::SafetyChecks::off;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view name(Engine engine) {
+    switch (engine) {
+        case Engine::standard:
+            return "standard";
+        case Engine::sublane:
+            return "sublane";
+        case Engine::solo:
+            return "solo";
+    }
+    return "";
+}
+
+std::optional<Engine> engine_from(std::string_view word) {
+    for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo}) {
+        if (name(engine) == word) return engine;
+    }
+    return std::nullopt;
+}
+
+namespace detail {
+
+Json to_json(const ConditionSpec& condition) {
+    Json object;
+    object["name"] = condition.name;
+    object["failure"] = condition.failure;
+    object["predictor"] = condition.predictor;
+    object["parts"] = condition.parts;
+    object["engine"] = results::name(condition.engine);
+    object["safety_checks"] = text_of(condition.safety_checks);
+    return object;
+}
+
+ConditionSpec condition_from(const Json& object, const std::string& where,
+                             std::vector<core::Problem>& problems) {
+    ConditionSpec condition;
+    ObjectReader reader(object, where, problems);
+    reader.read("name", condition.name);
+    reader.read("failure", condition.failure);
+    reader.read("predictor", condition.predictor);
+    reader.read("parts", condition.parts);
+    reader.read_name("engine", condition.engine, engine_from);
+    reader.read_name("safety_checks", condition.safety_checks, safety_checks_from);
+    return condition;
+}
+
+}  // namespace detail
+
+std::string to_json(const UnitSpec& unit) {
+    detail::Json object;
+    object["scenario"] = unit.scenario;
+    object["scenario_file"] = unit.scenario_file.string();
+    object["network_folder"] = unit.network_folder.string();
+    object["study_seed"] = unit.study_seed;
+    object["replication"] = unit.replication;
+    object["engine"] = name(unit.engine);
+    object["conditions"] = detail::Json::array();
+    for (const ConditionSpec& condition : unit.conditions)
+        object["conditions"].push_back(detail::to_json(condition));
+    object["output"] = unit.output.string();
+    return detail::to_text(object);
+}
+
+UnitSpec read_unit(const std::filesystem::path& file) {
+    const std::string where = file.string();
+    const detail::Json object = detail::parse_object(core::read_file(file), where);
+    UnitSpec unit;
+    std::vector<core::Problem> problems;
+    detail::ObjectReader reader(object, where, problems);
+    std::string scenario_file;
+    std::string network_folder;
+    std::string output;
+    reader.read("scenario", unit.scenario);
+    reader.read("scenario_file", scenario_file);
+    reader.read("network_folder", network_folder);
+    reader.read("study_seed", unit.study_seed);
+    reader.read("replication", unit.replication);
+    reader.read_name("engine", unit.engine, engine_from);
+    for (const detail::Json& condition : reader.child("conditions", detail::Json::value_t::array))
+        unit.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
+    reader.read("output", output);
+    if (!problems.empty()) throw core::InputError(problems);
+    unit.scenario_file = scenario_file;
+    unit.network_folder = network_folder;
+    unit.output = output;
+    return unit;
+}
+
+}  // namespace clearway::results

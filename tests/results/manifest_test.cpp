@@ -1,0 +1,51 @@
+#include "results/manifest.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "results/synthetic.hpp"
+
+namespace clearway::results {
+namespace {
+
+TEST(Manifest, SurvivesTheWayThroughJson) {
+    const Manifest manifest = synthetic::manifest();
+    EXPECT_EQ(manifest_from_json(to_json(manifest), "m"), manifest);
+}
+
+TEST(Manifest, ListsEveryRunOnceSorted) {
+    const auto runs = synthetic::manifest(3).runs();
+    EXPECT_EQ(runs.size(), 2U * 2U * 3U);
+    EXPECT_TRUE(std::ranges::is_sorted(runs));
+    EXPECT_EQ(runs.front(), (RunKey{"alpha", "baseline", 0}));
+}
+
+TEST(Manifest, HasAnotherHashWhenAnythingDiffers) {
+    const Manifest manifest = synthetic::manifest();
+    Manifest other = manifest;
+    other.study_seed = 2;
+    EXPECT_NE(manifest_hash(other), manifest_hash(manifest));
+    other = manifest;
+    other.conditions[1].failure = "B10";
+    EXPECT_NE(manifest_hash(other), manifest_hash(manifest));
+    other = manifest;
+    other.scenarios[0].configuration += "# changed\n";
+    EXPECT_NE(manifest_hash(other), manifest_hash(manifest));
+}
+
+TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {
+    std::string text = to_json(synthetic::manifest());
+    text.replace(text.find("1.15.0"), 6, "1.16.0");
+    EXPECT_THROW(manifest_from_json(text, "m"), core::InputError);
+    text = to_json(synthetic::manifest());
+    text.replace(text.find("\"format\": 1"), 11, "\"format\": 9");
+    try {
+        manifest_from_json(text, "m.json");
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("m.json: format"));
+    }
+}
+
+}  // namespace
+}  // namespace clearway::results

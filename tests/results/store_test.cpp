@@ -1,0 +1,171 @@
+#include "results/store.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "results/synthetic.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::results {
+namespace {
+
+using synthetic::failure;
+using synthetic::record;
+
+const RunKey key{"alpha", "baseline", 1};
+
+class StoreOfAStudy : public testing::Test {
+  protected:
+    support::TemporaryFolder folder_;
+    Store store_ = Store::create(folder_.path() / "out", synthetic::manifest());
+
+    std::size_t files_below(const std::string& name) const {
+        std::size_t count = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(store_.folder() / name))
+            count += entry.is_regular_file() ? 1 : 0;
+        return count;
+    }
+};
+
+TEST_F(StoreOfAStudy, GivesBackWhatWasWritten) {
+    EXPECT_FALSE(store_.complete(key));
+    EXPECT_FALSE(store_.read(key));
+    RunTiming timing;
+    timing.wall_s = 2.5;
+    timing.peak_kib = 4096;
+    EXPECT_EQ(store_.write(record(key), timing), Store::Written::first);
+    EXPECT_TRUE(store_.complete(key));
+    EXPECT_EQ(*store_.read(key), record(key));
+    EXPECT_DOUBLE_EQ(store_.read_timing(key)->wall_s, 2.5);
+    EXPECT_EQ(store_.read_timing(key)->peak_kib, 4096);
+}
+
+TEST_F(StoreOfAStudy, KeepsTheFirstOfTwoEqualRunsWhateverTheyTook) {
+    RunTiming slow;
+    slow.wall_s = 9.0;
+    store_.write(record(key), {});
+    EXPECT_EQ(store_.write(record(key), slow), Store::Written::already_there);
+    EXPECT_DOUBLE_EQ(store_.read_timing(key)->wall_s, 0.0);
+    EXPECT_EQ(files_below("runs"), 3U);
+}
+
+TEST_F(StoreOfAStudy, RefusesASecondRunThatDiffersInNumbersOrVehicles) {
+    store_.write(record(key), {});
+    RunRecord other = record(key);
+    other.metrics.collisions = 99;
+    EXPECT_THROW(store_.write(other, {}), core::ConflictError);
+    other = record(key);
+    other.vehicles[0].waiting_time_s = 1.0;
+    EXPECT_THROW(store_.write(other, {}), core::ConflictError);
+    EXPECT_EQ(*store_.read(key), record(key));
+    EXPECT_EQ(files_below("runs"), 3U);
+}
+
+TEST_F(StoreOfAStudy, NoticesARecordThatWasEdited) {
+    store_.write(record(key), {});
+    const auto file = store_.run_folder(key) / "vehicles.csv";
+    std::string text = core::read_file(file);
+    text.replace(text.find("80"), 2, "81");
+    core::write_atomically(file, text);
+    EXPECT_THROW(store_.read(key), core::InputError);
+}
+
+TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
+    store_.write(failure(key));
+    EXPECT_EQ(*store_.read_failure(key), failure(key));
+    EXPECT_FALSE(store_.complete(key));
+    store_.write(record(key), {});
+    EXPECT_FALSE(store_.read_failure(key));
+    store_.write(failure(key));
+    EXPECT_FALSE(store_.read_failure(key)) << "a complete run cannot fail afterwards";
+}
+
+TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {
+    EXPECT_EQ(Store::create(store_.folder(), synthetic::manifest()).manifest(), synthetic::manifest());
+    Manifest other = synthetic::manifest();
+    other.study_seed = 5;
+    other.replications = 9;
+    try {
+        Store::create(store_.folder(), other);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("different seed, replications"));
+    }
+}
+
+TEST_F(StoreOfAStudy, DoesNotTakeOverAFolderOfSomethingElse) {
+    folder_.write("notes.txt", "mine");
+    EXPECT_THROW(Store::create(folder_.path(), synthetic::manifest()), core::InputError);
+    EXPECT_THROW(Store::open(folder_.path()), core::InputError);
+}
+
+TEST_F(StoreOfAStudy, FailsWithoutATraceWhenTheDiskTakesNoMore) {
+    // A limit on file sizes fails writes half-way, as a full disk does.
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit tight{200, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &tight);
+    EXPECT_THROW(store_.write(record(key), {}), core::EnvironmentError);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_FALSE(store_.complete(key));
+    EXPECT_EQ(files_below("runs"), 0U);
+    EXPECT_EQ(store_.write(record(key), {}), Store::Written::first);
+}
+
+TEST_F(StoreOfAStudy, LeavesWholeRunsOrNoneWhenAWriterIsKilled) {
+    const pid_t writer = fork();
+    if (writer == 0) {
+        for (std::uint32_t replication = 0;; ++replication)
+            store_.write(record({"beta", "treated", replication}), {});
+    }
+    while (!store_.complete({"beta", "treated", 20}))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    std::uint32_t whole = 0;
+    while (store_.complete({"beta", "treated", whole})) {
+        const RunKey written{"beta", "treated", whole};
+        EXPECT_EQ(*store_.read(written), record(written));
+        ++whole;
+    }
+    EXPECT_GE(whole, 21U);
+    store_.remove_leftovers();
+    EXPECT_EQ(files_below("runs"), 3U * whole);
+}
+
+TEST_F(StoreOfAStudy, LetsOneOfManyWritersWin) {
+    std::vector<pid_t> writers;
+    for (int writer = 0; writer < 4; ++writer) {
+        const pid_t child = fork();
+        if (child == 0) {
+            int firsts = 0;
+            for (std::uint32_t replication = 0; replication < 20; ++replication)
+                firsts +=
+                    store_.write(record({"beta", "baseline", replication}), {}) == Store::Written::first;
+            _exit(firsts);
+        }
+        writers.push_back(child);
+    }
+    int firsts = 0;
+    for (const pid_t writer : writers) {
+        int status = 0;
+        waitpid(writer, &status, 0);
+        ASSERT_TRUE(WIFEXITED(status));
+        firsts += WEXITSTATUS(status);
+    }
+    EXPECT_EQ(firsts, 20);
+    EXPECT_EQ(files_below("runs"), 60U);
+}
+
+}  // namespace
+}  // namespace clearway::results

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/manifest.hpp"
+#include "results/record.hpp"
+
+namespace clearway::results::synthetic {
+
+/// Two scenarios, `baseline` and `treated`, `replications` seeds.
+inline Manifest manifest(std::uint32_t replications = 2) {
+    Manifest result;
+    result.study = "synthetic";
+    result.clearway_version = "0.1.0";
+    result.sumo_version = "1.15.0";
+    result.replications = replications;
+    for (const char* scenario : {"alpha", "beta"})
+        result.scenarios.push_back({scenario, "v1", "Scenario", "name = \"" + std::string(scenario) + "\"\n",
+                                    std::string(32, 'a'), ""});
+    ConditionSpec baseline;
+    baseline.name = "baseline";
+    ConditionSpec treated;
+    treated.name = "treated";
+    treated.parts = {"dissertation"};
+    result.conditions = {baseline, treated};
+    return result;
+}
+
+inline metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass vehicle_class,
+                                   double travel_time_s) {
+    metrics::VehicleRow row;
+    row.id = id;
+    row.key = core::vehicle_key(id);
+    row.vehicle_class = vehicle_class;
+    row.kind = traffic::VehicleKind::car;
+    row.planned_depart_s = 1.25;
+    row.depart_s = 1.5;
+    row.depart_delay_s = 0.25;
+    row.arrival_s = 1.5 + travel_time_s;
+    row.travel_time_s = travel_time_s;
+    row.time_loss_s = 0.1 * travel_time_s;
+    row.waiting_time_s = 0.0;
+    row.waiting_count = 3;
+    row.route_length_m = 1234.5;
+    return row;
+}
+
+/// One EV and one other; the EV's travel time in s.
+inline RunRecord record(const RunKey& key, double travel_time_s = 50.1) {
+    RunRecord result;
+    result.key = key;
+    for (const ConditionSpec& condition : manifest().conditions) {
+        if (condition.name == key.condition) result.condition = condition;
+    }
+    result.provenance = {"0.1.0", "1.15.0", std::string(32, 'a'), std::string(32, 'd'),
+                         1,       77,       std::string(32, 'f')};
+    result.vehicles = {vehicle("e,\"1\"", traffic::VehicleClass::emergency, travel_time_s),
+                       vehicle("h1", traffic::VehicleClass::human, 80.0)};
+    result.vehicles.push_back(result.vehicles.back());
+    metrics::VehicleRow& waiting = result.vehicles.back();
+    waiting = {};
+    waiting.id = "h2";
+    waiting.key = core::vehicle_key("h2");
+    waiting.outcome = metrics::VehicleOutcome::not_inserted;
+    result.metrics.emergency_travel_time_s = travel_time_s;
+    result.metrics.emergency_count = 1;
+    result.metrics.emergency_arrived = 1;
+    result.metrics.vehicle_count = 3;
+    result.metrics.collisions = key.replication;
+    result.metrics.simulated_s = 600.25;
+    return result;
+}
+
+inline FailureRecord failure(const RunKey& key) {
+    FailureRecord result;
+    result.key = key;
+    result.cause = FailureCause::signal;
+    result.message = "killed by signal 11 (Segmentation fault)";
+    result.signal = 11;
+    result.attempts = 3;
+    result.log_tail = "last \"words\"\n";
+    return result;
+}
+
+}  // namespace clearway::results::synthetic

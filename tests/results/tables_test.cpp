@@ -1,0 +1,116 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+#include "core/files.hpp"
+#include "results/store.hpp"
+#include "results/synthetic.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::results {
+namespace {
+
+using synthetic::record;
+
+/// Four runs of a study of eight; one failed, three are missing.
+void fill(const Store& store, std::vector<RunKey> keys) {
+    for (const RunKey& key : keys)
+        store.write(record(key), {});
+    store.write(synthetic::failure({"alpha", "treated", 0}));
+}
+
+const std::vector<RunKey> keys = {
+    {"alpha", "baseline", 0}, {"alpha", "baseline", 1}, {"alpha", "treated", 1}, {"beta", "baseline", 0}};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
+    const support::TemporaryFolder folder;
+    const Store store = Store::create(folder.path(), synthetic::manifest());
+    fill(store, keys);
+    const Results results = read_results(store);
+    EXPECT_EQ(results.runs.size(), 4U);
+    EXPECT_EQ(results.failures.size(), 1U);
+    EXPECT_EQ(results.missing.size(), 3U);
+    const auto lines = lines_of(runs_csv(results));
+    ASSERT_EQ(lines.size(), 9U);
+    EXPECT_THAT(lines[0],
+                testing::StartsWith("scenario,condition,replication,outcome,cause,emergency_travel_time_s,"));
+    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,50.1,,"));
+    EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,"));
+    EXPECT_THAT(lines[6], testing::StartsWith("beta,baseline,1,missing,,,"));
+    for (const std::string& line : lines)
+        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(lines[0], ',')) << line;
+}
+
+TEST(Tables, QuoteNamesAndLeaveCellsEmptyForWhatThereIsNot) {
+    const support::TemporaryFolder folder;
+    const Store store = Store::create(folder.path(), synthetic::manifest());
+    fill(store, keys);
+    const auto lines = lines_of(vehicles_csv(read_results(store)));
+    ASSERT_EQ(lines.size(), 1U + 4U * 3U);
+    EXPECT_EQ(lines[0],
+              "scenario,condition,replication,id,class,kind,outcome,planned_depart_s,depart_s,depart_delay_s,"
+              "arrival_s,travel_time_s,time_loss_s,waiting_time_s,waiting_count,route_length_m,teleports");
+    EXPECT_EQ(lines[1],
+              "alpha,baseline,0,\"e,\"\"1\"\"\",emergency,car,arrived,1.25,1.5,0.25,51.6,50.1,"
+              "5.010000000000001,0,3,1234.5,0");
+    EXPECT_EQ(lines[3], "alpha,baseline,0,h2,human,other,not_inserted,0,,,,,,,,,0");
+}
+
+TEST(Tables, DoNotDependOnTheOrderInWhichRunsEnded) {
+    const support::TemporaryFolder folder;
+    const Store forward = Store::create(folder.path() / "a", synthetic::manifest());
+    const Store backward = Store::create(folder.path() / "b", synthetic::manifest());
+    fill(forward, keys);
+    fill(backward, {keys.rbegin(), keys.rend()});
+    for (const Store* store : {&forward, &backward})
+        write_tables(*store, read_results(*store));
+    for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
+        EXPECT_EQ(core::read_file(forward.folder() / file), core::read_file(backward.folder() / file))
+            << file;
+}
+
+std::string query(const std::filesystem::path& file, const std::string& sql) {
+    sqlite3* database = nullptr;
+    EXPECT_EQ(sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+    std::string answer;
+    const auto collect = [](void* text, int columns, char** values, char**) {
+        for (int column = 0; column < columns; ++column)
+            *static_cast<std::string*>(text) +=
+                (values[column] == nullptr ? "null" : values[column]) + std::string("|");
+        return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), collect, &answer, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
+    sqlite3_close(database);
+    return answer;
+}
+
+TEST(Tables, AreInOneDatabaseToo) {
+    const support::TemporaryFolder folder;
+    const Store store = Store::create(folder.path(), synthetic::manifest());
+    fill(store, keys);
+    write_tables(store, read_results(store));
+    const auto file = folder.path() / "results.sqlite";
+    EXPECT_EQ(query(file, "SELECT count(*), sum(emergency_travel_time_s), max(collisions) FROM runs"),
+              "4|200.4|1|");
+    EXPECT_EQ(query(file, "SELECT outcome, depart_s FROM vehicles WHERE id = 'h2' LIMIT 1"),
+              "not_inserted|null|");
+    EXPECT_EQ(query(file, "SELECT outcome, cause FROM failures ORDER BY outcome LIMIT 1"), "failed|signal|");
+    EXPECT_EQ(query(file, "SELECT count(*) FROM failures WHERE outcome = 'missing'"), "3|");
+    EXPECT_EQ(
+        query(file,
+              "SELECT typeof(waiting_count), typeof(travel_time_s) FROM vehicles WHERE id = 'h1' LIMIT 1"),
+        "integer|real|");
+}
+
+}  // namespace
+}  // namespace clearway::results

@@ -1,0 +1,52 @@
+#include "results/unit.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::results {
+namespace {
+
+UnitSpec example() {
+    UnitSpec unit;
+    unit.scenario = "city";
+    unit.scenario_file = "/out/scenarios/city/scenario.toml";
+    unit.network_folder = "/out/scenarios/city/network";
+    unit.study_seed = 18446744073709551615U;
+    unit.replication = 7;
+    unit.engine = Engine::sublane;
+    ConditionSpec condition;
+    condition.name = "b10";
+    condition.failure = "B10";
+    condition.predictor = "dead_reckoning";
+    condition.parts = {"dissertation", "preempt"};
+    condition.engine = Engine::sublane;
+    condition.safety_checks = traffic::SafetyChecks::off;
+    unit.conditions = {condition, ConditionSpec{}};
+    unit.output = "/out";
+    return unit;
+}
+
+TEST(UnitSpec, SurvivesTheWayThroughAFile) {
+    const support::TemporaryFolder folder;
+    EXPECT_EQ(read_unit(folder.write("unit.json", to_json(example()))), example());
+}
+
+TEST(UnitSpec, ReportsEveryProblemOfAFileAtOnce) {
+    const support::TemporaryFolder folder;
+    const auto file = folder.write("unit.json", R"({"scenario": 3, "engine": "warp", "conditions": {}})");
+    try {
+        read_unit(file);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("scenario: is of another type"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("\"warp\" is not known"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("output: is missing"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("conditions: is of another type"));
+    }
+    EXPECT_THROW(read_unit(folder.write("half.json", to_json(example()).substr(0, 90))), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearway::results
