@@ -85,10 +85,15 @@ void UnitRun::warm_up() {
     }
 }
 
-results::RunRecord UnitRun::finish(const results::ConditionSpec& condition,
-                                   const std::filesystem::path& folder, results::RunTiming& timing) {
-    const auto started = std::chrono::steady_clock::now();
+results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
+                                      const results::ConditionSpec& condition, results::RunTiming& timing) {
     session_->continue_in(folder);
+    folder_ = folder;
+    return finish_here(condition, timing);
+}
+
+results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition, results::RunTiming& timing) {
+    const auto started = std::chrono::steady_clock::now();
     LoopTiming spent;
     metrics::RunEnd end;
     if (condition.engine == results::Engine::solo) {
@@ -102,7 +107,7 @@ results::RunRecord UnitRun::finish(const results::ConditionSpec& condition,
     }
     end.time = session_->time();
     session_->close();
-    end.tripinfo_files = {folder / "tripinfo.xml"};
+    end.tripinfo_files = {folder_ / "tripinfo.xml"};
     metrics::RunSummary summary = recorder_.finish(end);
 
     timing.simulator_s = spent.simulator_s;

@@ -26,9 +26,12 @@ class UnitRun {
     UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
             const std::filesystem::path& folder);
 
-    /// Runs one condition to its end in this process, which was forked for it. Outputs move to `folder`.
-    results::RunRecord finish(const results::ConditionSpec& condition, const std::filesystem::path& folder,
-                              results::RunTiming& timing);
+    /// Runs one condition to its end in this process, which was forked for it: outputs first move to
+    /// `folder`.
+    results::RunRecord finish_in(const std::filesystem::path& folder, const results::ConditionSpec& condition,
+                                 results::RunTiming& timing);
+    /// Runs one condition to its end without a fork.
+    results::RunRecord finish_here(const results::ConditionSpec& condition, results::RunTiming& timing);
     /// The same with a listener and without results: for recording data.
     void record(const results::ConditionSpec& condition, StepListener& listener);
 

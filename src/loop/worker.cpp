@@ -51,7 +51,7 @@ void store_failure(const results::Store& store, const results::RunKey& key, cons
     try {
         core::make_folder(folder);
         results::RunTiming timing;
-        const results::RunRecord record = run.finish(condition, folder, timing);
+        const results::RunRecord record = run.finish_in(folder, condition, timing);
         store.write(record, timing);
         std::filesystem::remove_all(folder);
     } catch (const core::Error& error) {

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/files.hpp"
+#include "results/store.hpp"
+#include "results/unit.hpp"
+#include "scenario/config.hpp"
+#include "scenario/network.hpp"
+
+namespace clearway::test {
+
+/// A run folder with one scenario, as study::prepare_folder leaves it, and units for it. Removed at the end.
+class StudyFolder {
+  public:
+    StudyFolder(const std::string& scenario, const scenario::Options& options,
+                std::vector<results::ConditionSpec> conditions)
+        : folder_(make_temporary()),
+          config_(scenario::load(scenario, options)),
+          conditions_(std::move(conditions)) {
+        results::Manifest manifest;
+        manifest.study = "test";
+        manifest.clearway_version = "test";
+        manifest.sumo_version = "test";
+        manifest.replications = 100;
+        manifest.conditions = conditions_;
+        manifest.scenarios.push_back({.name = config_.name,
+                                      .version = config_.version,
+                                      .title = config_.title,
+                                      .configuration = scenario::to_toml(config_),
+                                      .configuration_hash = scenario::configuration_hash(config_),
+                                      .attribution = {}});
+        const results::Store store = results::Store::create(folder_, manifest);
+        const std::filesystem::path home = store.scenario_folder(config_.name);
+        scenario::store(config_, home);
+        scenario::build_network(config_, home);
+    }
+    ~StudyFolder() { std::filesystem::remove_all(folder_); }
+    StudyFolder(const StudyFolder&) = delete;
+    StudyFolder& operator=(const StudyFolder&) = delete;
+
+    results::Store store() const { return results::Store::open(folder_); }
+    const std::filesystem::path& path() const { return folder_; }
+
+    results::UnitSpec unit(std::uint32_t replication,
+                           results::Engine engine = results::Engine::standard) const {
+        results::UnitSpec unit;
+        unit.scenario = config_.name;
+        unit.scenario_file = store().scenario_folder(config_.name) / "scenario.toml";
+        unit.network_folder = store().scenario_folder(config_.name);
+        unit.replication = replication;
+        unit.engine = engine;
+        unit.output = folder_;
+        for (const results::ConditionSpec& condition : conditions_) {
+            if (condition.engine == engine) unit.conditions.push_back(condition);
+        }
+        return unit;
+    }
+
+    /// Writes the unit's file and tells where it is.
+    std::filesystem::path write(const results::UnitSpec& unit) const {
+        const std::filesystem::path file = folder_ / ("unit-" + std::to_string(unit.replication) + "-" +
+                                                      std::string(results::name(unit.engine)) + ".json");
+        core::write_atomically(file, results::to_json(unit));
+        return file;
+    }
+
+  private:
+    static std::filesystem::path make_temporary() {
+        std::string folder = (std::filesystem::temp_directory_path() / "clearway-loop-XXXXXX").string();
+        if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        return folder;
+    }
+
+    std::filesystem::path folder_;
+    scenario::ScenarioConfig config_;
+    std::vector<results::ConditionSpec> conditions_;
+};
+
+}  // namespace clearway::test
