@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,17 +29,22 @@ std::filesystem::path city() {
     return std::filesystem::path(home == nullptr ? "/usr/share/sumo" : home) / "tools/game/DRT/osm.net.xml";
 }
 
+/// The id of an `element` that starts in a line, or empty.
+std::string id_of(const std::string& element, const std::string& line) {
+    const std::string start = "<" + element + " id=\"";
+    const std::size_t at = line.find(start);
+    if (at == std::string::npos) return {};
+    const std::size_t from = at + start.size();
+    return line.substr(from, line.find('"', from) - from);
+}
+
 sumo::Names read_names(const std::filesystem::path& network) {
     sumo::Names names;
-    const std::regex element(R"re(<(edge|lane|tlLogic) id="([^"]*)")re");
     std::ifstream file(network);
     for (std::string line; std::getline(file, line);) {
-        std::smatch match;
-        if (!std::regex_search(line, match, element)) continue;
-        (match[1] == "edge"   ? names.edges
-         : match[1] == "lane" ? names.lanes
-                              : names.signals)
-            .push_back(match[2]);
+        if (const std::string id = id_of("edge", line); !id.empty()) names.edges.push_back(id);
+        if (const std::string id = id_of("lane", line); !id.empty()) names.lanes.push_back(id);
+        if (const std::string id = id_of("tlLogic", line); !id.empty()) names.signals.push_back(id);
     }
     return names;
 }

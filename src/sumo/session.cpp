@@ -23,7 +23,15 @@
 namespace clearway::sumo {
 namespace {
 
-using namespace detail;
+namespace gateway = detail::gateway;
+using detail::Commander;
+using detail::LateralModel;
+using detail::MessageCapture;
+using detail::MessageLog;
+using detail::NameTable;
+using detail::Observer;
+using detail::Outputs;
+using detail::Vehicle;
 
 /// libsumo keeps its simulation in global variables: one session at a time, and none after a fault, because
 /// what is left of the simulation cannot be trusted, not even to close.
@@ -90,14 +98,14 @@ std::string Session::State::fault_message(const char* doing, const std::string& 
 }
 
 void Session::State::load() {
-    config.folder = prepare_folder(config.folder);
-    set_sumo_home();
+    config.folder = detail::prepare_folder(config.folder);
+    detail::set_sumo_home();
     const std::set<int> before = Outputs::open_descriptors();
-    log.emplace(config.folder / log_file);
+    log.emplace(config.folder / detail::log_file);
     snapshot.time = config.begin;
     is_open = true;
     guarded("SUMO cannot load the scenario", [&] {
-        gateway::load(arguments(config));
+        gateway::load(detail::arguments(config));
         const std::vector<std::string> signals = gateway::signal_ids();
         for (const std::string& signal : names.names().signals) {
             if (std::ranges::find(signals, signal) == signals.end())
@@ -117,11 +125,11 @@ void Session::State::close() {
     guarded("SUMO cannot end the simulation", [] { gateway::close(); });
     is_open = false;
     process_state = ProcessState::free;
-    require_complete(config.folder / trip_file);
+    require_complete(config.folder / detail::trip_file);
 }
 
 Session::Session(SessionConfig config) {
-    check(config);
+    detail::check(config);
     occupy_process();
     state_ = std::make_unique<State>(std::move(config));
     try {
