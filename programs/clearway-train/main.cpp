@@ -35,6 +35,7 @@ struct Arguments {
     std::filesystem::path out;
     Mode mode = Mode::as_published;
     PairChoice pairs = PairChoice::candidates;
+    std::vector<std::filesystem::path> unseen;
     Printing printing = Printing::epochs;
     CorrectedConfig config;
 };
@@ -84,6 +85,11 @@ void declare_options(CLI::App& app, Arguments& arguments) {
             {"candidates", PairChoice::candidates}, {"true", PairChoice::true_only}}))
         ->option_text("candidates|true [candidates]")
         ->excludes(corrected);
+    app.add_option(
+           "--unseen", arguments.unseen,
+           "Folders of the same three files, for example of other seeds, on which the trained net is scored")
+        ->option_text("DIR...")
+        ->excludes(corrected);
     app.add_flag_callback(
         "--quiet", [&] { arguments.printing = Printing::closing_only; },
         "Do not print the losses of each epoch");
@@ -129,6 +135,11 @@ void print_closing(const AsPublishedResult& result) {
     print_quality("train", result.train_quality);
     print_quality("test", result.test_quality);
     fmt::print("test log loss of a constant: {:.3f} nat\n", result.constant_test_loss);
+    for (const UnseenQuality& unseen : result.unseen) {
+        print_quality(unseen.data + ", messages along the listed pairs", unseen.listed);
+        print_quality(unseen.data + ", messages along the true links", unseen.true_links);
+        print_quality(unseen.data + ", no messages", unseen.no_messages);
+    }
     for (const std::string& warning : result.warnings)
         fmt::print(stderr, "clearway-train: note: {}\n", warning);
 }
@@ -185,8 +196,15 @@ core::ExitCode run_as_published(const Arguments& arguments) {
                                             arguments.data / prediction::vehicle_features_file,
                                             arguments.data / prediction::target_file}),
                              arguments.config.training};
-    const AsPublishedResult result =
+    std::vector<prediction::PairDataset> unseen;
+    for (const std::filesystem::path& folder : arguments.unseen)
+        unseen.push_back(prediction::read_pair_dataset(folder));
+    AsPublishedResult result =
         train_as_published(dataset, arguments.pairs, run.training, hooks_for(arguments.printing));
+    for (std::size_t at = 0; at < unseen.size() && !result.state.empty(); ++at) {
+        result.unseen.push_back(
+            score_unseen(result.state, run.training, unseen[at], arguments.unseen[at].string()));
+    }
     const auto summary = summary_of(result, arguments.pairs, run);
     write_outputs(arguments.out, result, summary, run.training);
     return conclude(arguments, result, summary);

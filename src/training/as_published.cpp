@@ -122,6 +122,35 @@ AsPublishedResult train_as_published(const prediction::PairDataset& dataset, Pai
     return result;
 }
 
+UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
+                           const prediction::PairDataset& unseen, const std::string& data) {
+    const std::uint32_t input = state.front().shape.back();
+    if (unseen.feature_count != input) {
+        throw core::InputError({data + "/" + prediction::vehicle_features_file,
+                                fmt::format("{} features a vehicle", unseen.feature_count),
+                                fmt::format("{}", input),
+                                "Give the unseen data the features that the net was trained on"});
+    }
+    TorchNet net({{input, config.hidden, config.output}, config.seed, config.learning_rate});
+    net.load(state);
+    const auto quality = [&](const GraphBatch& batch) {
+        return metrics::link_quality({probabilities(net.logits(batch)), link_flags(batch.label)});
+    };
+    UnseenQuality result;
+    result.data = data;
+    GraphBatch batch = as_published_batch(unseen, 0, unseen.pair_count());
+    result.listed = quality(batch);
+    const prediction::PairDataset links = chosen(unseen, PairChoice::true_only);
+    const GraphBatch only_links = as_published_batch(links, 0, links.pair_count());
+    batch.message_source = only_links.pair_left;
+    batch.message_target = only_links.pair_right;
+    result.true_links = quality(batch);
+    batch.message_source.clear();
+    batch.message_target.clear();
+    result.no_messages = quality(batch);
+    return result;
+}
+
 prediction::FeatureSchema as_published_schema(std::uint32_t feature_count) {
     assert(feature_count == 2 || feature_count == 5);
     return feature_count == 2 ? prediction::as_published_position_schema()

@@ -16,6 +16,16 @@ enum class PairChoice : std::uint8_t {
     true_only,   ///< The listed pairs whose label is 1, in their order.
 };
 
+/// How a trained net scores every listed pair of a snapshot that it was not trained on, by what its messages
+/// may use.
+struct UnseenQuality {
+    std::string data;                 ///< Its folder.
+    metrics::LinkQuality listed;      ///< Messages along the listed pairs, as the published test does.
+    metrics::LinkQuality true_links;  ///< Messages along the true links: the answer is in the input.
+    metrics::LinkQuality
+        no_messages;  ///< Without messages: what is left when the pairs are unknown, as at run time.
+};
+
 struct AsPublishedResult {
     Outcome outcome = Outcome::finished;
     std::vector<EpochLoss>
@@ -31,6 +41,7 @@ struct AsPublishedResult {
     /// Log loss of the test labels when every pair gets the share of true links among the training pairs:
     /// what a net without any input reaches.
     double constant_test_loss = 0.0;
+    std::vector<UnseenQuality> unseen;  ///< Filled by the caller with `score_unseen`.
     std::vector<std::string>
         warnings;  ///< What makes the figures say less than they seem to; a sentence each.
 };
@@ -41,6 +52,11 @@ struct AsPublishedResult {
 /// are left (the test part would be empty). Deterministic.
 AsPublishedResult train_as_published(const prediction::PairDataset& dataset, PairChoice pairs,
                                      const TrainingConfig& config, const TrainingHooks& hooks = {});
+
+/// Scores the net of `state` on `unseen`; `data` names it in messages. Throws core::InputError when its
+/// vehicles have another number of features than the net takes.
+UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
+                           const prediction::PairDataset& unseen, const std::string& data);
 
 /// The schema of the published features with so many columns (2 or 5).
 prediction::FeatureSchema as_published_schema(std::uint32_t feature_count);

@@ -119,6 +119,12 @@ Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDesc
         summary["train"] = json_from(result.train_quality);
         summary["test"] = json_from(result.test_quality);
     }
+    for (const UnseenQuality& unseen : result.unseen) {
+        summary["unseen"].push_back({{"data", unseen.data},
+                                     {"messages_listed", json_from(unseen.listed)},
+                                     {"messages_true_links", json_from(unseen.true_links)},
+                                     {"messages_none", json_from(unseen.no_messages)}});
+    }
     summary["warnings"] = result.warnings;
     return summary;
 }

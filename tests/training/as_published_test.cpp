@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -174,6 +175,40 @@ TEST(TrainAsPublished, data_that_diverge_at_once_leave_no_parameters) {
     EXPECT_EQ(result.outcome, Outcome::diverged);
     EXPECT_TRUE(result.state.empty());
     EXPECT_EQ(result.losses.size(), 1U);
+}
+
+TEST(ScoreUnseen, messages_are_listed_pairs_true_links_or_none) {
+    const prediction::PairDataset unseen = road(21, 30);
+    TrainingConfig config;
+    const StateDict state = TorchNet({{2, 10, 5}, 4, 0.01}).state();
+    const UnseenQuality quality = score_unseen(state, config, unseen, "other");
+    TorchNet net({{2, 10, 5}, 1, 0.01});
+    net.load(state);
+    const auto auc = [&](const std::function<bool(std::size_t)>& carries_message) {
+        GraphBatch batch = as_published_batch(unseen, 0, unseen.pair_count());
+        batch.message_source.clear();
+        batch.message_target.clear();
+        for (std::size_t pair = 0; pair < unseen.pair_count(); ++pair) {
+            if (!carries_message(pair)) continue;
+            batch.message_source.push_back(unseen.source[pair]);
+            batch.message_target.push_back(unseen.target[pair]);
+        }
+        return metrics::link_quality({probabilities(net.logits(batch)), link_flags(batch.label)}).auc;
+    };
+    EXPECT_EQ(quality.listed.auc, auc([](std::size_t) { return true; }));
+    EXPECT_EQ(quality.true_links.auc, auc([&](std::size_t pair) { return unseen.label[pair] == 1.0F; }));
+    EXPECT_EQ(quality.no_messages.auc, auc([](std::size_t) { return false; }));
+    EXPECT_NE(quality.listed.auc, quality.no_messages.auc);
+}
+
+TEST(ScoreUnseen, other_features_are_refused) {
+    const StateDict state = TorchNet({{5, 10, 5}, 4, 0.01}).state();
+    try {
+        score_unseen(state, {}, road(21, 30), "other");
+        FAIL() << "2 features were accepted for a net of 5";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("other/vehicle_features.csv: 2 features a vehicle (allowed: 5)"));
+    }
 }
 
 TEST(TrainAsPublished, stops_when_asked_and_keeps_what_it_has) {
