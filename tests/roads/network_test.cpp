@@ -113,6 +113,11 @@ TEST_F(NetworkTest, ListsConnectionsByLaneInTheOrderOfTheFile) {
     EXPECT_FALSE(unsignalled[0].via.exists());
 }
 
+TEST_F(NetworkTest, AConnectionWithoutDirectionGoesStraightOn) {
+    const Network network = read(altered(R"(dir="r")", R"(dir="")"));
+    EXPECT_EQ(network.connections_from(*network.find_lane("south_0"))[0].direction, 's');
+}
+
 TEST_F(NetworkTest, SuccessorsAreOpenToCarsAndAscending) {
     const Network network = crossing();
     EXPECT_THAT(network.successors(*network.find_edge("south")),

@@ -278,7 +278,8 @@ void NetworkBuilder::read_connection(const detail::XmlAttributes& attributes) {
     }
     connection.allows_cars = allowed.cars;
     connection.allows_emergency = allowed.emergency;
-    connection.direction = attributes.find("dir").value_or("s").front();
+    const std::string_view direction = attributes.find("dir").value_or("");
+    if (!direction.empty()) connection.direction = direction.front();
     set_signal(attributes, connection);
     network_.connections_.push_back(connection);
 }
