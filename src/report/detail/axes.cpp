@@ -1,0 +1,122 @@
+#include "report/detail/axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "report/text.hpp"
+
+namespace clearway::report::detail {
+
+void Range::include(double value) {
+    if (!std::isfinite(value)) return;
+    low = seen_ ? std::min(low, value) : value;
+    high = seen_ ? std::max(high, value) : value;
+    seen_ = true;
+}
+
+Ticks nice_ticks(Range range, int wanted) {
+    const double rough = (range.high - range.low) / std::max(1, wanted);
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    const double fraction = rough / power;
+    const double step = (fraction <= 1.0   ? 1.0
+                         : fraction <= 2.0 ? 2.0
+                         : fraction <= 5.0 ? 5.0
+                                           : 10.0) *
+                        power;
+    Ticks ticks;
+    ticks.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    const double first = std::ceil(range.low / step - 1e-9);
+    const double last = std::floor(range.high / step + 1e-9);
+    for (double multiple = first; multiple <= last; ++multiple) {
+        ticks.values.push_back(multiple * step);
+    }
+    return ticks;
+}
+
+Range padded(Range range, double share) {
+    double margin = (range.high - range.low) * share;
+    if (range.high <= range.low) margin = std::max(1.0, std::abs(range.high) * 0.1);
+    range.low -= margin;
+    range.high += margin;
+    return range;
+}
+
+Plot::Plot(const std::string& title, double height, Axis x, Axis y)
+    : x_(std::move(x)), y_(std::move(y)), height_(height) {
+    svg_ = fmt::format("<svg class=\"plot\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" aria-label=\"{}\">\n",
+                       width, height, escaped(title));
+}
+
+void Plot::grid_x() {
+    const Ticks ticks = nice_ticks(x_.values, 5);
+    const double bottom = std::max(y_.from, y_.to);
+    const double top = std::min(y_.from, y_.to);
+    for (const double value : ticks.values) {
+        fmt::format_to(std::back_inserter(svg_), "<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>",
+                       x_.place(value), bottom, top);
+        text(x_.place(value), bottom + 16.0, number(value, {ticks.decimals, Script::typeset}), Anchor::middle,
+             "tick");
+    }
+    text((x_.from + x_.to) / 2.0, bottom + 34.0, x_.label, Anchor::middle, "axis");
+}
+
+void Plot::grid_y() {
+    const Ticks ticks = nice_ticks(y_.values, 5);
+    for (const double value : ticks.values) {
+        fmt::format_to(std::back_inserter(svg_), "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>",
+                       x_.from, y_.place(value), x_.to);
+        text(x_.from - 6.0, y_.place(value) + 4.0, number(value, {ticks.decimals, Script::typeset}),
+             Anchor::end, "tick");
+    }
+    text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
+}
+
+void Plot::line(const std::vector<std::pair<double, double>>& points, std::size_t series) {
+    auto out = std::back_inserter(svg_);
+    fmt::format_to(out, "<polyline class=\"line s{}\" points=\"", series % palette_size);
+    for (const auto& [x, y] : points) {
+        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(y));
+    }
+    fmt::format_to(out, "\"/>\n");
+}
+
+void Plot::interval(std::pair<double, double> bounds, double mean, double y, std::size_t series) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<path class=\"bar s{0}\" d=\"M{1:.1f} {2:.1f}v8m0 -4H{3:.1f}m0 -4v8\"/>",
+                   series % palette_size, x_.place(bounds.first), y - 4.0, x_.place(bounds.second));
+    point(mean, y, series);
+}
+
+void Plot::point(double value, double y, std::size_t series) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
+                   series % palette_size, x_.place(value), y);
+}
+
+void Plot::vertical(double value) {
+    fmt::format_to(std::back_inserter(svg_), "<path class=\"zero\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n",
+                   x_.place(value), y_.from, y_.to);
+}
+
+void Plot::text(double x, double y, const std::string& words, Anchor anchor, const char* style) {
+    const char* const where = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
+    fmt::format_to(std::back_inserter(svg_),
+                   "<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", style, x, y,
+                   where, escaped(words));
+}
+
+std::string Plot::finish() {
+    return std::move(svg_) + "</svg>\n";
+}
+
+std::string swatch(std::size_t series) {
+    return fmt::format(
+        "<svg class=\"swatch\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line s{}\" "
+        "d=\"M1 5H27\"/></svg>",
+        series % palette_size);
+}
+
+}  // namespace clearway::report::detail

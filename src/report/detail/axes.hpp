@@ -1,0 +1,82 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clearway::report::detail {
+
+/// A range of values. `low` < `high` after `padded`.
+struct Range {
+    double low = 0.0;
+    double high = 0.0;
+
+    void include(double value);
+    bool empty() const { return !seen_; }
+
+  private:
+    bool seen_ = false;
+};
+
+/// Marks of an axis: multiples of 1, 2 or 5 times a power of ten (Heckbert, "Nice Numbers for Graph Labels",
+/// Graphics Gems, 1990, without his loose labelling) that lie within a range.
+struct Ticks {
+    std::vector<double> values;
+    int decimals = 0;  ///< That tell neighbours apart.
+};
+Ticks nice_ticks(Range range, int wanted);
+
+/// The range with a margin on both sides, wide enough to be drawn when all of its values are equal.
+Range padded(Range range, double share);
+
+/// An axis of a figure: what it shows and where.
+struct Axis {
+    Range values;
+    std::string label;
+    double from = 0.0;  ///< Place of `values.low` in the figure's units.
+    double to = 0.0;    ///< Place of `values.high`.
+
+    double place(double value) const {
+        return from + (value - values.low) / (values.high - values.low) * (to - from);
+    }
+};
+
+/// A figure of the report: one shared geometry, frame, grid and set of line styles. Its text has the size of
+/// the page's small text when 400 units are 400 px, and is still legible at 320 px. All text is escaped here.
+class Plot {
+  public:
+    static constexpr double width = 400.0;
+
+    /// `height` includes the labels of the axes. `title` names the figure for those who cannot see it.
+    Plot(const std::string& title, double height, Axis x, Axis y);
+
+    const Axis& x() const { return x_; }
+    const Axis& y() const { return y_; }
+
+    void grid_x();
+    void grid_y();
+    /// A polyline in the style of `series`, an index of the palette.
+    void line(const std::vector<std::pair<double, double>>& points, std::size_t series);
+    /// A horizontal interval with its mean, at height `y` in figure units.
+    void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
+    void point(double value, double y, std::size_t series);
+    void vertical(double value);
+    enum class Anchor { start, middle, end };
+    void text(double x, double y, const std::string& words, Anchor anchor, const char* style);
+    /// The finished `<svg>` element.
+    std::string finish();
+
+  private:
+    Axis x_;
+    Axis y_;
+    double height_;
+    std::string svg_;
+};
+
+/// Number of line styles; further series start again.
+inline constexpr std::size_t palette_size = 7;
+
+/// A short piece of line in the style of `series`, for legends.
+std::string swatch(std::size_t series);
+
+}  // namespace clearway::report::detail

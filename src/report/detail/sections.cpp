@@ -1,0 +1,200 @@
+#include "report/detail/sections.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "report/detail/figures.hpp"
+#include "report/detail/markup.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+bool always(const StudyFacts& /*study*/) {
+    return true;
+}
+
+bool any_scenario(const StudyFacts& study, bool (*holds)(const ScenarioFacts&)) {
+    return std::any_of(study.scenarios.begin(), study.scenarios.end(), holds);
+}
+
+bool any_condition(const StudyFacts& study, bool (*holds)(const ConditionFacts&)) {
+    return std::any_of(study.scenarios.begin(), study.scenarios.end(), [&](const ScenarioFacts& scenario) {
+        return std::any_of(scenario.conditions.begin(), scenario.conditions.end(), holds);
+    });
+}
+
+bool has_comparison(const StudyFacts& study) {
+    return any_condition(study, [](const ConditionFacts& condition) { return condition.is_compared(); });
+}
+
+bool has_travel_times(const StudyFacts& study) {
+    return any_condition(
+        study, [](const ConditionFacts& condition) { return !condition.travel_time.points.empty(); });
+}
+
+bool has_pictures(const StudyFacts& study) {
+    return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.network_svg.empty(); });
+}
+
+bool has_curves(const StudyFacts& study) {
+    return !study.curves.empty();
+}
+
+constexpr std::array<Section, 8> all_sections = {{
+    {"verdict", "Verdict", always, verdict_section},
+    {"tables", "Tables", always, tables_section},
+    {"differences", "Paired differences", has_comparison, forest_section},
+    {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
+    {"networks", "Networks", has_pictures, networks_section},
+    {"training", "Training of GraphSAGE", has_curves, training_section},
+    {"outcomes", "Outcomes and failed runs", always, outcomes_section},
+    {"reproduce", "How to reproduce", always, reproduction_section},
+}};
+
+constexpr std::size_t shown_failures = 50;  // of each condition; the rest is counted
+
+/// One figure a scenario, side by side where there is room.
+std::string figures_of(const StudyFacts& study, std::string (*figure)(const ScenarioFacts&)) {
+    std::string html;
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        html += figure(scenario);
+    }
+    return html.empty() ? html : "<div class=\"figures\">\n" + html + "</div>\n";
+}
+
+const char* effect_class(Effect effect) {
+    if (effect == Effect::better) return "effect better";
+    if (effect == Effect::worse) return "effect worse";
+    return "effect";
+}
+
+std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const std::string sentence = verdict(scenario, condition, Script::typeset);
+    const std::size_t colon = sentence.find(':');
+    const Effect effect =
+        effect_of(condition.outcome(Measure::emergency_travel_time).difference, Better::lower);
+    return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>{}</dd>\n", condition_label(condition),
+                       effect_class(effect), escaped(sentence.substr(0, colon)),
+                       escaped(sentence.substr(colon)));
+}
+
+std::string failures_of(const ScenarioFacts& scenario) {
+    std::string html;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.failed.empty()) continue;
+        DataTable table{{"Replication", "Cause"}, {}, DataTable::Cells::words};
+        for (const FailedRun& run : condition.failed) {
+            if (table.rows.size() == shown_failures) break;
+            table.rows.push_back({std::to_string(run.replication), run.cause});
+        }
+        html +=
+            fmt::format("<details open><summary>{}, {}: {} failed</summary>\n{}", escaped(scenario.name),
+                        condition_label(condition), counted(condition.failed.size(), "run"), to_html(table));
+        if (condition.failed.size() > shown_failures) {
+            html += fmt::format("<p class=\"note\">The first {} are listed.</p>", shown_failures);
+        }
+        html += "</details>\n";
+    }
+    return html;
+}
+
+}  // namespace
+
+std::span<const Section> sections() {
+    return all_sections;
+}
+
+std::string verdict_section(const StudyFacts& study) {
+    std::string html = "<div class=\"cards\">\n";
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        std::string entries;
+        for (const ConditionFacts& condition : scenario.conditions) {
+            if (condition.is_compared()) entries += verdict_entry(scenario, condition);
+        }
+        if (entries.empty()) entries = "<dt>No condition was compared with a baseline.</dt>";
+        html += fmt::format("<div class=\"card\"><h3>{}</h3><small>{}</small><dl>{}</dl></div>\n",
+                            escaped(scenario.name), counted(scenario.replications, "replication"), entries);
+    }
+    return html +
+           "</div>\n<p class=\"note\">Differences are paired: condition and baseline share seed, demand, "
+           "drivers and "
+           "sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
+           "excludes 0; "
+           "\u201cno effect shown\u201d does not prove that there is none.</p>\n";
+}
+
+std::string forest_section(const StudyFacts& study) {
+    return "<p>Mean of the paired differences with its 95 % interval. Left of the line a condition takes "
+           "less time than "
+           "the baseline, right of it more. Gain of the EVs and cost to the others share one axis.</p>\n" +
+           figures_of(study, forest_figure);
+}
+
+std::string distribution_section(const StudyFacts& study) {
+    return figures_of(study, distribution_figure);
+}
+
+std::string networks_section(const StudyFacts& study) {
+    return figures_of(study, network_figure);
+}
+
+std::string training_section(const StudyFacts& study) {
+    std::string html =
+        "<p>Train and test loss over the epochs (the dissertation\u2019s Fig. 4). Its text does not say "
+        "whether the "
+        "list of pairs holds only true links, so the network as published is trained on both readings. A "
+        "list of true "
+        "links alone gives a low loss whatever the network learns: the constant answer 1 reaches it "
+        "too.</p>\n"
+        "<div class=\"figures\">\n";
+    for (const LossCurve& curve : study.curves) {
+        html += loss_figure(curve);
+    }
+    return html + "</div>\n";
+}
+
+std::string outcomes_section(const StudyFacts& study) {
+    std::string html =
+        "<p>How every vehicle of the demand ended, over all completed runs. Means of EV travel time and time "
+        "loss "
+        "cover the EVs that arrived; this table shows how many they leave out.</p>\n";
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        DataTable table{{"Condition", "EVs", "arrived", "running at end", "teleported", "not inserted",
+                         "removed", "others", "arrived", "runs", "failed", "missing"},
+                        {}};
+        for (const ConditionFacts& condition : scenario.conditions) {
+            const Endings& ends = condition.emergency;
+            table.rows.push_back({condition.title, grouped(ends.all()), grouped(ends.arrived),
+                                  grouped(ends.running), grouped(ends.teleported), grouped(ends.not_inserted),
+                                  grouped(ends.removed), grouped(condition.others.all()),
+                                  grouped(condition.others.arrived), grouped(condition.runs),
+                                  grouped(condition.failed.size()), grouped(condition.missing_runs)});
+        }
+        const std::string failures = failures_of(scenario);
+        html += fmt::format("<h3>{}</h3>\n{}{}", escaped(scenario.name), to_html(table),
+                            failures.empty() ? "<p class=\"note\">No run failed.</p>\n" : failures);
+    }
+    return html;
+}
+
+std::string reproduction_section(const StudyFacts& study) {
+    std::string html;
+    if (!study.command.empty()) html += fmt::format("<pre><code>{}</code></pre>\n", escaped(study.command));
+    html += "<dl class=\"facts\">\n";
+    for (const auto& [name, value] : study.provenance) {
+        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
+    }
+    html += "</dl>\n<h3>Conditions</h3>\n<dl class=\"facts\">\n";
+    if (!study.scenarios.empty()) {
+        for (const ConditionFacts& condition : study.scenarios.front().conditions) {
+            html += fmt::format("<dt>{} <code>{}</code></dt><dd>{}</dd>\n", condition_label(condition),
+                                escaped(condition.name), escaped(condition.recipe));
+        }
+    }
+    return html + "</dl>\n";
+}
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "report/facts.hpp"
+
+namespace clearway::report::detail {
+
+/// A section of the report. It is left out, in the navigation too, where it does not apply.
+struct Section {
+    const char* id;
+    const char* title;
+    bool (*applies)(const StudyFacts& study);
+    std::string (*body)(const StudyFacts& study);  ///< Markup.
+};
+
+/// All sections in their order.
+std::span<const Section> sections();
+
+// One function per section, in the order of the page.
+std::string verdict_section(const StudyFacts& study);
+std::string tables_section(const StudyFacts& study);
+std::string forest_section(const StudyFacts& study);
+std::string distribution_section(const StudyFacts& study);
+std::string networks_section(const StudyFacts& study);
+std::string training_section(const StudyFacts& study);
+std::string outcomes_section(const StudyFacts& study);
+std::string reproduction_section(const StudyFacts& study);
+
+}  // namespace clearway::report::detail

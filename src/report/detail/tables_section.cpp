@@ -1,0 +1,107 @@
+#include <array>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "report/detail/markup.hpp"
+#include "report/detail/sections.hpp"
+#include "report/published.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+const char* delta_class(Effect effect) {
+    if (effect == Effect::better) return "delta better";
+    if (effect == Effect::worse) return "delta worse";
+    return "delta";
+}
+
+std::string mean_and_range(const Estimate& value, NumberStyle style, double factor) {
+    const std::string whole = estimate(value, style, factor);
+    const std::size_t space = whole.find(' ');
+    std::string html = fmt::format("<span class=\"mean\">{}</span>", whole.substr(0, space));
+    if (space != std::string::npos)
+        html += fmt::format("<span class=\"range\">{}</span>", whole.substr(space + 1));
+    return html;
+}
+
+std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition, const MeasureInfo& measure) {
+    const Outcome& outcome = condition.outcome(measure.measure);
+    const NumberStyle style{decimals_of(scenario, measure.measure), Script::typeset};
+    NumberStyle signed_style = style;
+    signed_style.sign = Sign::always;
+    std::string html = "<td>" + mean_and_range(outcome.value, style, measure.printed_factor);
+    if (outcome.difference.mean) {
+        html += fmt::format("<span class=\"{}\">{}</span>",
+                            delta_class(effect_of(outcome.difference, measure.better)),
+                            estimate(outcome.difference, signed_style, measure.printed_factor));
+    }
+    return html + "</td>";
+}
+
+std::string published_cell(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
+    const auto value = published_value(scenario.name, condition.name, measure);
+    return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, {1, Script::typeset}) : "");
+}
+
+/// Conditions down, measures across; a column of published numbers after each measure that has them.
+std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure> columns,
+                          bool with_published) {
+    std::string titles = "<tr class=\"group\"><th scope=\"col\">Condition</th>";
+    std::string units = "<tr class=\"sub\"><th></th>";
+    for (const Measure measure : columns) {
+        titles += fmt::format("<th scope=\"col\" title=\"{}\"{}>{}</th>", info(measure).doc,
+                              with_published ? " colspan=\"2\"" : "", info(measure).title);
+        units += fmt::format("<th>{}</th>{}", info(measure).unit, with_published ? "<th>published</th>" : "");
+    }
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"paired\"><thead>" + titles +
+                       "</tr>" + units + "</tr></thead><tbody>\n";
+    for (const ConditionFacts& condition : scenario.conditions) {
+        html += fmt::format("<tr><th scope=\"row\">{}</th>", condition_label(condition));
+        for (const Measure measure : columns) {
+            html += cell(scenario, condition, info(measure));
+            if (with_published) html += published_cell(scenario, condition, measure);
+        }
+        html += "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
+std::string definitions() {
+    std::string html = "<details><summary>What the columns mean</summary><dl class=\"facts\">\n";
+    for (const MeasureInfo& measure : measures()) {
+        html += fmt::format("<dt>{}, {}</dt><dd>{}</dd>\n", measure.title, measure.unit, measure.doc);
+    }
+    return html + "</dl></details>\n";
+}
+
+}  // namespace
+
+std::string tables_section(const StudyFacts& study) {
+    constexpr std::array published_columns = {Measure::emergency_waiting_time,
+                                              Measure::emergency_depart_delay, Measure::waiting_time};
+    constexpr std::array emergency_columns = {Measure::emergency_travel_time, Measure::emergency_time_loss,
+                                              Measure::gap_closed, Measure::other_time_loss};
+    constexpr std::array event_columns = {Measure::depart_delay, Measure::collisions, Measure::teleports,
+                                          Measure::unfinished};
+    std::string html =
+        "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to the "
+        "baseline, in "
+        "colour where its interval excludes 0 (blue better, orange worse). The columns <em>published</em> "
+        "repeat the dissertation: one unseeded run on networks of its own; they are no results of this "
+        "study.</p>\n";
+    html += definitions();
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        const auto table = published_table(scenario.name);
+        html += fmt::format("<h3>{}</h3>\n<p class=\"caption\">{}</p>\n", escaped(scenario.name),
+                            table ? table->caption : "Waiting time and depart delay");
+        html += measure_table(scenario, published_columns, table.has_value());
+        html += "<p class=\"caption\">What these columns hide</p>\n";
+        html += measure_table(scenario, emergency_columns, false);
+        html += measure_table(scenario, event_columns, false);
+    }
+    return html;
+}
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,42 @@
+#include "report/facts.hpp"
+
+namespace clearway::report {
+
+const std::array<MeasureInfo, measure_count>& measures() {
+    using M = Measure;
+    static constexpr std::array<MeasureInfo, measure_count> table = {{
+        {M::emergency_waiting_time, "emergency_waiting_time_s", "Emergency waiting time", "s",
+         "Time that an EV stands (below 0.1 m/s), mean over the EVs that entered.", Better::lower, 1.0},
+        {M::emergency_depart_delay, "emergency_depart_delay_s", "Depart delay, EV", "s",
+         "Time that an EV waits for a gap to enter the network.", Better::lower, 1.0},
+        {M::waiting_time, "waiting_time_s", "Average waiting time", "s",
+         "Time that a vehicle stands, mean over all that entered.", Better::lower, 1.0},
+        {M::emergency_travel_time, "emergency_travel_time_s", "EV travel time", "s",
+         "From entering the network to arriving, mean over the EVs that arrived: the primary measure.",
+         Better::lower, 1.0},
+        {M::emergency_time_loss, "emergency_time_loss_s", "EV time loss", "s",
+         "Travel time beyond that at the desired speed.", Better::lower, 1.0},
+        {M::gap_closed, "gap_closed", "Gap closed", "%",
+         "Share of the way from the baseline's EV travel time to that of an EV alone on the road with open "
+         "signals.",
+         Better::higher, 100.0},
+        {M::other_time_loss, "others_time_loss_s", "Time loss, others", "s",
+         "Time loss of all vehicles that are no EVs: what the gain costs them.", Better::lower, 1.0},
+        {M::depart_delay, "depart_delay_s", "Depart delay, all", "s",
+         "Depart delay, mean over all vehicles that entered.", Better::lower, 1.0},
+        {M::collisions, "collisions", "Collisions", "per run", "Collisions of a run, junctions included.",
+         Better::lower, 1.0},
+        {M::teleports, "teleports", "Teleports", "per run",
+         "Vehicles of a run that SUMO took off the road and put down elsewhere.", Better::lower, 1.0},
+        {M::unfinished, "not_arrived", "Unfinished", "per run",
+         "Vehicles of a run that did not arrive: running at its end, not inserted or removed.", Better::lower,
+         1.0},
+    }};
+    return table;
+}
+
+const MeasureInfo& info(Measure measure) {
+    return measures()[static_cast<std::size_t>(measure)];
+}
+
+}  // namespace clearway::report

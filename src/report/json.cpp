@@ -1,0 +1,101 @@
+#include <nlohmann/json.hpp>
+
+#include "report/console.hpp"
+#include "report/published.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const Estimate& estimate, const char* count_name) {
+    return {{"mean", number_or_null(estimate.mean)},
+            {"low_95", number_or_null(estimate.low)},
+            {"high_95", number_or_null(estimate.high)},
+            {count_name, estimate.count}};
+}
+
+const char* effect_name(Effect effect) {
+    switch (effect) {
+        case Effect::better:
+            return "better";
+        case Effect::worse:
+            return "worse";
+        case Effect::none_shown:
+            return "none_shown";
+        case Effect::undecided:
+            break;
+    }
+    return "undecided";
+}
+
+Json to_json(const Endings& endings) {
+    return {{"arrived", endings.arrived},
+            {"running_at_end", endings.running},
+            {"teleported", endings.teleported},
+            {"not_inserted", endings.not_inserted},
+            {"removed", endings.removed}};
+}
+
+Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    Json result = Json::object();
+    for (const MeasureInfo& measure : measures()) {
+        const Outcome& outcome = condition.outcome(measure.measure);
+        Json entry = to_json(outcome.value, "replications");
+        if (condition.is_compared()) {
+            entry["difference"] = to_json(outcome.difference, "pairs");
+            entry["effect"] = effect_name(effect_of(outcome.difference, measure.better));
+        }
+        if (is_published(measure.measure)) {
+            entry["published"] =
+                number_or_null(published_value(scenario.name, condition.name, measure.measure));
+        }
+        result[measure.field] = std::move(entry);
+    }
+    return result;
+}
+
+Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    Json failed = Json::array();
+    for (const FailedRun& run : condition.failed) {
+        failed.push_back({{"replication", run.replication}, {"cause", run.cause}});
+    }
+    Json result = {
+        {"name", condition.name},
+        {"title", condition.title},
+        {"compared_with",
+         condition.is_compared() ? Json(scenario.conditions[*condition.baseline].name) : Json(nullptr)},
+        {"safety_checks", condition.safety_checks_off ? "off" : "on"},
+        {"runs", condition.runs},
+        {"failed_runs", std::move(failed)},
+        {"measures", measures_of(scenario, condition)},
+        {"emergency_outcomes", to_json(condition.emergency)},
+        {"other_outcomes", to_json(condition.others)}};
+    if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain);
+    return result;
+}
+
+}  // namespace
+
+std::string json_tables(const StudyFacts& study) {
+    Json scenarios = Json::array();
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        Json conditions = Json::array();
+        for (const ConditionFacts& condition : scenario.conditions) {
+            conditions.push_back(to_json(scenario, condition));
+        }
+        scenarios.push_back({{"name", scenario.name},
+                             {"replications", scenario.replications},
+                             {"conditions", std::move(conditions)}});
+    }
+    const Json result = {
+        {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};
+    return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearway::report

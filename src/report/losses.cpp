@@ -1,0 +1,107 @@
+#include <charconv>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "report/read_facts.hpp"
+#include "report/text.hpp"
+
+namespace clearway::report {
+namespace {
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+    throw core::InputError(core::Problem{
+        where, what,
+        "epoch,train_loss_nat,test_loss_nat and a row of numbers for each epoch; empty where not finite",
+        "Train again with clearway train, or take the folder out of training/."});
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::string cell;
+    std::istringstream stream(line);
+    while (std::getline(stream, cell, ',')) {
+        cells.push_back(cell);
+    }
+    if (!line.empty() && line.back() == ',') cells.emplace_back();
+    return cells;
+}
+
+double loss_from(const std::string& cell, const std::string& where) {
+    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size())
+        refuse(where, fmt::format("'{}' is no number", cell));
+    return value;
+}
+
+/// `test` of `test_loss_nat`.
+std::string held_out_name(const std::vector<std::string>& head, const std::string& file) {
+    const std::string ending = "_loss_nat";
+    const bool fits = head.size() == 3 && head[0] == "epoch" && head[1] == "train" + ending &&
+                      head[2].size() > ending.size() && head[2].ends_with(ending);
+    if (!fits) refuse(file + ":1", "unknown columns");
+    return head[2].substr(0, head[2].size() - ending.size());
+}
+
+std::optional<double> number_of(const nlohmann::json& object, const char* name) {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    return found->get<double>();
+}
+
+/// What the curve hides, from the summary beside it.
+void add_summary(const std::filesystem::path& file, LossCurve& curve) {
+    if (!std::filesystem::exists(file)) return;
+    const auto summary = nlohmann::json::parse(core::read_file(file), nullptr, false);
+    if (!summary.is_object()) {
+        throw core::InputError(
+            core::Problem{file.string(), "is no JSON object", "", "Train again with clearway train."});
+    }
+    const std::string pairs = summary.value("pairs", "");
+    if (pairs == "true") curve.title = "As published, list of true links only";
+    if (pairs == "candidates") curve.title = "As published, list of candidate pairs";
+    curve.constant_loss = number_of(summary, "constant_test_loss_nat");
+    if (curve.constant_loss && !curve.held_out.empty()) {
+        curve.note = fmt::format("Loss of the best constant answer on the test pairs: {}.",
+                                 number(*curve.constant_loss, {3, Script::typeset}));
+    }
+    const auto test = summary.find("test");
+    if (test == summary.end() || !test->is_object()) return;
+    const auto auc = number_of(*test, "auc");
+    if (auc) {
+        curve.note +=
+            fmt::format(" AUC on the test pairs: {} (chance: 0.5).", number(*auc, {2, Script::typeset}));
+    } else if (pairs == "true") {
+        curve.note += " No AUC: without a pair that is not linked nothing can be told apart.";
+    }
+}
+
+}  // namespace
+
+LossCurve read_losses(const std::filesystem::path& training_folder) {
+    const std::filesystem::path file = training_folder / "losses.csv";
+    std::istringstream lines(core::read_file(file));
+    LossCurve curve;
+    curve.title = training_folder.filename().string();
+    std::string line;
+    std::getline(lines, line);
+    curve.held_out = held_out_name(cells_of(line), file.string());
+    for (std::size_t row = 2; std::getline(lines, line); ++row) {
+        const std::string where = fmt::format("{}:{}", file.string(), row);
+        const std::vector<std::string> cells = cells_of(line);
+        if (cells.size() != 3) refuse(where, fmt::format("{} cells", cells.size()));
+        curve.epoch.push_back(loss_from(cells[0], where));
+        curve.train.push_back(loss_from(cells[1], where));
+        curve.test.push_back(loss_from(cells[2], where));
+    }
+    add_summary(training_folder / "summary.json", curve);
+    return curve;
+}
+
+}  // namespace clearway::report

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "report/facts.hpp"
+
+namespace clearway::report {
+
+/// The dissertation's TABLES II to IV, each cell from one unseeded run. They stand beside results, in a
+/// column of their own, and enter no computation.
+struct PublishedTable {
+    std::string_view scenario;
+    std::string_view caption;  ///< `TABLE II. PERFORMANCE ON MERGE`.
+};
+
+/// The table of a scenario, or empty where the dissertation has none.
+std::optional<PublishedTable> published_table(std::string_view scenario);
+
+/// The cell of a condition by its name (`baseline`, `graph_simulation`, `graph_graphsage`), s. Empty where
+/// the dissertation has none.
+std::optional<double> published_value(std::string_view scenario, std::string_view condition, Measure measure);
+
+/// Whether the tables of the dissertation have this column.
+bool is_published(Measure measure);
+
+}  // namespace clearway::report

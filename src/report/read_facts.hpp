@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "analysis/summary.hpp"
+#include "report/facts.hpp"
+#include "results/store.hpp"
+
+namespace clearway::report {
+
+/// What the tables and the report show of a run folder:
+///
+///     what results::Store holds                      runs, failures, manifest
+///     scenarios/SCENARIO/network.svg                 picture of the network; optional
+///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
+///     command.txt                                    the command that made the study; optional
+///
+/// Reads only. Throws core::InputError for a folder that is no run folder and for damaged files.
+StudyFacts read_facts(const std::filesystem::path& folder);
+
+/// The same from results that were read and summarised before.
+StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary,
+                    const std::filesystem::path& folder);
+
+/// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
+/// foreign elements, or addresses to load from. Run folders travel; a picture that fails is left out.
+bool is_safe_picture(std::string_view svg);
+
+/// Reads one training folder. The title says which pairs it learned from. Throws core::InputError naming file
+/// and line.
+LossCurve read_losses(const std::filesystem::path& training_folder);
+
+}  // namespace clearway::report

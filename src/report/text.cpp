@@ -1,0 +1,88 @@
+#include "report/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clearway::report {
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    for (const char letter : text) {
+        switch (letter) {
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '&':
+                result += "&amp;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\'':
+                result += "&#39;";
+                break;
+            default: {
+                const auto code = static_cast<unsigned char>(letter);
+                const bool control = (code < 0x20 && letter != '\t' && letter != '\n') || code == 0x7f;
+                if (control) {
+                    result += "\xEF\xBF\xBD";
+                } else {
+                    result += letter;
+                }
+            }
+        }
+    }
+    return result;
+}
+
+std::string missing(Script script) {
+    return script == Script::plain ? "-" : "\u2013";
+}
+
+std::string number(double value, NumberStyle style) {
+    if (!std::isfinite(value)) return missing(style.script);
+    std::string digits = fmt::format("{:.{}f}", std::abs(value), style.decimals);
+    const bool is_zero = digits.find_first_not_of("0.") == std::string::npos;
+    if (is_zero) return digits;
+    if (value < 0.0) return (style.script == Script::plain ? "-" : "\u2212") + digits;
+    return style.sign == Sign::always ? "+" + digits : digits;
+}
+
+std::string estimate(const Estimate& estimate, NumberStyle style, double factor) {
+    if (!estimate.mean.has_value()) return missing(style.script);
+    std::string text = number(*estimate.mean * factor, style);
+    if (!estimate.has_interval()) return text;
+    NumberStyle bounds = style;
+    bounds.sign = Sign::negative_only;
+    return text + fmt::format(" [{}, {}]", number(*estimate.low * factor, bounds),
+                              number(*estimate.high * factor, bounds));
+}
+
+int decimals_of(const ScenarioFacts& scenario, Measure measure) {
+    if (info(measure).printed_factor != 1.0) return 0;
+    double largest = 0.0;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        largest = std::max(largest, std::abs(condition.outcome(measure).value.mean.value_or(0.0)));
+    }
+    return largest < 10.0 ? 2 : 1;
+}
+
+std::string grouped(std::uint64_t count) {
+    std::string digits = std::to_string(count);
+    for (std::size_t place = digits.size(); place > 3; place -= 3) {
+        digits.insert(place - 3, ",");
+    }
+    return digits;
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+}  // namespace clearway::report

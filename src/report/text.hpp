@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "report/facts.hpp"
+
+namespace clearway::report {
+
+/// Text made safe for HTML and SVG, in elements and in double-quoted attributes. Control characters other
+/// than tab and newline become U+FFFD.
+std::string escaped(std::string_view text);
+
+/// Which letters numbers are written with.
+enum class Script : std::uint8_t {
+    plain,    ///< ASCII, for terminals.
+    typeset,  ///< Minus sign U+2212, for pages.
+};
+
+enum class Sign : std::uint8_t { negative_only, always };
+
+/// How the numbers of one column are written.
+struct NumberStyle {
+    int decimals = 1;
+    Script script = Script::plain;
+    Sign sign = Sign::negative_only;
+};
+
+/// A number with fixed decimals. Never prints a signed zero. Not finite: a dash.
+std::string number(double value, NumberStyle style);
+
+/// `12.3 [10.1, 14.5]`; without an interval `12.3`; without a mean a dash (`-` or U+2013).
+/// `factor` scales to the printed unit.
+std::string estimate(const Estimate& estimate, NumberStyle style, double factor = 1.0);
+
+/// What stands for a missing number.
+std::string missing(Script script);
+
+/// Decimals that suit a measure in one scenario: 0 for %, 2 where all of its means stay below 10, else 1.
+int decimals_of(const ScenarioFacts& scenario, Measure measure);
+
+/// 12345 -> `12,345`.
+std::string grouped(std::uint64_t count);
+
+/// `1 run`, `2 runs`.
+std::string counted(std::uint64_t count, std::string_view noun);
+
+}  // namespace clearway::report

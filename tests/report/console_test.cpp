@@ -1,0 +1,127 @@
+#include "report/console.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "report/sample.hpp"
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+TEST(ConsoleTables, show_the_dissertations_table_with_its_numbers_beside_ours) {
+    const std::string text = console_tables(tests::study({"merge"}));
+    EXPECT_THAT(text, HasSubstr("TABLE II. PERFORMANCE ON MERGE\n"));
+    EXPECT_THAT(
+        text, HasSubstr("Baseline                                 11.3 +- 1.1       7.2  0.31 +- 0.12       "
+                        "1.2   12.4 +- 2.2      12.8\n"));
+    EXPECT_THAT(text, HasSubstr("Graph made by simulation attributes       9.9 +- 1.1       5.5"));
+}
+
+TEST(ConsoleTables, show_value_difference_intervals_and_effect_of_every_measure) {
+    const std::string text = console_tables(tests::study({"city"}));
+    EXPECT_THAT(text,
+                HasSubstr("EV travel time, s\n"
+                          "  Baseline                                101.3  [96.9, 105.7]\n"
+                          "  Graph made by simulation attributes      88.9  [84.5, 93.3]         -12.4  "
+                          "[-15.5, -9.3]    better\n"));
+    EXPECT_THAT(text, HasSubstr("+29.5  [21.0, 38.0]     worse\n"));
+    EXPECT_THAT(text, HasSubstr("-0.6  [-3.4, 2.2]      no effect shown\n"));
+    for (const MeasureInfo& measure : measures()) {
+        EXPECT_THAT(text, HasSubstr(std::string(measure.title) + ", " + measure.unit + "\n"));
+    }
+}
+
+TEST(ConsoleTables, fit_a_terminal_of_110_columns) {
+    StudyFacts study = tests::study({"merge", "bologna"});
+    study.scenarios[0].conditions[1].failed = {{3, std::string(400, 'x') + " " + std::string(50, 'y')}};
+    for (const std::string& line : lines_of(console_tables(study))) {
+        EXPECT_LE(line.size(), 110u) << line;
+    }
+}
+
+TEST(ConsoleTables, leave_out_the_published_table_where_there_is_none) {
+    const std::string text = console_tables(tests::study({"bologna"}));
+    EXPECT_THAT(text, Not(HasSubstr("TABLE")));
+    EXPECT_THAT(text, HasSubstr("EV travel time, s\n"));
+}
+
+TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios[0].conditions[3].safety_checks_off = true;
+    study.scenarios[0].conditions[2].failed = {{7, "signal: killed by signal 6"}};
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
+    EXPECT_THAT(text, HasSubstr("(!): the simulator's safety checks were off"));
+    EXPECT_THAT(text, HasSubstr("Failed: Graph made by GraphSAGE: 1 run of 21; first: replication 7"));
+}
+
+TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
+    StudyFacts study = tests::study({"merge"});
+    for (ConditionFacts& condition : study.scenarios[0].conditions) {
+        for (Outcome& outcome : condition.outcomes) {
+            for (Estimate* const estimate : {&outcome.value, &outcome.difference}) {
+                *estimate = {estimate->mean, std::nullopt, std::nullopt, 1};
+            }
+        }
+    }
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr("(no interval)"));
+    EXPECT_THAT(text, HasSubstr("no verdict: one pair of runs has no interval"));
+    EXPECT_THAT(text, Not(HasSubstr("nan")));
+    EXPECT_THAT(text, Not(HasSubstr("better\n")));
+}
+
+TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
+    StudyFacts study = tests::study({"merge"});
+    ConditionFacts empty;
+    empty.name = empty.title = "broken";
+    empty.baseline = 0;
+    empty.failed = {{0, "simulator: no route"}, {1, "simulator: no route"}};
+    study.scenarios[0].conditions[1] = empty;
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr("broken: no verdict: no complete pair of runs."));
+    EXPECT_THAT(text, HasSubstr("Failed: broken: 2 runs of 2"));
+    EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(ConsoleTables, let_no_name_steer_the_terminal) {
+    StudyFacts study = tests::study({"\x1b[2Jcity"});
+    EXPECT_THAT(console_tables(study), Not(HasSubstr("\x1b")));
+}
+
+TEST(JsonTables, hold_every_measure_with_its_unit_in_the_name) {
+    const auto json = nlohmann::json::parse(json_tables(tests::study({"merge"})));
+    const auto& baseline = json["scenarios"][0]["conditions"][0];
+    const auto& simulation = json["scenarios"][0]["conditions"][1];
+    EXPECT_EQ(json["scenarios"][0]["name"], "merge");
+    EXPECT_TRUE(baseline["compared_with"].is_null());
+    EXPECT_EQ(simulation["compared_with"], "baseline");
+    EXPECT_DOUBLE_EQ(simulation["measures"]["emergency_travel_time_s"]["difference"]["mean"], -12.4);
+    EXPECT_EQ(simulation["measures"]["emergency_travel_time_s"]["effect"], "better");
+    EXPECT_DOUBLE_EQ(simulation["measures"]["emergency_waiting_time_s"]["published"], 5.5);
+    EXPECT_FALSE(simulation["measures"]["emergency_travel_time_s"].contains("published"));
+    EXPECT_TRUE(baseline["measures"]["gap_closed"]["mean"].is_null());
+    EXPECT_EQ(baseline["measures"].size(), measure_count);
+}
+
+TEST(JsonTables, survive_names_that_are_not_utf_8) {
+    const auto json = nlohmann::json::parse(json_tables(tests::study({"\xff\xfe"})));
+    EXPECT_EQ(json["scenarios"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace clearway::report

@@ -1,0 +1,126 @@
+#include "report/html.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "report/sample.hpp"
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string page_of(const StudyFacts& study) {
+    std::ostringstream page;
+    write_html(study, page);
+    return page.str();
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        ++count;
+    }
+    return count;
+}
+
+TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
+    const std::string page = page_of(tests::study({"merge", "city"}));
+    for (const char* const id :
+         {"verdict", "tables", "differences", "travel-time", "training", "outcomes", "reproduce"}) {
+        EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\">"));
+        EXPECT_THAT(page, HasSubstr("<a href=\"#" + std::string(id) + "\">"));
+    }
+    EXPECT_THAT(page, HasSubstr("TABLE IV. PERFORMANCE ON CITY NETWORK"));
+    EXPECT_THAT(page, HasSubstr("<span class=\"mean\">88.9</span><span class=\"range\">[84.5, 93.3]</span>"
+                                "<span class=\"delta better\">\u221212.4 [\u221215.5, \u22129.3]</span>"));
+    EXPECT_THAT(page, HasSubstr("<td class=\"published\">4.8</td>"));
+    EXPECT_THAT(page, HasSubstr("./clearway reproduce --seeds 20"));
+    EXPECT_THAT(page, HasSubstr("<td>58</td>"));
+}
+
+TEST(Page, leaves_out_sections_that_have_nothing_to_show) {
+    const std::string page = page_of(tests::study({"merge"}));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"networks\"")));
+    EXPECT_THAT(page, Not(HasSubstr("#networks")));
+}
+
+TEST(Page, has_the_data_of_every_plot_beside_it) {
+    const std::string page = page_of(tests::study({"merge", "city"}));
+    EXPECT_EQ(count_of(page, "<svg class=\"plot\""),
+              6u);  // differences and travel time of two scenarios, two trainings
+    EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 6u);
+}
+
+TEST(Page, loads_nothing_from_elsewhere) {
+    std::string page = page_of(tests::study({"merge"}));
+    std::transform(page.begin(), page.end(), page.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    for (const char* const forbidden : {"http://", "https://", "src=", "@import", "url(", "<script",
+                                        "<iframe", "javascript:", "href=\"/", "href=\"."}) {
+        EXPECT_THAT(page, Not(HasSubstr(forbidden)));
+    }
+}
+
+TEST(Page, escapes_every_text_that_comes_from_files) {
+    const std::string evil = "\"><script>alert('x')</script><b onclick=\"";
+    StudyFacts study = tests::study({"merge"});
+    study.title = study.command = evil;
+    study.provenance = {{evil, evil}};
+    study.curves[0].title = study.curves[0].note = study.curves[0].held_out = evil;
+    ScenarioFacts& scenario = study.scenarios[0];
+    scenario.name = scenario.title = scenario.attribution = evil;
+    scenario.network_svg = "<svg class=\"network\" viewBox=\"0 0 1 1\"></svg>";
+    for (ConditionFacts& condition : scenario.conditions) {
+        condition.name = condition.title = condition.recipe = evil;
+        condition.failed = {{1, evil}};
+    }
+    const std::string page = page_of(study);
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+    EXPECT_THAT(page, Not(HasSubstr("<b onclick")));
+    EXPECT_GE(count_of(page, "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;"), 30u);
+}
+
+TEST(Page, never_prints_nan_for_what_is_missing) {
+    StudyFacts study = tests::study({"merge"});
+    for (ConditionFacts& condition : study.scenarios[0].conditions) {
+        condition.outcomes = {};
+        condition.travel_time = {};
+        condition.runs = 0;
+        condition.failed = {{0, "simulator: no route"}};
+    }
+    const std::string page = page_of(study);
+    EXPECT_THAT(page, Not(HasSubstr("nan")));
+    EXPECT_THAT(page, HasSubstr("no verdict"));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"travel-time\"")));
+    EXPECT_THAT(page, HasSubstr("simulator: no route"));
+}
+
+TEST(Page, of_an_empty_study_says_so) {
+    EXPECT_THAT(page_of(StudyFacts{}), HasSubstr("No condition was compared with a baseline."));
+}
+
+TEST(Page, says_where_a_distribution_was_thinned) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("evenly spaced")));
+    study.scenarios[0].conditions[0].travel_time.arrived = 30000;
+    EXPECT_THAT(page_of(study), HasSubstr("Drawn at 200 ranks, evenly spaced"));
+}
+
+TEST(Page, lists_at_most_fifty_failures_of_a_condition_and_counts_the_rest) {
+    StudyFacts study = tests::study({"merge"});
+    for (std::uint32_t replication = 0; replication < 120; ++replication) {
+        study.scenarios[0].conditions[1].failed.push_back({replication, "killed"});
+    }
+    const std::string page = page_of(study);
+    EXPECT_EQ(count_of(page, "<td>killed</td>"), 50u);
+    EXPECT_THAT(page, HasSubstr("120 runs failed"));
+    EXPECT_THAT(page, HasSubstr("The first 50 are listed."));
+}
+
+}  // namespace
+}  // namespace clearway::report

@@ -1,0 +1,70 @@
+#include "report/text.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "report/published.hpp"
+#include "report/sample.hpp"
+
+namespace clearway::report {
+namespace {
+
+TEST(Escaped, leaves_nothing_that_opens_or_closes_markup) {
+    EXPECT_EQ(escaped("<script>alert('x' && \"y\")</script>"),
+              "&lt;script&gt;alert(&#39;x&#39; &amp;&amp; &quot;y&quot;)&lt;/script&gt;");
+}
+
+TEST(Escaped, replaces_control_characters) {
+    EXPECT_EQ(escaped(std::string("a\x1b[2Jb\0c", 8)), "a\uFFFD[2Jb\uFFFDc");
+    EXPECT_EQ(escaped("tab\tand\nline, Wegedornstra\u00dfe"), "tab\tand\nline, Wegedornstra\u00dfe");
+}
+
+TEST(Number, has_the_decimals_asked_for) {
+    EXPECT_EQ(number(12.345, {.decimals = 1}), "12.3");
+    EXPECT_EQ(number(12.345, {.decimals = 0}), "12");
+    EXPECT_EQ(number(-12.345, {.decimals = 2}), "-12.35");
+    EXPECT_EQ(number(-12.345, {2, Script::typeset}), "\u221212.35");
+    EXPECT_EQ(number(12.345, {.decimals = 1, .sign = Sign::always}), "+12.3");
+}
+
+TEST(Number, never_prints_a_signed_zero_or_nan) {
+    EXPECT_EQ(number(-0.04, {.decimals = 1, .sign = Sign::always}), "0.0");
+    EXPECT_EQ(number(-0.0, {.decimals = 0}), "0");
+    EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN(), {}), "-");
+    EXPECT_EQ(number(std::numeric_limits<double>::infinity(), {1, Script::typeset}), "\u2013");
+}
+
+TEST(EstimateText, shows_the_interval_only_where_there_is_one) {
+    EXPECT_EQ(estimate({8.0, 6.5, 9.5, 20}, {}), "8.0 [6.5, 9.5]");
+    EXPECT_EQ(estimate({8.0, std::nullopt, std::nullopt, 1}, {}), "8.0");
+    EXPECT_EQ(estimate({}, {}), "-");
+    EXPECT_EQ(estimate({0.41, 0.28, 0.54, 20}, {.decimals = 0}, 100.0), "41 [28, 54]");
+}
+
+TEST(Decimals, grow_where_all_means_are_small) {
+    const ScenarioFacts scenario = tests::scenario("merge");
+    EXPECT_EQ(decimals_of(scenario, Measure::emergency_travel_time), 1);
+    EXPECT_EQ(decimals_of(scenario, Measure::emergency_depart_delay), 2);
+    EXPECT_EQ(decimals_of(scenario, Measure::gap_closed), 0);
+}
+
+TEST(Counts, are_grouped_and_agree_in_number) {
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(999), "999");
+    EXPECT_EQ(grouped(1234567), "1,234,567");
+    EXPECT_EQ(counted(1, "run"), "1 run");
+    EXPECT_EQ(counted(20, "run"), "20 runs");
+}
+
+TEST(Published, are_the_cells_of_the_dissertations_tables_and_no_others) {
+    EXPECT_EQ(published_value("merge", "baseline", Measure::emergency_waiting_time), 7.2);
+    EXPECT_EQ(published_value("intersection", "graph_simulation", Measure::waiting_time), 3.2);
+    EXPECT_EQ(published_value("city", "graph_graphsage", Measure::emergency_depart_delay), 0.8);
+    EXPECT_EQ(published_value("city", "solo", Measure::waiting_time), std::nullopt);
+    EXPECT_EQ(published_value("bologna", "baseline", Measure::waiting_time), std::nullopt);
+    EXPECT_EQ(published_value("merge", "baseline", Measure::emergency_travel_time), std::nullopt);
+}
+
+}  // namespace
+}  // namespace clearway::report
