@@ -1,0 +1,146 @@
+#include "study/config.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "study/conditions.hpp"
+#include "study/detail/strict_table.hpp"
+
+namespace clearway::study {
+namespace {
+
+using detail::StrictTable;
+using Problems = std::vector<core::Problem>;
+
+constexpr std::uint32_t most_replications = 100000;
+
+void append(Problems& problems, const core::InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+}
+
+scenario::Options read_overrides(StrictTable& root, const std::string& file, Problems& problems) {
+    scenario::Options options;
+    const toml::table* table = root.table("overrides");
+    if (table == nullptr) return options;
+    StrictTable reader(*table, "overrides", file, problems);
+    reader.word<scenario::Variant>(
+        "variant", {{"standard", scenario::Variant::standard}, {"dense", scenario::Variant::dense}},
+        options.variant);
+    reader.number("density", options.density);
+    reader.number("automated_share", options.automated_share);
+    reader.number("road_limit_kmh", options.road_limit_kmh);
+    reader.number("warm_up_s", options.warm_up_s);
+    reader.number("horizon_s", options.horizon_s);
+    reader.number("step_length_s", options.step_length_s);
+    reader.word<scenario::IdmPreset>(
+        "idm", {{"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}}, options.idm);
+    reader.text("traffic_kinds", options.traffic_kinds);
+    reader.text("emergency_kinds", options.emergency_kinds);
+    reader.finish();
+    return options;
+}
+
+results::ConditionSpec read_condition(const toml::table& table, const std::string& file, Problems& problems) {
+    results::ConditionSpec condition;
+    StrictTable reader(table, "condition", file, problems);
+    reader.text("name", condition.name);
+    reader.text("failure", condition.failure);
+    reader.text("predictor", condition.predictor);
+    reader.texts("parts", condition.parts);
+    reader.word<results::Engine>("engine",
+                                 {{"standard", results::Engine::standard},
+                                  {"sublane", results::Engine::sublane},
+                                  {"solo", results::Engine::solo}},
+                                 condition.engine);
+    reader.word<traffic::SafetyChecks>(
+        "safety_checks", {{"on", traffic::SafetyChecks::on}, {"off", traffic::SafetyChecks::off}},
+        condition.safety_checks);
+    reader.finish();
+    if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");
+    return condition;
+}
+
+void read_conditions(StrictTable& root, const std::string& file, Problems& problems, StudyConfig& config) {
+    std::vector<std::string> names;
+    root.texts("conditions", names);
+    for (const std::string& name : names) {
+        try {
+            config.conditions.push_back(built_in_condition(name, root.where("conditions")));
+        } catch (const core::InputError& error) {
+            append(problems, error);
+        }
+    }
+    for (const toml::table* table : root.tables("condition"))
+        config.conditions.push_back(read_condition(*table, file, problems));
+    if (names.empty() && config.conditions.empty())
+        root.problem("conditions", "the study has no condition", "names of `clearway list`, or [[condition]]",
+                     "");
+}
+
+/// A path in a study file is relative to that file; a bare word is a name.
+std::string resolve(const std::string& scenario, const std::filesystem::path& study_file) {
+    const std::filesystem::path path = scenario;
+    const bool is_name = !path.has_parent_path() && path.extension() != ".toml";
+    return is_name ? scenario : (study_file.parent_path() / path).string();
+}
+
+void read_scenarios(StrictTable& root, const std::filesystem::path& file, const scenario::Options& options,
+                    Problems& problems, StudyConfig& config) {
+    std::vector<std::string> names;
+    root.texts("scenarios", names);
+    if (names.empty())
+        root.problem("scenarios", "the study has no scenario", "names of `clearway list`, folders or files",
+                     "");
+    for (const std::string& name : names) {
+        try {
+            config.scenarios.push_back(scenario::load(resolve(name, file), options));
+        } catch (const core::InputError& error) {
+            append(problems, error);
+        }
+    }
+}
+
+}  // namespace
+
+StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
+                               const scenario::Options& options) {
+    StudyConfig config;
+    config.name = "dissertation";
+    config.seed = seed;
+    config.replications = replications;
+    Problems problems;
+    for (const char* name : {"merge", "intersection", "city"}) {
+        try {
+            config.scenarios.push_back(scenario::load(name, options));
+        } catch (const core::InputError& error) {
+            append(problems, error);
+        }
+    }
+    if (!problems.empty()) throw core::InputError(problems);
+    for (const BuiltInCondition& known : built_in_conditions())
+        config.conditions.push_back(known.condition);
+    return config;
+}
+
+StudyConfig read_study(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const toml::table table = detail::parse_toml(core::read_file(file), name);
+    Problems problems;
+    StrictTable root(table, "", name, problems);
+    StudyConfig config;
+    config.name = file.stem().string();
+    root.text("name", config.name);
+    root.integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(), config.seed);
+    root.integer<std::uint32_t>("replications", 1, most_replications, config.replications);
+    const scenario::Options options = read_overrides(root, name, problems);
+    read_scenarios(root, file, options, problems, config);
+    read_conditions(root, name, problems, config);
+    root.finish();
+    if (!problems.empty()) throw core::InputError(problems);
+    return config;
+}
+
+}  // namespace clearway::study

@@ -1,0 +1,158 @@
+#include "study/plan.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "scenario/network.hpp"
+#include "study/detail/folder_lock.hpp"
+
+namespace clearway::study {
+namespace {
+
+namespace fs = std::filesystem;
+using results::Engine;
+
+constexpr const char* network_name = "network";
+constexpr const char* scenario_file_name = "scenario.toml";
+
+/// Names become folders.
+bool is_folder_name(const std::string& name) {
+    const auto allowed = [](char letter) {
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' ||
+               letter == '.';
+    };
+    return !name.empty() && name.front() != '.' && std::ranges::all_of(name, allowed);
+}
+
+void check_name(const std::string& what, const std::string& name, std::set<std::string>& seen,
+                std::vector<core::Problem>& problems) {
+    if (!is_folder_name(name))
+        problems.push_back({what, fmt::format("\"{}\" cannot be the name of a folder", name),
+                            "letters, digits, '_', '-' and '.', not starting with '.'", "Rename it"});
+    if (!seen.insert(name).second)
+        problems.push_back(
+            {what, fmt::format("\"{}\" is there twice", name), "each name once", "Rename one"});
+}
+
+void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
+    for (const results::ConditionSpec& condition : config.conditions) {
+        if (condition.engine == Engine::solo || condition.parts.empty()) continue;
+        const auto is_baseline = [&](const results::ConditionSpec& other) {
+            return other.engine == condition.engine && other.parts.empty();
+        };
+        if (std::ranges::any_of(config.conditions, is_baseline)) continue;
+        problems.push_back(
+            {"condition " + condition.name,
+             fmt::format("has no baseline with engine \"{}\"", results::name(condition.engine)),
+             "a condition of the same engine without parts",
+             condition.engine == Engine::standard ? "Add \"baseline\" to the conditions"
+                                                  : "Add one with [[condition]]"});
+    }
+}
+
+void check(const StudyConfig& config) {
+    std::vector<core::Problem> problems;
+    if (config.scenarios.empty()) problems.push_back({"study", "has no scenario", "", "Name at least one"});
+    if (config.conditions.empty()) problems.push_back({"study", "has no condition", "", "Name at least one"});
+    if (config.replications == 0) problems.push_back({"replications", "0 is out of range", "1 or more", ""});
+    std::set<std::string> scenarios;
+    for (const scenario::ScenarioConfig& scenario : config.scenarios)
+        check_name("scenario", scenario.name, scenarios, problems);
+    std::set<std::string> conditions;
+    for (const results::ConditionSpec& condition : config.conditions)
+        check_name("condition", condition.name, conditions, problems);
+    check_baselines(config, problems);
+    if (!problems.empty()) throw core::InputError(problems);
+}
+
+results::Manifest make_manifest(const StudyConfig& config, const Versions& versions) {
+    results::Manifest manifest;
+    manifest.study = config.name;
+    manifest.clearway_version = versions.clearway;
+    manifest.sumo_version = versions.sumo;
+    manifest.study_seed = config.seed;
+    manifest.replications = config.replications;
+    for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+        manifest.scenarios.push_back({scenario.name, scenario.version, scenario.title,
+                                      scenario::to_toml(scenario), scenario::configuration_hash(scenario),
+                                      scenario.network.attribution});
+    }
+    manifest.conditions = config.conditions;
+    return manifest;
+}
+
+/// The conditions of one engine as one unit, or no unit when there are none.
+void add_unit(const StudyConfig& config, results::UnitSpec unit, Engine engine,
+              std::vector<PlannedUnit>& units) {
+    unit.engine = engine;
+    for (const results::ConditionSpec& condition : config.conditions) {
+        if (condition.engine == engine) unit.conditions.push_back(condition);
+    }
+    if (unit.conditions.empty()) return;
+    const std::string name =
+        fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, results::name(engine));
+    units.push_back({name, std::move(unit)});
+}
+
+/// Stores a scenario and its network as a whole or not at all.
+void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) {
+    if (fs::exists(target)) return;
+    const fs::path part =
+        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    try {
+        scenario::store(config, part);
+        scenario::build_network(config, part / network_name);
+        fs::rename(part, target);
+    } catch (const fs::filesystem_error& error) {
+        std::error_code ignored;
+        fs::remove_all(part, ignored);
+        throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(part, ignored);
+        throw;
+    }
+}
+
+}  // namespace
+
+std::size_t Plan::run_count() const {
+    return manifest.scenarios.size() * manifest.conditions.size() * manifest.replications;
+}
+
+Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::path& folder) {
+    check(config);
+    Plan plan;
+    plan.manifest = make_manifest(config, versions);
+    plan.scenarios = config.scenarios;
+    const fs::path output = fs::absolute(folder);
+    for (std::uint32_t replication = 0; replication < config.replications; ++replication) {
+        for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+            results::UnitSpec unit;
+            unit.scenario = scenario.name;
+            unit.scenario_file = output / "scenarios" / scenario.name / scenario_file_name;
+            unit.network_folder = output / "scenarios" / scenario.name / network_name;
+            unit.study_seed = config.seed;
+            unit.replication = replication;
+            unit.output = output;
+            for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo})
+                add_unit(config, unit, engine, plan.units);
+        }
+    }
+    return plan;
+}
+
+results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+    const detail::FolderLock lock(folder);
+    results::Store store = results::Store::create(folder, plan.manifest);
+    for (const scenario::ScenarioConfig& config : plan.scenarios)
+        prepare_scenario(config, store.scenario_folder(config.name));
+    return store;
+}
+
+}  // namespace clearway::study

@@ -1,0 +1,249 @@
+#include "study/runner.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <deque>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "study/detail/folder_lock.hpp"
+#include "study/detail/interrupt.hpp"
+#include "study/detail/worker_pool.hpp"
+
+namespace clearway::study {
+namespace {
+
+using core::ExitCode;
+using results::FailureCause;
+using results::RunKey;
+
+constexpr auto pause = std::chrono::milliseconds(10);
+constexpr auto progress_period = std::chrono::milliseconds(250);
+constexpr int log_lines = 30;
+constexpr int program_not_started = 127;
+
+unsigned worker_count(const RunnerOptions& options) {
+    return options.workers != 0 ? options.workers : std::max(1U, std::thread::hardware_concurrency());
+}
+
+RunKey key_of(const results::UnitSpec& unit, const results::ConditionSpec& condition) {
+    return {unit.scenario, condition.name, unit.replication};
+}
+
+/// What a worker's end says about the runs that it left without a record.
+FailureCause cause_of(const detail::WorkerEnd& end) {
+    if (end.timed_out) return FailureCause::time_limit;
+    if (end.exit.signal != 0) return FailureCause::signal;
+    if (end.exit.code == static_cast<int>(ExitCode::bad_input)) return FailureCause::bad_input;
+    return FailureCause::other;
+}
+
+/// One call of `run`.
+class Runner {
+  public:
+    Runner(const Plan& plan, const results::Store& store, const RunnerOptions& options,
+           const std::function<void(const StudyProgress&)>& on_progress)
+        : plan_(plan),
+          store_(store),
+          options_(options),
+          on_progress_(on_progress),
+          lock_(store.folder()),
+          pool_({worker_count(options), options.unit_time_limit_s, options.termination_grace_s}) {
+        if (options_.worker_program.empty())
+            options_.worker_program = core::program_folder() / "clearway-run";
+        core::make_folder(store.unit_file("").parent_path());
+        core::make_folder(store.log_file("").parent_path());
+        attempts_.resize(plan.units.size(), 0);
+        queue_units();
+    }
+
+    StudyResult run() {
+        while (watch_.signal() == 0 && !(queue_.empty() && pool_.idle())) {
+            while (!queue_.empty() && !pool_.full())
+                start_next();
+            for (const detail::WorkerEnd& end : pool_.collect())
+                handle(end);
+            report(Report::when_due);
+            std::this_thread::sleep_for(pause);
+        }
+        pool_.end_all();
+        store_.remove_leftovers();
+        report(Report::now);
+        return {exit_code(), progress_};
+    }
+
+  private:
+    enum class Report { when_due, now };
+
+    /// Conditions of a unit without a record, and without a failure that another attempt cannot change.
+    std::vector<results::ConditionSpec> open_conditions(const results::UnitSpec& unit) const {
+        std::vector<results::ConditionSpec> open;
+        for (const results::ConditionSpec& condition : unit.conditions) {
+            const RunKey key = key_of(unit, condition);
+            if (store_.complete(key)) continue;
+            const auto failure = store_.read_failure(key);
+            if (!failure || results::worth_retrying(failure->cause)) open.push_back(condition);
+        }
+        return open;
+    }
+
+    void queue_units() {
+        for (std::size_t job = 0; job < plan_.units.size(); ++job) {
+            const results::UnitSpec& unit = plan_.units[job].unit;
+            const auto open = open_conditions(unit);
+            if (!open.empty()) queue_.push_back(job);
+            for (const results::ConditionSpec& condition : open)
+                store_.forget_failure(key_of(unit, condition));
+            count(unit, settled_);
+        }
+        progress_.total = plan_.run_count();
+        progress_.resumed = settled_.complete;
+    }
+
+    void start_next() {
+        const std::size_t job = queue_.front();
+        queue_.pop_front();
+        const PlannedUnit& planned = plan_.units[job];
+        results::UnitSpec unit = planned.unit;
+        uncount(unit, settled_);
+        unit.conditions = open_conditions(unit);
+        ++attempts_[job];
+        const auto file = store_.unit_file(planned.name);
+        core::write_atomically(file, results::to_json(unit));
+        core::Command command;
+        command.program = options_.worker_program;
+        command.arguments = {"--unit", file.string()};
+        command.output = log_file(job);
+        pool_.start(job, command);
+    }
+
+    std::filesystem::path log_file(std::size_t job) const {
+        const std::string& name = plan_.units[job].name;
+        return store_.log_file(attempts_[job] <= 1 ? name : fmt::format("{}.{}", name, attempts_[job]));
+    }
+
+    void handle(const detail::WorkerEnd& end) {
+        const results::UnitSpec& unit = plan_.units[end.job].unit;
+        stop_if_environment(end);
+        std::vector<RunKey> open;
+        for (const results::ConditionSpec& condition : unit.conditions) {
+            const RunKey key = key_of(unit, condition);
+            if (!store_.complete(key) && !store_.read_failure(key)) open.push_back(key);
+        }
+        const FailureCause cause = cause_of(end);
+        if (!open.empty() && results::worth_retrying(cause) && attempts_[end.job] < options_.attempts) {
+            queue_.push_front(end.job);
+        } else {
+            for (const RunKey& key : open)
+                store_.write(failure_of(key, end, cause));
+        }
+        count(unit, settled_);
+    }
+
+    void stop_if_environment(const detail::WorkerEnd& end) {
+        const int code = end.exit.code;
+        if (end.exit.signal != 0) return;
+        if (code == program_not_started)
+            throw core::EnvironmentError(
+                fmt::format("{} cannot be started. Build it, or run `clearway doctor`",
+                            options_.worker_program.string()));
+        if (code == static_cast<int>(ExitCode::environment))
+            throw core::EnvironmentError(
+                fmt::format("a worker could not go on; what is complete is kept in {}\n{}",
+                            store_.folder().string(), core::tail(log_file(end.job), log_lines)));
+        if (code == static_cast<int>(ExitCode::conflict))
+            throw core::ConflictError(core::tail(log_file(end.job), log_lines));
+    }
+
+    results::FailureRecord failure_of(const RunKey& key, const detail::WorkerEnd& end,
+                                      FailureCause cause) const {
+        results::FailureRecord failure;
+        failure.key = key;
+        failure.cause = cause;
+        failure.exit_code = end.exit.code;
+        failure.signal = end.exit.signal;
+        failure.attempts = attempts_[end.job];
+        failure.log_tail = core::tail(log_file(end.job), log_lines);
+        if (end.timed_out) {
+            failure.message = fmt::format("did not end within {:.0f} s", options_.unit_time_limit_s);
+        } else if (end.exit.ok()) {
+            failure.message = "the worker ended without a record of this run";
+        } else {
+            failure.message = "the worker was " + end.exit.describe();
+            if (end.exit.signal == 0) failure.message = "the worker ended with " + end.exit.describe();
+        }
+        return failure;
+    }
+
+    struct Counts {
+        std::size_t complete = 0;
+        std::size_t failed = 0;
+    };
+    Counts counts_of(const results::UnitSpec& unit) const {
+        Counts counts;
+        for (const results::ConditionSpec& condition : unit.conditions) {
+            const RunKey key = key_of(unit, condition);
+            if (store_.complete(key)) {
+                ++counts.complete;
+            } else if (store_.read_failure(key)) {
+                ++counts.failed;
+            }
+        }
+        return counts;
+    }
+    void count(const results::UnitSpec& unit, Counts& total) const {
+        const Counts counts = counts_of(unit);
+        total.complete += counts.complete;
+        total.failed += counts.failed;
+    }
+    void uncount(const results::UnitSpec& unit, Counts& total) const {
+        const Counts counts = counts_of(unit);
+        total.complete -= counts.complete;
+        total.failed -= counts.failed;
+    }
+
+    void report(Report when) {
+        const auto now = std::chrono::steady_clock::now();
+        if (when == Report::when_due && now - reported_ < progress_period) return;
+        reported_ = now;
+        Counts counts = settled_;
+        for (const std::size_t job : pool_.jobs())
+            count(plan_.units[job].unit, counts);
+        progress_.done = counts.complete;
+        progress_.failed = counts.failed;
+        progress_.elapsed_s = std::chrono::duration<double>(now - started_).count();
+        if (on_progress_) on_progress_(progress_);
+    }
+
+    ExitCode exit_code() const {
+        if (watch_.signal() == SIGINT) return ExitCode::interrupted;
+        if (watch_.signal() == SIGTERM) return ExitCode::terminated;
+        return progress_.failed > 0 ? ExitCode::runs_failed : ExitCode::ok;
+    }
+
+    const Plan& plan_;
+    const results::Store& store_;
+    RunnerOptions options_;
+    const std::function<void(const StudyProgress&)>& on_progress_;
+    detail::FolderLock lock_;
+    detail::InterruptWatch watch_;
+    detail::WorkerPool pool_;
+    std::deque<std::size_t> queue_;  ///< Rows of the plan's units.
+    std::vector<int> attempts_;      ///< By unit, in this call.
+    Counts settled_;                 ///< Of the units that no worker works on.
+    StudyProgress progress_;
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point reported_{};
+};
+
+}  // namespace
+
+StudyResult run(const Plan& plan, const results::Store& store, const RunnerOptions& options,
+                const std::function<void(const StudyProgress&)>& on_progress) {
+    return Runner(plan, store, options, on_progress).run();
+}
+
+}  // namespace clearway::study

@@ -1,0 +1,103 @@
+#include "study/config.hpp"
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "study/conditions.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::study {
+namespace {
+
+using testing::HasSubstr;
+
+class StudyFile : public testing::Test {
+  protected:
+    StudyFile() { setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1); }
+    StudyConfig read(const std::string& text) { return read_study(folder_.write("study.toml", text)); }
+    std::string problems(const std::string& text) {
+        try {
+            read(text);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(StudyFile, GivesScenariosConditionsAndOverrides) {
+    const StudyConfig config = read(R"(
+name = "outages"
+seed = 7
+replications = 30
+scenarios = ["merge", "intersection"]
+conditions = ["baseline", "solo"]
+[overrides]
+variant = "dense"
+step_length_s = 0.1
+[[condition]]
+name = "b20"
+failure = "B20"
+predictor = "dead_reckoning"
+parts = ["dissertation"]
+safety_checks = "off"
+)");
+    EXPECT_EQ(config.name, "outages");
+    EXPECT_EQ(config.seed, 7U);
+    EXPECT_EQ(config.replications, 30U);
+    ASSERT_EQ(config.scenarios.size(), 2U);
+    EXPECT_DOUBLE_EQ(config.scenarios[0].time.step_length_s, 0.1);
+    EXPECT_GT(config.scenarios[0].demand.emergency, 3);
+    ASSERT_EQ(config.conditions.size(), 3U);
+    EXPECT_EQ(config.conditions[1], built_in_condition("solo", ""));
+    EXPECT_EQ(config.conditions[2].failure, "B20");
+    EXPECT_EQ(config.conditions[2].safety_checks, traffic::SafetyChecks::off);
+}
+
+TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {
+    const std::string message = problems(R"(replikations = 30
+replications = -3
+scenarios = ["merg"]
+conditions = ["base line"]
+[overrides]
+variant = "denser"
+[[condition]]
+failure = "B20"
+part = ["dissertation"]
+)");
+    EXPECT_THAT(message, HasSubstr("study.toml:1:"));
+    EXPECT_THAT(message, HasSubstr("Did you mean 'replications'?"));
+    EXPECT_THAT(message, HasSubstr("study.toml:2:"));
+    EXPECT_THAT(message, HasSubstr("-3 is negative"));
+    EXPECT_THAT(message, HasSubstr("merge"));
+    EXPECT_THAT(message, HasSubstr("'baseline'"));
+    EXPECT_THAT(message, HasSubstr("\"denser\" is not known"));
+    EXPECT_THAT(message, HasSubstr("Did you mean 'parts'?"));
+    EXPECT_THAT(message, HasSubstr("condition.name"));
+}
+
+TEST_F(StudyFile, RefusesWhatIsNoTomlAndWhatIsEmpty) {
+    EXPECT_THAT(problems("scenarios = [\n"), HasSubstr("study.toml:"));
+    EXPECT_THAT(problems(""), testing::AllOf(HasSubstr("the study has no scenario"),
+                                             HasSubstr("the study has no condition")));
+    EXPECT_THAT(problems("replications = 0\nscenarios = [\"merge\"]\nconditions = [\"baseline\"]\n"),
+                HasSubstr("0 is out of range"));
+    EXPECT_THROW(read_study(folder_.path() / "none.toml"), core::InputError);
+}
+
+TEST_F(StudyFile, DissertationStudyHasItsScenariosConditionsAndControls) {
+    setenv("SUMO_HOME", "/usr/share/sumo", 0);
+    const StudyConfig config = dissertation_study(20, 1);
+    EXPECT_EQ(config.scenarios.size(), 3U);
+    std::vector<std::string> names;
+    for (const auto& condition : config.conditions)
+        names.push_back(condition.name);
+    EXPECT_THAT(names, testing::ElementsAre("baseline", "graph_simulation", "graph_graphsage",
+                                            "b10_no_repair", "b10_dead_reckoning", "solo"));
+}
+
+}  // namespace
+}  // namespace clearway::study

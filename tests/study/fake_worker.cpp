@@ -1,0 +1,69 @@
+// Does as clearway-run is asked to, without a simulator. What becomes of a run depends on the start of its
+// condition's name.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "core/error.hpp"
+#include "results/store.hpp"
+#include "results/synthetic.hpp"
+
+namespace {
+
+using namespace clearway;
+
+void pause_ms(int duration) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(duration));
+}
+
+/// True the first time that it is called for a run.
+bool first_time(const results::Store& store, const results::RunKey& key) {
+    const auto marker =
+        store.folder() / ("." + key.scenario + key.condition + std::to_string(key.replication));
+    if (std::filesystem::exists(marker)) return false;
+    std::ofstream(marker) << "x";
+    return true;
+}
+
+void refuse(const results::Store& store, const results::RunKey& key) {
+    results::FailureRecord failure;
+    failure.key = key;
+    failure.cause = results::FailureCause::simulator;
+    failure.message = "SUMO said no";
+    store.write(failure);
+}
+
+/// Ends the process where the condition says so; true when a record was written.
+void work(const results::Store& store, const results::RunKey& key) {
+    const std::string& name = key.condition;
+    std::printf("run %s\n", results::to_text(key).c_str());
+    std::fflush(stdout);
+    if (name.starts_with("crash_once") && first_time(store, key)) std::raise(SIGSEGV);
+    if (name == "crash") std::raise(SIGSEGV);
+    if (name == "hang") pause_ms(600000);
+    if (name == "bad_input") std::exit(3);
+    if (name == "disk_full") std::exit(4);
+    if (name == "forgetful") return;
+    if (name == "refused") return refuse(store, key);
+    if (name.starts_with("slow")) pause_ms(40);
+    store.write(results::synthetic::record(key, 40.0 + key.replication), {});
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+    try {
+        const results::UnitSpec unit = results::read_unit(arguments[2]);
+        const results::Store store = results::Store::open(unit.output);
+        for (const results::ConditionSpec& condition : unit.conditions)
+            work(store, {unit.scenario, condition.name, unit.replication});
+        return 0;
+    } catch (const core::Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return static_cast<int>(error.exit_code());
+    }
+}

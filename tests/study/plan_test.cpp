@@ -1,0 +1,89 @@
+#include "study/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "study/conditions.hpp"
+
+namespace clearway::study {
+namespace {
+
+using results::Engine;
+
+StudyConfig example() {
+    StudyConfig config;
+    config.replications = 2;
+    for (const char* name : {"alpha", "beta"})
+        config.scenarios.emplace_back().name = name;
+    for (const BuiltInCondition& known : built_in_conditions())
+        config.conditions.push_back(known.condition);
+    return config;
+}
+
+Plan plan_of(const StudyConfig& config) {
+    return make_plan(config, {"0.1.0", "1.15.0"}, "/out");
+}
+
+std::string problems_of(const StudyConfig& config) {
+    try {
+        plan_of(config);
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Plan, HasOneUnitPerReplicationScenarioAndEngine) {
+    const Plan plan = plan_of(example());
+    std::vector<std::string> names;
+    for (const PlannedUnit& unit : plan.units)
+        names.push_back(unit.name);
+    EXPECT_THAT(names, testing::ElementsAre("alpha-00000-standard", "alpha-00000-solo", "beta-00000-standard",
+                                            "beta-00000-solo", "alpha-00001-standard", "alpha-00001-solo",
+                                            "beta-00001-standard", "beta-00001-solo"));
+    EXPECT_EQ(plan.run_count(), 2U * 2U * 6U);
+    EXPECT_EQ(plan.units[0].unit.conditions.size(), 5U);
+    EXPECT_EQ(plan.units[1].unit.conditions.size(), 1U);
+    EXPECT_EQ(plan.units[1].unit.engine, Engine::solo);
+    EXPECT_EQ(plan.units[0].unit.network_folder, "/out/scenarios/alpha/network");
+}
+
+TEST(Plan, CoversTheRunsOfTheManifestExactly) {
+    const Plan plan = plan_of(example());
+    std::vector<results::RunKey> runs;
+    for (const PlannedUnit& planned : plan.units)
+        for (const results::ConditionSpec& condition : planned.unit.conditions)
+            runs.push_back({planned.unit.scenario, condition.name, planned.unit.replication});
+    std::ranges::sort(runs);
+    EXPECT_EQ(runs, plan.manifest.runs());
+}
+
+TEST(Plan, RefusesNamesThatAreTwiceOrNoFolders) {
+    StudyConfig config = example();
+    config.scenarios[1].name = "alpha";
+    config.conditions[1].name = "../up";
+    EXPECT_THAT(problems_of(config), testing::AllOf(testing::HasSubstr("\"alpha\" is there twice"),
+                                                    testing::HasSubstr("\"../up\" cannot be the name")));
+}
+
+TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
+    StudyConfig config = example();
+    config.conditions[1].engine = Engine::sublane;
+    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with engine \"sublane\""));
+    results::ConditionSpec baseline;
+    baseline.name = "baseline_sublane";
+    baseline.engine = Engine::sublane;
+    config.conditions.push_back(baseline);
+    EXPECT_EQ(problems_of(config), "none");
+}
+
+TEST(Plan, RefusesAnEmptyStudy) {
+    StudyConfig config;
+    config.replications = 0;
+    EXPECT_THAT(problems_of(config),
+                testing::AllOf(testing::HasSubstr("no scenario"), testing::HasSubstr("no condition"),
+                               testing::HasSubstr("replications")));
+}
+
+}  // namespace
+}  // namespace clearway::study

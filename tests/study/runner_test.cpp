@@ -1,0 +1,219 @@
+#include "study/runner.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/files.hpp"
+#include "results/synthetic.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::study {
+namespace {
+
+using core::ExitCode;
+using results::FailureCause;
+using results::RunKey;
+
+class Study : public testing::Test {
+  protected:
+    /// Two scenarios, these conditions, `replications` seeds.
+    void plan(const std::vector<std::string>& conditions, std::uint32_t replications) {
+        StudyConfig config;
+        config.name = "fake";
+        config.replications = replications;
+        for (const char* name : {"alpha", "beta"})
+            config.scenarios.emplace_back().name = name;
+        for (const std::string& name : conditions)
+            config.conditions.emplace_back().name = name;
+        config_ = config;
+    }
+    Plan plan_in(const std::string& folder) const {
+        return make_plan(config_, {"0.1.0", "1.15.0"}, folder_.path() / folder);
+    }
+    results::Store store_in(const std::string& folder) const {
+        return results::Store::create(folder_.path() / folder, plan_in(folder).manifest);
+    }
+    StudyResult run_in(const std::string& folder, unsigned workers = 2) {
+        options_.workers = workers;
+        return run(plan_in(folder), store_in(folder), options_,
+                   [this](const StudyProgress& progress) { reported_.push_back(progress); });
+    }
+    /// All final bytes of a run folder.
+    std::string tables_of(const std::string& folder) const {
+        const results::Store store = store_in(folder);
+        results::write_tables(store, results::read_results(store));
+        std::string all;
+        for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
+            all += core::read_file(store.folder() / file);
+        return all;
+    }
+    /// The study in a process of its own.
+    pid_t fork_study(const std::string& folder) {
+        const pid_t child = fork();
+        if (child == 0) _exit(static_cast<int>(run_in(folder).exit_code));
+        return child;
+    }
+    void wait_for(const results::Store& store, const RunKey& key) const {
+        while (!store.complete(key))
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+
+    support::TemporaryFolder folder_;
+    StudyConfig config_;
+    RunnerOptions options_{.worker_program = std::string(CLEARWAY_BINARY_DIR) + "/tests/study_fake_worker",
+                           .unit_time_limit_s = 60.0,
+                           .termination_grace_s = 0.2};
+    std::vector<StudyProgress> reported_;
+};
+
+TEST_F(Study, CompletesEveryRunAndReportsHowFarItIs) {
+    plan({"baseline", "treated"}, 3);
+    const StudyResult result = run_in("out");
+    EXPECT_EQ(result.exit_code, ExitCode::ok);
+    EXPECT_EQ(result.progress.done, 12U);
+    EXPECT_EQ(result.progress.total, 12U);
+    EXPECT_EQ(results::read_results(store_in("out")).runs.size(), 12U);
+    ASSERT_FALSE(reported_.empty());
+    EXPECT_EQ(reported_.back().done, 12U);
+    EXPECT_TRUE(std::ranges::is_sorted(reported_, {}, &StudyProgress::done));
+}
+
+TEST_F(Study, GivesTheSameBytesForOneAndTwoWorkers) {
+    plan({"baseline", "slow", "refused"}, 3);
+    run_in("one", 1);
+    run_in("two", 2);
+    EXPECT_EQ(tables_of("one"), tables_of("two"));
+}
+
+TEST_F(Study, KeepsWhatACrashedWorkerFinishedAndTriesTheRestAgain) {
+    plan({"baseline", "crash_once", "treated"}, 2);
+    const StudyResult result = run_in("out");
+    EXPECT_EQ(result.exit_code, ExitCode::ok);
+    EXPECT_EQ(result.progress.done, 12U);
+    const auto second_log = core::read_file(store_in("out").log_file("alpha-00000-standard.2"));
+    EXPECT_THAT(second_log, testing::Not(testing::HasSubstr("baseline")));
+    EXPECT_THAT(second_log, testing::HasSubstr("alpha/crash_once/0"));
+}
+
+TEST_F(Study, RecordsACrashAfterThreeAttemptsAndGoesOn) {
+    plan({"baseline", "crash"}, 2);
+    const StudyResult result = run_in("out");
+    EXPECT_EQ(result.exit_code, ExitCode::runs_failed);
+    EXPECT_EQ(result.progress.done, 4U);
+    EXPECT_EQ(result.progress.failed, 4U);
+    const auto failure = store_in("out").read_failure({"beta", "crash", 1});
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->cause, FailureCause::signal);
+    EXPECT_EQ(failure->signal, SIGSEGV);
+    EXPECT_EQ(failure->attempts, 3);
+    EXPECT_THAT(failure->log_tail, testing::HasSubstr("run beta/crash/1"));
+}
+
+TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
+    plan({"baseline", "hang"}, 1);
+    options_.unit_time_limit_s = 0.3;
+    options_.attempts = 2;
+    const StudyResult result = run_in("out");
+    EXPECT_EQ(result.exit_code, ExitCode::runs_failed);
+    const auto failure = store_in("out").read_failure({"alpha", "hang", 0});
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->cause, FailureCause::time_limit);
+    EXPECT_EQ(failure->attempts, 2);
+    EXPECT_TRUE(store_in("out").complete({"alpha", "baseline", 0}));
+}
+
+TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {
+    plan({"baseline", "refused", "forgetful", "bad_input"}, 1);
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
+    const results::Store store = store_in("out");
+    EXPECT_EQ(store.read_failure({"alpha", "bad_input", 0})->cause, FailureCause::bad_input);
+    EXPECT_EQ(store.read_failure({"alpha", "bad_input", 0})->attempts, 1);
+    EXPECT_EQ(store.read_failure({"alpha", "refused", 0})->message, "SUMO said no");
+    EXPECT_EQ(store.read_failure({"alpha", "forgetful", 0})->cause, FailureCause::bad_input);
+    std::filesystem::remove_all(store.folder() / "logs");
+    const StudyResult again = run_in("out");
+    EXPECT_EQ(again.progress.failed, 6U);
+    EXPECT_TRUE(std::filesystem::is_empty(store.folder() / "logs")) << "no worker was started";
+}
+
+TEST_F(Study, RecordsARunThatAWorkerForgot) {
+    plan({"baseline", "forgetful"}, 1);
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
+    EXPECT_THAT(store_in("out").read_failure({"alpha", "forgetful", 0})->message,
+                testing::HasSubstr("without a record"));
+}
+
+TEST_F(Study, StopsWhenTheMachineIsAtFaultAndLosesNothing) {
+    plan({"baseline", "disk_full"}, 2);
+    EXPECT_THROW(run_in("out", 1), core::EnvironmentError);
+    EXPECT_TRUE(store_in("out").complete({"alpha", "baseline", 0}));
+    EXPECT_FALSE(store_in("out").read_failure({"alpha", "disk_full", 0}));
+}
+
+TEST_F(Study, SaysThatItsWorkerIsMissing) {
+    plan({"baseline"}, 1);
+    options_.worker_program = "/nowhere/clearway-run";
+    try {
+        run_in("out");
+        FAIL();
+    } catch (const core::EnvironmentError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("/nowhere/clearway-run cannot be started"));
+    }
+}
+
+TEST_F(Study, GoesOnAfterKillNineToTheSameBytesAsUndisturbed) {
+    plan({"baseline", "slow_a", "slow_b"}, 6);
+    run_in("undisturbed");
+    const std::string expected = tables_of("undisturbed");
+    const results::Store store = store_in("killed");
+    for (const std::uint32_t replication : {0U, 2U, 4U}) {
+        const pid_t study = fork_study("killed");
+        wait_for(store, {"alpha", "slow_a", replication});
+        kill(study, SIGKILL);
+        waitpid(study, nullptr, 0);
+    }
+    const StudyResult result = run_in("killed");
+    EXPECT_EQ(result.exit_code, ExitCode::ok);
+    EXPECT_GT(result.progress.resumed, 8U);
+    EXPECT_LT(result.progress.resumed, 36U);
+    EXPECT_EQ(tables_of("killed"), expected);
+}
+
+TEST_F(Study, EndsItsWorkersOnSignalsAndTellsWhich) {
+    plan({"baseline", "hang"}, 4);
+    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
+        const std::string folder = "out" + std::to_string(signal);
+        const results::Store store = store_in(folder);
+        const pid_t study = fork_study(folder);
+        wait_for(store, {"alpha", "baseline", 0});
+        kill(study, signal);
+        int status = 0;
+        waitpid(study, &status, 0);
+        ASSERT_TRUE(WIFEXITED(status));
+        EXPECT_EQ(WEXITSTATUS(status), code);
+        EXPECT_TRUE(results::read_results(store).failures.empty()) << "an interrupted run has not failed";
+    }
+}
+
+TEST_F(Study, RefusesAFolderInWhichAnotherStudyWorks) {
+    plan({"baseline", "hang"}, 1);
+    const results::Store store = store_in("out");
+    const pid_t study = fork_study("out");
+    wait_for(store, {"alpha", "baseline", 0});
+    try {
+        run_in("out");
+        ADD_FAILURE() << "two studies in one folder";
+    } catch (const core::EnvironmentError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("process " + std::to_string(study)));
+    }
+    kill(study, SIGTERM);
+    waitpid(study, nullptr, 0);
+}
+
+}  // namespace
+}  // namespace clearway::study
