@@ -64,6 +64,7 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
             core::Problem{file.string(), "is no JSON object", "", "Train again with clearway train."});
     }
     const std::string pairs = summary.value("pairs", "");
+    if (summary.value("mode", "") == "corrected") curve.title = "Corrected, validated on unseen seeds";
     if (pairs == "true") curve.title = "As published, list of true links only";
     if (pairs == "candidates") curve.title = "As published, list of candidate pairs";
     curve.constant_loss = number_of(summary, "constant_test_loss_nat");

@@ -50,6 +50,15 @@ TEST(Losses, of_true_links_only_have_no_auc) {
     EXPECT_THAT(read_losses(folder.path()).note, HasSubstr("No AUC"));
 }
 
+TEST(Losses, of_a_corrected_training_are_named_so) {
+    const support::TemporaryFolder folder;
+    folder.write("losses.csv", "epoch,train_loss_nat,validation_loss_nat\n0,0.7,0.75\n");
+    folder.write("summary.json", R"({"mode":"corrected"})");
+    EXPECT_EQ(read_losses(folder.path()).title, "Corrected, validated on unseen seeds");
+    folder.write("summary.json", "[1");
+    EXPECT_THAT(error_of(folder), HasSubstr("is no JSON object"));
+}
+
 TEST(Losses, that_are_damaged_are_refused_with_file_and_line) {
     const support::TemporaryFolder folder;
     folder.write("losses.csv", "epoch,train,test\n0,0.7,0.75\n");
