@@ -52,12 +52,28 @@ struct Actuator::State {
             return check_signal_action(network, *signal, lease.action);
         return check_vehicle_action(lease.action);
     }
+    void step_signals(const truth::Snapshot& snapshot, std::vector<traffic::Command>& commands) {
+        if (signals.empty()) return;
+        detail::OccupiedLanes occupied;
+        for (const core::LaneIndex lane : snapshot.lane) {
+            if (lane.exists() && network.edge(network.lane(lane).edge).internal) occupied.push_back(lane);
+        }
+        std::ranges::sort(occupied);
+        const detail::SignalTiming timing{config.yellow_s, config.all_red_s, config.clearing_s,
+                                          config.hold_cap_s, config.cool_down_s};
+        const std::string none;
+        for (auto& [index, signal] : signals) {
+            const bool known = index.value < snapshot.signals.state.size();
+            const std::string& shown = known ? snapshot.signals.state[index.value] : none;
+            signal.step({snapshot.time, shown, timing, occupied}, ledger, commands);
+        }
+    }
     void take(const traffic::Lease& lease) {
         if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
             vehicles.try_emplace(*vehicle, *vehicle).first->second.offer(lease, ledger);
         } else {
             const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
-            signals.try_emplace(signal, signal, network.signal(signal)).first->second.offer(lease, ledger);
+            signals.try_emplace(signal, signal, network).first->second.offer(lease, ledger);
         }
     }
 };
@@ -91,13 +107,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);
-    const detail::SignalTiming timing{state.config.yellow_s, state.config.all_red_s, state.config.hold_cap_s,
-                                      state.config.cool_down_s};
-    for (auto& [index, signal] : state.signals) {
-        const bool known = index.value < snapshot.signals.state.size();
-        const std::string none;
-        signal.step(now, known ? snapshot.signals.state[index.value] : none, timing, state.ledger, commands);
-    }
+    state.step_signals(snapshot, commands);
     std::erase_if(state.vehicles, [&](const auto& entry) { return entry.second.is_idle(now); });
     std::erase_if(state.signals, [&](const auto& entry) { return entry.second.is_idle(now); });
 }

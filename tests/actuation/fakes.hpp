@@ -17,7 +17,8 @@ namespace clearway::testing {
 class FakeSelfKnowledge : public truth::SelfKnowledge {
   public:
     FakeSelfKnowledge() {
-        for (std::uint32_t number = 0; number < 2; ++number) outlook[number] = {number, 800.0F, 0};
+        for (std::uint32_t number = 0; number < 2; ++number)
+            outlook[number] = {number, 800.0F, 0};
     }
 
     std::optional<bool> could_change_lane(core::VehicleKey, truth::Neighbour) const override {

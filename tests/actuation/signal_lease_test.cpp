@@ -181,6 +181,23 @@ TEST(SignalHold, writes_only_states_of_legal_length_and_letters) {
     });
 }
 
+TEST(SignalHold, waits_for_a_left_turner_inside_the_junction_but_not_for_ever) {
+    for (const double leaves_s : {6.0, 100.0}) {
+        ActuationBench bench;
+        const auto turner =
+            bench.add({"h", traffic::VehicleClass::human, {"north_a_A", "A_B"}, 1, 280.0, 0.0});
+        bench.on_road[turner].lane = two_crossings().find_lane(":A_3_0").value();
+        const auto history = watch(bench, 20.0, [&](ActuationBench& b) {
+            hold_until(west, 1000.0)(b);
+            if (b.now.value >= leaves_s) b.on_road.erase(turner);
+        });
+        ASSERT_EQ(history.size(), 4U);
+        EXPECT_EQ(history[3].state, "GrrrrrrrrrrrGGGG");
+        const double expected_s = leaves_s < 50.0 ? leaves_s + 0.25 : 0.25 + 3.0 + 1.5 + 6.0;
+        EXPECT_NEAR(history[3].from_s, expected_s, 0.3);
+    }
+}
+
 TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
     ActuationBench bench;
     bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);

@@ -28,7 +28,8 @@ void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
         ++counts.issued;
         held_.push_back({lease, core::EdgeIndex::none(), core::EdgeIndex::none(), {}});
     }
-    std::ranges::stable_sort(held_, [](const HeldLease& left, const HeldLease& right) {
+    // Stable: of equal priority the earlier stays first.
+    held_.sort([](const HeldLease& left, const HeldLease& right) {
         return left.lease.priority > right.lease.priority;
     });
 }
@@ -57,7 +58,7 @@ void LeaseQueue::drop_all(const char* reason, Ledger& ledger) {
 
 void LeaseQueue::end_best(Ledger& ledger) {
     ++ledger.of(held_.front().lease).expired;
-    held_.erase(held_.begin());
+    held_.pop_front();
 }
 
 }  // namespace clearway::actuation::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,12 +49,12 @@ class LeaseQueue {
     void clear() { held_.clear(); }
 
     HeldLease* best() { return held_.empty() ? nullptr : &held_.front(); }
-    std::vector<HeldLease>& all() { return held_; }
+    std::list<HeldLease>& all() { return held_; }
     std::size_t size() const { return held_.size(); }
     bool empty() const { return held_.empty(); }
 
   private:
-    std::vector<HeldLease> held_;
+    std::list<HeldLease> held_;
 };
 
 /// Expiries are compared with this tolerance, because step times are sums of decimal fractions.

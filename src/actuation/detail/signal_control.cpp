@@ -4,6 +4,20 @@
 
 namespace clearway::actuation::detail {
 
+SignalControl::SignalControl(core::SignalIndex index, const roads::Network& network)
+    : index_(index), signal_(network.signal(index)), inner_lanes_(signal_.links.size()) {
+    for (std::size_t link = 0; link < signal_.links.size(); ++link) {
+        for (const roads::SignalLink& way : signal_.links[link]) {
+            core::LaneIndex lane = way.via;
+            while (lane.exists()) {
+                inner_lanes_[link].push_back(lane);
+                const auto onward = network.connections_from(lane);
+                lane = onward.empty() ? core::LaneIndex::none() : onward.front().via;
+            }
+        }
+    }
+}
+
 void SignalControl::offer(const traffic::Lease& lease, Ledger& ledger) {
     const bool is_hold = std::holds_alternative<traffic::HoldGreen>(lease.action);
     (is_hold ? holds_ : favours_).offer(lease, ledger);
@@ -41,26 +55,26 @@ Links SignalControl::allowed_now(core::Seconds now, const SignalTiming& timing, 
     return {};
 }
 
-void SignalControl::step(core::Seconds now, const std::string& state, const SignalTiming& timing,
-                         Ledger& ledger, std::vector<traffic::Command>& commands) {
-    holds_.expire(now, ledger);
-    favours_.expire(now, ledger);
-    if (state.empty() || state.size() < signal_.links.size()) {
+void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
+                         std::vector<traffic::Command>& commands) {
+    holds_.expire(around.now, ledger);
+    favours_.expire(around.now, ledger);
+    if (around.state.empty() || around.state.size() < signal_.links.size()) {
         holds_.drop_all("signal_gone", ledger);
         favours_.drop_all("signal_gone", ledger);
         stage_ = Stage::own_program;
         return;
     }
-    const Links links = allowed_now(now, timing, ledger);
+    const Links links = allowed_now(around.now, around.timing, ledger);
     if (stage_ == Stage::own_program) {
         if (links.empty()) return;
-        shown_ = state;
-        taken_since_ = now;
-        begin_way(links, now, commands);
+        shown_ = around.state;
+        taken_since_ = around.now;
+        begin_way(links, around.now, commands);
     } else if (links != links_) {
-        begin_way(links, now, commands);
+        begin_way(links, around.now, commands);
     }
-    proceed(now, timing, ledger, commands);
+    proceed(around, ledger, commands);
 }
 
 void SignalControl::begin_way(const Links& links, core::Seconds now,
@@ -84,23 +98,34 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
     shown_ = state;
 }
 
-void SignalControl::proceed(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
+/// Nobody who has lost green is still on a way that those who get it will cross.
+bool SignalControl::is_clear(const OccupiedLanes& occupied) const {
+    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+        const bool is_served = std::ranges::binary_search(links_, link);
+        if (is_served || (!links_.empty() && !conflict(signal_, {link}, links_))) continue;
+        for (const core::LaneIndex lane : inner_lanes_[link]) {
+            if (std::ranges::binary_search(occupied, lane)) return false;
+        }
+    }
+    return true;
+}
+
+void SignalControl::proceed(const SignalSurroundings& around, Ledger& ledger,
                             std::vector<traffic::Command>& commands) {
     const auto is_over = [&](double duration_s) {
-        return (now - stage_since_).value >= duration_s - time_tolerance_s;
+        return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
     };
-    if (stage_ == Stage::yellow && is_over(timing.yellow_s)) {
-        const bool to_red = links_.empty() || needs_all_red(all_red_state(shown_, target_), target_);
-        if (to_red)
-            enter(Stage::all_red, all_red_state(shown_, target_), now, commands);
-        else
-            enter(Stage::hold, target_, now, commands);
+    if (stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
+        const std::string red = all_red_state(shown_, target_);
+        const bool to_red = links_.empty() || needs_all_red(red, target_);
+        enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : target_, around.now, commands);
     }
-    if (stage_ != Stage::all_red || !is_over(timing.all_red_s)) return;
+    if (stage_ != Stage::all_red || !is_over(around.timing.all_red_s)) return;
+    if (!is_over(around.timing.all_red_s + around.timing.clearing_s) && !is_clear(around.occupied)) return;
     if (links_.empty())
-        return_to_program(now, timing, ledger, commands);
+        return_to_program(around.now, around.timing, ledger, commands);
     else
-        enter(Stage::hold, target_, now, commands);
+        enter(Stage::hold, target_, around.now, commands);
 }
 
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing, Ledger& ledger,

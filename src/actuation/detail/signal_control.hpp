@@ -16,24 +16,35 @@ namespace clearway::actuation::detail {
 struct SignalTiming {
     double yellow_s;
     double all_red_s;
+    double clearing_s;
     double hold_cap_s;
     double cool_down_s;
+};
+
+/// Internal lanes with a vehicle on them, ascending.
+using OccupiedLanes = std::vector<core::LaneIndex>;
+
+/// What a signal meets in one step.
+struct SignalSurroundings {
+    core::Seconds now;
+    const std::string& state;  ///< What it shows now; empty when there is no such signal any more.
+    const SignalTiming& timing;
+    const OccupiedLanes& occupied;
 };
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.
 ///
 /// own program -> (yellow) -> (all red) -> hold -> yellow -> all red -> own program. Yellow is shown where a
-/// link loses green, all red wherever a link gains it; links that keep green keep it all the way. A request
-/// that changes on the way starts the way again from what is shown now. Simulated steps decide when a stage
-/// ends: it never is shorter than asked.
+/// link loses green, all red wherever a link gains it, for longer while the junction is not clear; links that
+/// keep green keep it all the way. A request that changes on the way starts the way again from what is shown
+/// now. Simulated steps decide when a stage ends: it never is shorter than asked.
 class SignalControl {
   public:
-    SignalControl(core::SignalIndex index, const roads::Signal& signal) : index_(index), signal_(signal) {}
+    /// The network outlives the object.
+    SignalControl(core::SignalIndex index, const roads::Network& network);
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
-    /// `state` is what the signal shows now; empty when there is no such signal any more.
-    void step(core::Seconds now, const std::string& state, const SignalTiming& timing, Ledger& ledger,
-              std::vector<traffic::Command>& commands);
+    void step(const SignalSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
     void restore(std::vector<traffic::Command>& commands);
 
     std::size_t active() const { return holds_.size() + favours_.size(); }
@@ -46,8 +57,8 @@ class SignalControl {
     Links requested(Ledger& ledger);
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
     void begin_way(const Links& links, core::Seconds now, std::vector<traffic::Command>& commands);
-    void proceed(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
-                 std::vector<traffic::Command>& commands);
+    void proceed(const SignalSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    bool is_clear(const OccupiedLanes& occupied) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
     void return_to_program(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
@@ -55,6 +66,7 @@ class SignalControl {
 
     core::SignalIndex index_;
     const roads::Signal& signal_;
+    std::vector<std::vector<core::LaneIndex>> inner_lanes_;  ///< By link: its ways through the junction.
     LeaseQueue holds_;
     LeaseQueue favours_;
     Stage stage_ = Stage::own_program;

@@ -90,8 +90,8 @@ void VehicleControl::step(const VehicleSurroundings& around, Ledger& ledger,
 VehicleSettings VehicleControl::judge(const VehicleSurroundings& around, const Place& place, Ledger& ledger) {
     VehicleSettings settings;
     for (LeaseQueue& queue : queues_) {
-        for (std::size_t row = 1; row < queue.size(); ++row) {
-            LeaseQueue::refuse(queue.all()[row], "outranked", ledger);
+        for (HeldLease& held : queue.all()) {
+            if (&held != queue.best()) LeaseQueue::refuse(held, "outranked", ledger);
         }
     }
     judge_speed(around, place, settings, ledger);
