@@ -55,6 +55,11 @@ std::optional<double> number_of(const nlohmann::json& object, const char* name) 
     return found->get<double>();
 }
 
+std::string text_of(const nlohmann::json& object, const char* name) {
+    const auto found = object.find(name);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 /// What the curve hides, from the summary beside it.
 void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (!std::filesystem::exists(file)) return;
@@ -63,8 +68,8 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
         throw core::InputError(
             core::Problem{file.string(), "is no JSON object", "", "Train again with clearway train."});
     }
-    const std::string pairs = summary.value("pairs", "");
-    if (summary.value("mode", "") == "corrected") curve.title = "Corrected, validated on unseen seeds";
+    const std::string pairs = text_of(summary, "pairs");
+    if (text_of(summary, "mode") == "corrected") curve.title = "Corrected, validated on unseen seeds";
     if (pairs == "true") curve.title = "As published, list of true links only";
     if (pairs == "candidates") curve.title = "As published, list of candidate pairs";
     curve.constant_loss = number_of(summary, "constant_test_loss_nat");

@@ -55,6 +55,8 @@ TEST(Losses, of_a_corrected_training_are_named_so) {
     folder.write("losses.csv", "epoch,train_loss_nat,validation_loss_nat\n0,0.7,0.75\n");
     folder.write("summary.json", R"({"mode":"corrected"})");
     EXPECT_EQ(read_losses(folder.path()).title, "Corrected, validated on unseen seeds");
+    folder.write("summary.json", R"({"mode":3,"pairs":null,"test":"x"})");
+    EXPECT_EQ(read_losses(folder.path()).note, "");
     folder.write("summary.json", "[1");
     EXPECT_THAT(error_of(folder), HasSubstr("is no JSON object"));
 }
