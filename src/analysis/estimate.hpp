@@ -68,10 +68,19 @@ std::vector<double> holm(std::span<const double> p_values);
 /// Statistic of a resample: receives row numbers, with repetitions.
 using RowStatistic = std::function<double(std::span<const std::size_t>)>;
 
+/// Bootstrap distributions of small samples are too narrow, by sqrt((n - 1) / n) and by normal instead of t
+/// tails.
+enum class SmallSample : std::uint8_t {
+    as_published,  ///< Efron 1987.
+    expanded,  ///< End points moved outwards to make up for both (expanded percentile interval, Hesterberg
+               ///< 2015).
+};
+
 struct BootstrapConfig {
     std::size_t resamples = 2000;  ///< 2000: Efron and Tibshirani 1993, section 14.3, for BCa end points.
     std::uint64_t seed = 1;        ///< Equal seeds give equal intervals.
     double level = usual_level;
+    SmallSample small_sample = SmallSample::expanded;
 };
 /// Bias-corrected and accelerated bootstrap interval (Efron 1987) of a statistic over `rows` independent
 /// rows, the acceleration by jackknife. Nothing below three rows, or when the statistic does not vary.

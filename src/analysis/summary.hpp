@@ -33,7 +33,7 @@ struct Comparison {
     std::size_t vehicles_left_out = 0;
     std::optional<Estimate> difference;  ///< Condition - baseline, in the metric's unit.
     std::optional<Estimate> relative;    ///< As a share of the baseline's mean.
-    std::optional<Interval> bootstrap;   ///< BCa interval of the mean difference.
+    std::optional<Interval> bootstrap;   ///< BCa interval of the mean difference; for metrics in s alone.
     std::optional<double> effect_size;
     std::optional<double> t_p;
     std::optional<double> wilcoxon_p;

@@ -1,0 +1,100 @@
+#include "analysis/estimate.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace clearway::analysis {
+namespace {
+
+double mean_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Sample standard deviation, n - 1, in two passes.
+double deviation_of(std::span<const double> values, double mean) {
+    if (values.size() < 2) return 0.0;
+    double sum = 0.0;
+    for (const double value : values)
+        sum += (value - mean) * (value - mean);
+    return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+std::vector<double> differences(std::span<const double> condition, std::span<const double> baseline) {
+    assert(condition.size() == baseline.size());
+    std::vector<double> result(condition.size());
+    std::ranges::transform(condition, baseline, result.begin(), std::minus<>());
+    return result;
+}
+
+}  // namespace
+
+std::optional<Estimate> estimate_mean(std::span<const double> values, double level) {
+    if (values.empty()) return std::nullopt;
+    Estimate estimate;
+    estimate.n = values.size();
+    estimate.mean = mean_of(values);
+    estimate.deviation = deviation_of(values, estimate.mean);
+    if (estimate.n < 2) return estimate;
+    const auto n = static_cast<double>(estimate.n);
+    const boost::math::students_t distribution(n - 1.0);
+    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
+    const double half_width = t * estimate.deviation / std::sqrt(n);
+    estimate.interval = Interval{estimate.mean - half_width, estimate.mean + half_width};
+    return estimate;
+}
+
+std::optional<Estimate> estimate_difference(std::span<const double> condition,
+                                            std::span<const double> baseline, double level) {
+    return estimate_mean(differences(condition, baseline), level);
+}
+
+std::optional<Estimate> relative_difference(std::span<const double> condition,
+                                            std::span<const double> baseline, double level) {
+    auto estimate = estimate_difference(condition, baseline, level);
+    if (!estimate) return std::nullopt;
+    const double reference = mean_of(baseline);
+    if (!(reference > 0.0)) return std::nullopt;
+    estimate->mean /= reference;
+    estimate->deviation /= reference;
+    if (estimate->interval) {
+        estimate->interval->low /= reference;
+        estimate->interval->high /= reference;
+    }
+    return estimate;
+}
+
+double median(std::span<const double> values) {
+    return quantile(values, 0.5);
+}
+
+double quantile(std::span<const double> values, double share) {
+    assert(!values.empty() && share >= 0.0 && share <= 1.0);
+    std::vector<double> sorted(values.begin(), values.end());
+    std::ranges::sort(sorted);
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    const double part = place - static_cast<double>(below);
+    return sorted[below] + part * (sorted[above] - sorted[below]);
+}
+
+std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline) {
+    const auto estimate = estimate_difference(condition, baseline);
+    if (!estimate || !(estimate->deviation > 0.0)) return std::nullopt;
+    return estimate->mean / estimate->deviation;
+}
+
+std::optional<double> paired_t_p(std::span<const double> condition, std::span<const double> baseline) {
+    const auto effect = effect_size(condition, baseline);
+    if (!effect) return std::nullopt;
+    const auto n = static_cast<double>(condition.size());
+    const boost::math::students_t distribution(n - 1.0);
+    const double t = std::abs(*effect) * std::sqrt(n);
+    return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+}  // namespace clearway::analysis

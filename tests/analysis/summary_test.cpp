@@ -1,0 +1,156 @@
+#include "analysis/summary.hpp"
+
+#include <gmock/gmock.h>
+
+#include "results/synthetic.hpp"
+
+namespace clearway::analysis {
+namespace {
+
+using metrics::VehicleOutcome;
+using results::Engine;
+using results::RunRecord;
+using traffic::VehicleClass;
+
+/// One scenario; baseline, two policies, solo; EVs `e1` and `e2` with known times.
+class SmallStudy : public testing::Test {
+  protected:
+    SmallStudy() {
+        results_.manifest = results::synthetic::manifest(4);
+        results_.manifest.scenarios.resize(1);
+        results::ConditionSpec solo;
+        solo.name = "solo";
+        solo.engine = Engine::solo;
+        results::ConditionSpec other = results_.manifest.conditions[1];
+        other.name = "other";
+        results_.manifest.conditions.push_back(other);
+        results_.manifest.conditions.push_back(solo);
+    }
+    RunRecord& add(const std::string& condition, std::uint32_t replication, double first_s, double second_s) {
+        RunRecord run;
+        run.key = {"alpha", condition, replication};
+        run.vehicles = {results::synthetic::vehicle("e1", VehicleClass::emergency, first_s),
+                        results::synthetic::vehicle("e2", VehicleClass::emergency, second_s),
+                        results::synthetic::vehicle("h1", VehicleClass::human, 90.0)};
+        run.metrics.emergency_travel_time_s = 0.5 * (first_s + second_s);
+        run.metrics.collisions = replication;
+        results_.runs.push_back(run);
+        return results_.runs.back();
+    }
+    void add_all() {
+        const double delays_s[] = {40.0, 60.0, 50.0, 70.0};
+        for (std::uint32_t replication = 0; replication < 4; ++replication) {
+            const double delay_s = delays_s[replication];
+            add("baseline", replication, 60.0 + delay_s, 80.0 + delay_s);
+            add("treated", replication, 60.0 + 0.5 * delay_s, 80.0 + 0.5 * delay_s);
+            add("solo", replication, 60.0, 80.0);
+        }
+    }
+    ScenarioSummary scenario() const { return summarise(results_).scenarios.at(0); }
+
+    results::Results results_;
+};
+
+TEST_F(SmallStudy, ComparesWithTheBaselineByReplication) {
+    add_all();
+    const ScenarioSummary summary = scenario();
+    const ConditionSummary* treated = summary.find("treated");
+    ASSERT_NE(treated, nullptr);
+    EXPECT_EQ(treated->baseline, "baseline");
+    const MetricSummary& travel = treated->metric("emergency_travel_time_s");
+    EXPECT_DOUBLE_EQ(travel.estimate->mean, 97.5);  // 70 + half of the mean delay of 55
+    ASSERT_TRUE(travel.comparison);
+    EXPECT_EQ(travel.comparison->complete_pairs, 4U);
+    EXPECT_EQ(travel.comparison->incomplete_pairs, 0U);
+    EXPECT_DOUBLE_EQ(travel.comparison->difference->mean, -27.5);
+    EXPECT_DOUBLE_EQ(travel.comparison->relative->mean, -27.5 / 125.0);
+    EXPECT_TRUE(travel.comparison->bootstrap);
+    EXPECT_FALSE(treated->metric("collisions").comparison->bootstrap);
+    EXPECT_FALSE(summary.find("baseline")->metric("collisions").comparison);
+    EXPECT_FALSE(summary.find("solo")->metric("collisions").comparison);
+}
+
+TEST_F(SmallStudy, FindsTheGapClosed) {
+    add_all();
+    const ScenarioSummary summary = scenario();
+    EXPECT_DOUBLE_EQ(summary.find("treated")->gap_closed->value, 0.5);
+    EXPECT_EQ(summary.find("treated")->gap_replications, 4U);
+    EXPECT_FALSE(summary.find("baseline")->gap_closed);
+    EXPECT_FALSE(summary.find("other")->gap_closed);
+}
+
+TEST_F(SmallStudy, PairsOnlyVehiclesThatArrivedInBothAndCountsTheOthers) {
+    add_all();
+    // In the baseline of replication 0 the slower EV does not arrive: its mean alone would look better.
+    RunRecord& run = results_.runs.front();
+    run.vehicles[1].outcome = VehicleOutcome::running_at_end;
+    run.metrics.emergency_travel_time_s = 100.0;
+    const ScenarioSummary summary = scenario();
+    const Comparison& comparison = *summary.find("treated")->metric("emergency_travel_time_s").comparison;
+    EXPECT_EQ(comparison.complete_pairs, 4U);
+    EXPECT_EQ(comparison.vehicles_left_out, 1U);
+    EXPECT_DOUBLE_EQ(comparison.difference->mean, -27.5);  // e1 alone in replication 0: 80 - 100.
+    EXPECT_EQ(summary.find("baseline")->emergency.running_at_end, 1U);
+    EXPECT_EQ(summary.find("baseline")->emergency.arrived, 7U);
+}
+
+TEST_F(SmallStudy, CountsPairsThatAFailureOrAStrandedVehicleBreaks) {
+    add_all();
+    std::erase_if(results_.runs, [](const RunRecord& run) {
+        return run.key.condition == "treated" && run.key.replication == 1;
+    });
+    results_.failures.push_back(results::synthetic::failure({"alpha", "treated", 1}));
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition != "treated" || run.key.replication != 2) continue;
+        run.vehicles[0].outcome = VehicleOutcome::teleported;
+        run.vehicles[1].outcome = VehicleOutcome::not_inserted;
+        run.metrics.emergency_travel_time_s.reset();
+    }
+    const ScenarioSummary summary = scenario();
+    const ConditionSummary& treated = *summary.find("treated");
+    const Comparison& comparison = *treated.metric("emergency_travel_time_s").comparison;
+    EXPECT_EQ(comparison.complete_pairs, 2U);
+    EXPECT_EQ(comparison.incomplete_pairs, 2U);
+    EXPECT_EQ(treated.failed_runs, 1U);
+    EXPECT_EQ(treated.missing_runs, 0U);
+    EXPECT_EQ(treated.complete_runs, 3U);
+    EXPECT_EQ(treated.metric("emergency_travel_time_s").estimate->n, 2U);
+    EXPECT_EQ(treated.metric("collisions").comparison->complete_pairs, 3U);
+    EXPECT_EQ(treated.gap_replications, 2U);
+    EXPECT_EQ(treated.emergency.teleported, 1U);
+}
+
+TEST_F(SmallStudy, AdjustsOverTheConditionsOfAScenario) {
+    add_all();
+    for (std::uint32_t replication = 0; replication < 4; ++replication)
+        add("other", replication, 90.0 + replication, 100.0 + 3.0 * replication);
+    const ScenarioSummary summary = scenario();
+    const Comparison& treated = *summary.find("treated")->metric("emergency_travel_time_s").comparison;
+    const Comparison& other = *summary.find("other")->metric("emergency_travel_time_s").comparison;
+    const auto expected = holm(std::vector{*treated.t_p, *other.t_p});
+    EXPECT_DOUBLE_EQ(*treated.holm_p, expected[0]);
+    EXPECT_DOUBLE_EQ(*other.holm_p, expected[1]);
+    EXPECT_GT(*treated.holm_p, *treated.t_p);
+}
+
+TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
+    const ScenarioSummary summary = scenario();
+    EXPECT_EQ(summary.conditions.size(), 4U);
+    EXPECT_EQ(summary.find("treated")->missing_runs, 4U);
+    EXPECT_FALSE(summary.find("treated")->metric("collisions").estimate);
+    EXPECT_EQ(summary.find("treated")->metric("collisions").comparison->incomplete_pairs, 4U);
+    EXPECT_EQ(summary.find("nobody"), nullptr);
+}
+
+TEST(AllMetrics, CanBeAskedForByName) {
+    metrics::RunMetrics run;
+    run.collisions = 3;
+    for (const MetricInfo& metric : all_metrics())
+        EXPECT_NO_THROW(metric_value(run, metric.name)) << metric.name;
+    EXPECT_DOUBLE_EQ(*metric_value(run, "collisions"), 3.0);
+    EXPECT_FALSE(metric_value(run, "emergency_travel_time_s"));
+    EXPECT_THROW(metric_value(run, "speed"), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace clearway::analysis
