@@ -1,0 +1,169 @@
+#include "report/read_facts.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "report/console.hpp"
+#include "report/html.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass vehicle_class,
+                            double travel_time_s) {
+    metrics::VehicleRow row;
+    row.id = id;
+    row.key = core::vehicle_key(id);
+    row.vehicle_class = vehicle_class;
+    row.travel_time_s = travel_time_s;
+    row.time_loss_s = travel_time_s / 4.0;
+    row.waiting_time_s = travel_time_s / 8.0;
+    row.depart_delay_s = 0.0;
+    row.depart_s = 60.0;
+    row.arrival_s = 60.0 + travel_time_s;
+    return row;
+}
+
+/// The baseline takes 100, 102, 104 s; a helpful condition 20 s less, one second apart.
+results::RunRecord run(const results::ConditionSpec& condition, std::uint32_t replication,
+                       double travel_time_s) {
+    results::RunRecord record;
+    record.key = {"merge", condition.name, replication};
+    record.condition = condition;
+    record.vehicles = {vehicle("ev<script>", traffic::VehicleClass::emergency, travel_time_s),
+                       vehicle("ev1", traffic::VehicleClass::emergency, travel_time_s),
+                       vehicle("hv0", traffic::VehicleClass::human, 120.0)};
+    metrics::RunMetrics& numbers = record.metrics;
+    numbers.emergency_travel_time_s = travel_time_s;
+    numbers.emergency_time_loss_s = travel_time_s / 4.0;
+    numbers.emergency_waiting_time_s = travel_time_s / 8.0;
+    numbers.emergency_depart_delay_s = numbers.depart_delay_s = 0.0;
+    numbers.waiting_time_s = 12.0;
+    numbers.others_time_loss_s = 30.0;
+    numbers.emergency_count = numbers.emergency_arrived = 2;
+    numbers.vehicle_count = numbers.arrived = 3;
+    numbers.unfinished = replication;
+    numbers.not_inserted = 1;
+    return record;
+}
+
+/// A small study: three replications; condition `broken` failed once and is missing twice.
+class RunFolder : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        results::Manifest manifest;
+        manifest.study = "frozen";
+        manifest.clearway_version = "0.1.0";
+        manifest.sumo_version = "1.15.0";
+        manifest.replications = 3;
+        manifest.scenarios = {{"merge", "v1", "Merge", "name = \"merge\"\n", "abc", "Map data: somebody"}};
+        results::ConditionSpec baseline{.name = "baseline", .parts = {}};
+        results::ConditionSpec helpful{.name = "graph_simulation", .parts = {"dissertation"}};
+        helpful.safety_checks = traffic::SafetyChecks::off;
+        results::ConditionSpec broken{.name = "broken", .parts = {"dissertation"}};
+        results::ConditionSpec solo{.name = "solo", .parts = {}, .engine = results::Engine::solo};
+        manifest.conditions = {baseline, helpful, broken, solo};
+        const results::Store store = results::Store::create(folder.path() / "study", manifest);
+        for (std::uint32_t replication = 0; replication < 3; ++replication) {
+            store.write(run(baseline, replication, 100.0 + 2.0 * replication), {});
+            store.write(run(helpful, replication, 80.0 + 1.0 * replication), {});
+            store.write(run(solo, replication, 60.0), {});
+        }
+        results::FailureRecord failure;
+        failure.key = {"merge", "broken", 1};
+        failure.cause = results::FailureCause::signal;
+        failure.message = "SUMO aborted <b>";
+        failure.signal = 6;
+        failure.attempts = 3;
+        store.write(failure);
+    }
+
+    std::filesystem::path study() const { return folder.path() / "study"; }
+    void write(const std::string& name, const std::string& content) const {
+        const std::filesystem::path file = study() / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file) << content;
+    }
+
+    support::TemporaryFolder folder;
+};
+
+TEST_F(RunFolder, gives_means_paired_differences_and_outcomes) {
+    const StudyFacts facts = read_facts(study());
+    ASSERT_EQ(facts.scenarios.size(), 1u);
+    const ScenarioFacts& merge = facts.scenarios[0];
+    ASSERT_EQ(merge.conditions.size(), 4u);
+    const ConditionFacts& helpful = merge.conditions[1];
+    EXPECT_EQ(helpful.title, "Graph made by simulation attributes");
+    EXPECT_EQ(helpful.baseline, 0u);
+    EXPECT_TRUE(helpful.safety_checks_off);
+    // Differences -20, -21, -22: mean -21, standard deviation 1, t(2) = 4.3027, half width 4.3027 / sqrt(3).
+    const Estimate& difference = helpful.outcome(Measure::emergency_travel_time).difference;
+    EXPECT_DOUBLE_EQ(difference.mean.value(), -21.0);
+    EXPECT_NEAR(difference.low.value(), -21.0 - 2.4842, 1e-3);
+    EXPECT_NEAR(difference.high.value(), -21.0 + 2.4842, 1e-3);
+    EXPECT_DOUBLE_EQ(helpful.outcome(Measure::gap_closed).value.mean.value(), 63.0 / 126.0);
+    EXPECT_DOUBLE_EQ(helpful.outcome(Measure::unfinished).value.mean.value(), 2.0);
+    EXPECT_EQ(helpful.emergency.arrived, 6u);
+    EXPECT_FALSE(merge.conditions[0].is_compared());
+    EXPECT_FALSE(merge.conditions[3].is_compared());
+}
+
+TEST_F(RunFolder, gives_the_distribution_over_all_emergency_vehicles) {
+    const StudyFacts facts = read_facts(study());
+    const Distribution& distribution = facts.scenarios[0].conditions[0].travel_time;
+    EXPECT_EQ(distribution.all, 6u);
+    ASSERT_EQ(distribution.points.size(), 6u);
+    EXPECT_DOUBLE_EQ(distribution.points.front().seconds, 100.0);
+    EXPECT_DOUBLE_EQ(distribution.points.back().seconds, 104.0);
+    EXPECT_DOUBLE_EQ(distribution.points.back().share, 1.0);
+}
+
+TEST_F(RunFolder, gives_failed_and_missing_runs_with_their_cause) {
+    const ConditionFacts broken = read_facts(study()).scenarios[0].conditions[2];
+    EXPECT_EQ(broken.runs, 0u);
+    ASSERT_EQ(broken.failed.size(), 1u);
+    EXPECT_EQ(broken.failed[0].replication, 1u);
+    EXPECT_EQ(broken.failed[0].cause, "signal: SUMO aborted <b> (signal 6), 3 attempts");
+    EXPECT_EQ(broken.missing_runs, 2u);
+    EXPECT_FALSE(broken.outcome(Measure::emergency_travel_time).value.mean.has_value());
+}
+
+TEST_F(RunFolder, becomes_tables_and_a_page) {
+    write("scenarios/merge/network.svg",
+          "<?xml version=\"1.0\"?>\n<svg class=\"network\" viewBox=\"0 0 9 9\"></svg>\n");
+    write("training/true_links/losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,0.7,0.6\n1,0.1,0.2\n");
+    write("command.txt", "./clearway reproduce --seeds 3\n");
+    const StudyFacts facts = read_facts(study());
+    std::ostringstream stream;
+    write_html(facts, stream);
+    const std::string page = stream.str();
+    EXPECT_THAT(page, HasSubstr("Clearway: frozen"));
+    EXPECT_THAT(page, HasSubstr("<svg class=\"network\" viewBox=\"0 0 9 9\"></svg>"));
+    EXPECT_THAT(page, HasSubstr("Map data: somebody"));
+    EXPECT_THAT(page, HasSubstr("./clearway reproduce --seeds 3"));
+    EXPECT_THAT(page, HasSubstr("id=\"training\""));
+    EXPECT_THAT(page, HasSubstr("SUMO aborted &lt;b&gt;"));
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+    EXPECT_THAT(page, Not(HasSubstr("nan")));
+    EXPECT_THAT(console_tables(facts), HasSubstr("-21.0  [-23.5, -18.5]"));
+}
+
+TEST_F(RunFolder, does_not_take_in_a_picture_that_acts) {
+    write("scenarios/merge/network.svg", "<svg onload=\"alert(1)\"></svg>");
+    EXPECT_EQ(read_facts(study()).scenarios[0].network_svg, "");
+}
+
+TEST(ReadFacts, refuses_what_is_no_run_folder) {
+    const support::TemporaryFolder folder;
+    EXPECT_THROW(static_cast<void>(read_facts(folder.path())), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearway::report
