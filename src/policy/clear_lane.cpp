@@ -29,7 +29,7 @@ class Way {
           emergency_(emergency),
           write_(write),
           route_(view.route_of(emergency.key)),
-          ahead_(view.vehicles_ahead(emergency, core::Metres(config.horizon_m))) {}
+          ahead_(view.vehicles_ahead(emergency, core::Metres(std::max(config.horizon_m, config.choice_m)))) {}
 
     void clear() {
         const std::optional<std::uint32_t> wanted = choose_lane();
@@ -38,6 +38,7 @@ class Way {
             open_gap(*wanted);
         }
         for (const VehicleAhead& ahead : ahead_) {
+            if (ahead.distance_m > config_.horizon_m) break;
             if (ahead.vehicle->vehicle_class == traffic::VehicleClass::automated) ask(ahead);
         }
     }

@@ -10,14 +10,14 @@ namespace {
 TEST(ClearLane, sends_automated_vehicles_far_ahead_out_of_the_lane_and_holds_the_others_beside_it) {
     StraightRoad road(R"(
         10 m per cell, limit 20 m/s, speed 15 m/s
-        ..e..a..............a.............a
+        ..e..a........a.............a......
         ..........a........................
     )");
     policy::ClearLane part({road.scene.network()});
     road.act(part);
     EXPECT_EQ(road.asked_lane("a1"), 0U);
-    EXPECT_EQ(road.asked_lane("a2"), 0U) << "180 m ahead";
-    EXPECT_FALSE(road.asked_lane("a3")) << "320 m ahead";
+    EXPECT_EQ(road.asked_lane("a2"), 0U) << "120 m ahead";
+    EXPECT_FALSE(road.asked_lane("a3")) << "260 m ahead";
     EXPECT_TRUE(road.asked<traffic::HoldLane>("a4"));
 }
 
