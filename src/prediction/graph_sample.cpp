@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "sample files are litt
 
 constexpr std::string_view first_line = "clearway graph samples 1\n";
 constexpr std::uint32_t most_features = 256;
-constexpr const char* cure_remake = "Record the samples again with `clearway dataset`";
+constexpr const char* cure_remake = "Record the samples again with `clearway dataset SCENARIO --samples`";
 
 template <class Number>
 void append(std::string& bytes, Number number) {
@@ -253,7 +253,7 @@ std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::pat
     if (error || files.empty()) {
         throw core::InputError({folder.string(), error ? error.message() : "holds no file of graph samples",
                                 fmt::format("a folder with *{} files", graph_sample_extension),
-                                "Record them with `clearway dataset SCENARIO --corrected --out DIR`"});
+                                "Record them with `clearway dataset SCENARIO --samples --out DIR`"});
     }
     std::ranges::sort(files);
     return files;

@@ -27,7 +27,8 @@ DataSeed seed_of(const GraphSampleFile& file) {
 
 void check_origins(const std::vector<GraphSampleFile>& files) {
     if (files.empty())
-        throw core::InputError({"--data", "no graph samples", "", "Record some with clearway dataset"});
+        throw core::InputError(
+            {"--data", "no graph samples", "", "Record some with clearway dataset SCENARIO --samples"});
     const prediction::GraphSampleOrigin& first = files.front().origin;
     for (const GraphSampleFile& file : files) {
         if (file.origin.features != first.features || file.origin.link_radius_m != first.link_radius_m) {

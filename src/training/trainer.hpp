@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "metrics/link_quality.hpp"
 #include "training/torch_net.hpp"
 
 namespace clearway::training {
@@ -61,5 +62,9 @@ struct TrainingHooks {
 std::vector<double> probabilities(const std::vector<float>& logits);
 /// Labels 0 and 1 as metrics take them.
 std::vector<std::uint8_t> link_flags(const std::vector<float>& labels);
+
+/// Quality of logits. AUC and AP rank by the logits themselves: beyond 37 all probabilities round to 1 and
+/// would tie.
+metrics::LinkQuality quality_of_logits(const std::vector<float>& logits, const std::vector<float>& labels);
 
 }  // namespace clearway::training
