@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/verb.hpp"
+
+namespace clearway::cli {
+namespace {
+
+constexpr std::array all_verbs = {
+    Verb{"reproduce", "Run the dissertation's three scenarios and print its tables with intervals",
+         "clearway reproduce --quick --out runs/first", configure_reproduce},
+    Verb{"run", "Run one scenario under chosen conditions",
+         "clearway run intersection --dense --policy dissertation --failure B10 --predictor dead_reckoning",
+         configure_run},
+    Verb{"study", "Run a study file: scenarios x conditions x replications",
+         "clearway study my-study.toml --out runs/mine", configure_study},
+    Verb{"report", "Print the tables of a run folder and write its report.html",
+         "clearway report runs/reproduce", configure_report},
+    Verb{"dataset", "Record a data set for link prediction from a scenario",
+         "clearway dataset city --out data/city", configure_dataset},
+    Verb{"train", "Train link prediction, as published or corrected",
+         "clearway train --data data/city --out models/mine", configure_train},
+    Verb{"list", "List scenarios, conditions, failures, predictors and policy parts", "clearway list --json",
+         configure_list},
+    Verb{"init", "Copy a scenario into a folder of your own to edit",
+         "clearway init my-crossing --from intersection", configure_init},
+    Verb{"doctor", "Check that this machine has what Clearway needs", "clearway doctor", configure_doctor},
+};
+
+const char* const purpose =
+    "Clearway: how much time does an emergency vehicle gain in mixed traffic, from which measure,\n"
+    "at what cost to everybody else, and how much of it survives when sensors fail?";
+
+const char* const footer =
+    "Example:\n  clearway reproduce\n\n"
+    "Results go to standard output, progress and messages to standard error. Units are SI unless an option\n"
+    "says otherwise. Exit codes: 0 ok, 1 runs failed, 2 usage, 3 bad input, 4 environment, 5 incomplete,\n"
+    "6 a comparison fell short, 7 conflicting results, 130 and 143 interrupted.\n"
+    "`clearway VERB --help` describes a verb.";
+
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char letter) {
+        return std::isalnum(letter) != 0 ||
+               std::string_view("-_./=,:+@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+    std::string text = "'";
+    for (const char letter : word) {
+        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    }
+    return text + "'";
+}
+
+Invocation invocation_of(int argument_count, const char* const* arguments) {
+    Invocation invocation{"clearway"};
+    for (int i = 1; i < argument_count; ++i) {
+        invocation.command += " " + quoted(arguments[i]);
+    }
+    return invocation;
+}
+
+std::vector<std::string> verb_names() {
+    std::vector<std::string> names;
+    for (const Verb& verb : all_verbs) {
+        names.emplace_back(verb.name);
+    }
+    return names;
+}
+
+/// `--dens` -> `, did you mean --dense?`
+std::string hint(const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = core::nearest(word, known);
+    return near.empty() ? "" : fmt::format(", did you mean {}?", near);
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    return names;
+}
+
+/// The message of a command line that cannot be parsed, with the nearest name where one is unknown.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    const std::string name = chosen.empty() ? "clearway" : "clearway " + command.get_name();
+    std::string text = fmt::format("{}: {}", name, error.what());
+    const std::vector<std::string> unknown = command.remaining();
+    if (!unknown.empty()) {
+        const std::string word = unknown.front().substr(0, unknown.front().find('='));
+        text = fmt::format("{}: {} is not known here{}", name, word, hint(word, option_names(command)));
+    }
+    return fmt::format("{}\n`{} --help` says more.\n", text, name);
+}
+
+/// What is wrong with the first word, when it is no verb.
+std::optional<std::string> verb_problem(int argument_count, const char* const* arguments) {
+    const std::vector<std::string> names = verb_names();
+    if (argument_count < 2) return fmt::format("which verb? One of {}", fmt::join(names, ", "));
+    const std::string word = arguments[1];
+    if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return std::nullopt;
+    const std::string near = core::nearest(word, names);
+    return fmt::format("`{}` is no verb{}", word,
+                       near.empty() ? fmt::format("; verbs are {}", fmt::join(names, ", "))
+                                    : fmt::format(", did you mean `{}`?", near));
+}
+
+void declare(CLI::App& app, Action& action) {
+    app.name("clearway");
+    app.footer(footer);
+    app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
+    app.get_formatter()->column_width(30);
+    app.require_subcommand(1);
+    for (const Verb& verb : all_verbs) {
+        CLI::App* const command = app.add_subcommand(verb.name, verb.summary);
+        command->footer(fmt::format("Example:\n  {}", verb.example));
+        const Action verb_action = verb.configure(*command);
+        command->callback([&action, verb_action] { action = verb_action; });
+    }
+}
+
+/// Never throws: standard error may be as full as the disk that is complained of.
+core::ExitCode complain(const std::exception& error, core::ExitCode code) {
+    std::fputs("clearway: ", stderr);
+    std::fputs(error.what(), stderr);
+    std::fputs("\n", stderr);
+    return code;
+}
+
+core::ExitCode act(const Action& action, const Invocation& invocation) {
+    try {
+        const core::ExitCode code = action(invocation);
+        if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
+        return code;
+    } catch (const core::Error& error) {
+        return complain(error, error.exit_code());
+    } catch (const std::exception& error) {
+        return complain(error, core::ExitCode::environment);
+    }
+}
+
+}  // namespace
+
+std::span<const Verb> verbs() {
+    return all_verbs;
+}
+
+int run_command_line(int argument_count, const char* const* arguments) {
+    const int usage = static_cast<int>(core::ExitCode::usage);
+    if (const std::optional<std::string> problem = verb_problem(argument_count, arguments)) {
+        fmt::print(stderr, "clearway: {}\n`clearway --help` describes them.\n", *problem);
+        return usage;
+    }
+    CLI::App app(purpose);
+    Action action;
+    declare(app, action);
+    try {
+        app.parse(argument_count, arguments);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "{}", usage_message(app, error));
+        return usage;
+    }
+    return static_cast<int>(act(action, invocation_of(argument_count, arguments)));
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+namespace clearway::cli {
+
+/// How results are printed on standard output.
+enum class Printing : std::uint8_t { text, json };
+
+/// Largest number of replications that an option takes.
+inline constexpr std::uint32_t most_replications = 100000;
+
+/// Declares `--json`; `what` completes "Print ... as JSON".
+void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
+/// Declares `--jobs`: worker processes at one time, 0 for one per core.
+void add_jobs_option(CLI::App& app, unsigned& jobs);
+/// Declares `--seed`: the study seed, from which every random number of every replication follows.
+void add_seed_option(CLI::App& app, std::uint64_t& seed);
+/// Declares `--seeds`: number of replications; `app` shows the present value as the default.
+CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
+
+/// `a, b, c`.
+std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+
+}  // namespace clearway::cli

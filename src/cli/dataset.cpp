@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/common_options.hpp"
+#include "cli/names.hpp"
+#include "cli/record_orders.hpp"
+#include "cli/scenario_options.hpp"
+#include "cli/verb.hpp"
+#include "core/files.hpp"
+#include "results/dataset_order.hpp"
+#include "scenario/network.hpp"
+
+namespace clearway::cli {
+namespace {
+
+struct Arguments {
+    std::string scenario;
+    std::string folder;
+    std::uint32_t first_seed = 0;
+    std::uint32_t seeds = 1;
+    unsigned jobs = 0;
+    Printing printing = Printing::text;
+    results::DatasetOrder order;  ///< What all orders share.
+    scenario::Options options;
+};
+
+void check_failures(const std::vector<std::string>& failures) {
+    const std::vector<std::string> known = failure_names();
+    std::vector<core::Problem> problems;
+    for (const std::string& failure : failures) {
+        if (std::ranges::find(known, failure) == known.end()) {
+            problems.push_back(unknown_name("--failure", failure, known));
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+/// One order per replication, on a scenario and network stored below `origin/` of the data set.
+std::vector<results::DatasetOrder> make_orders(const Arguments& arguments) {
+    const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
+    results::DatasetOrder order = arguments.order;
+    order.scenario = config.name;
+    order.output = arguments.folder;
+    const std::filesystem::path origin = order.output / "origin" / config.name;
+    core::make_folder(origin);
+    scenario::store(config, origin);
+    order.scenario_file = origin / "scenario.toml";
+    order.network_folder = origin / "network";
+    scenario::build_network(config, order.network_folder);
+    std::vector<results::DatasetOrder> orders;
+    for (std::uint32_t i = 0; i < arguments.seeds; ++i) {
+        order.replication = arguments.first_seed + i;
+        orders.push_back(order);
+    }
+    return orders;
+}
+
+void print_files(const std::vector<std::string>& lines, Printing printing) {
+    if (printing == Printing::text) {
+        for (const std::string& line : lines) {
+            fmt::print("{}\n", line);
+        }
+        return;
+    }
+    nlohmann::json files = nlohmann::json::array();
+    for (const std::string& line : lines) {
+        const std::size_t end = line.find(": ");
+        files.push_back({{"path", line.substr(0, end)},
+                         {"content", end == std::string::npos ? "" : line.substr(end + 2)}});
+    }
+    fmt::print("{}\n", nlohmann::json({{"files", std::move(files)}}).dump(2));
+}
+
+core::ExitCode record(Arguments arguments, const Invocation& invocation) {
+    const bool samples = arguments.order.kind == results::DatasetKind::samples;
+    if (samples && arguments.order.failures.empty()) arguments.order.failures = {"B10"};
+    if (!samples && arguments.seeds > 1) {
+        throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds),
+                                "1, or --samples", "The published data set is a single snapshot"});
+    }
+    check_failures(arguments.order.failures);
+    const RecordResult result = record_orders(make_orders(arguments), arguments.jobs);
+    print_files(result.lines, arguments.printing);
+    if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
+        fmt::print(stderr,
+                   "clearway: interrupted; what is complete is kept in {}. To record the rest again:\n  {}\n",
+                   arguments.folder, invocation.command);
+    }
+    return result.exit_code;
+}
+
+void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Option* samples) {
+    const char* const group = "As published (three CSV files)";
+    static const std::map<std::string, results::ListedPairs> pairs = {
+        {"true-links", results::ListedPairs::true_links}, {"candidates", results::ListedPairs::candidates}};
+    app.add_option_function<std::string>(
+           "--pairs", [&order](const std::string& name) { order.pairs = pairs.at(name); },
+           "Pairs in the list: only linked ones, or all within reach")
+        ->check(CLI::IsMember(pairs))
+        ->option_text("true-links|candidates [candidates]")
+        ->excludes(samples)
+        ->group(group);
+    app.add_option("--features", order.feature_count, "Features of a vehicle: position alone, or all five")
+        ->check(CLI::IsMember({2, 5}))
+        ->option_text("2|5 [5]")
+        ->excludes(samples)
+        ->group(group);
+}
+
+CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
+    const char* const group = "Many snapshots (for train --corrected)";
+    results::DatasetOrder& order = arguments.order;
+    CLI::Option* const samples =
+        app.add_flag_callback(
+               "--samples", [&order] { order.kind = results::DatasetKind::samples; },
+               "What predictors are given at many moments, and the answers [one snapshot]")
+            ->group(group);
+    app.add_option("--failure", order.failures, "Sensor failures, one file each (clearway list)")
+        ->option_text("NAME ... [B10]")
+        ->needs(samples)
+        ->group(group);
+    app.add_option("--interval", order.interval_s, "Simulation time between two snapshots, s")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", order.interval_s))
+        ->needs(samples)
+        ->group(group);
+    return samples;
+}
+
+}  // namespace
+
+Action configure_dataset(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
+        ->required()
+        ->option_text("SCENARIO (required)");
+    app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("--seeds", arguments->seeds, "Replications to record; more than one with --samples")
+        ->check(CLI::Range(1U, most_replications))
+        ->option_text(fmt::format("N, 1 to {} [1]", most_replications));
+    app.add_option("--first-seed", arguments->first_seed, "Number of the first replication")
+        ->check(CLI::Range(0U, 4000000000U))
+        ->option_text("N, 0 to 4000000000 [0]");
+    add_seed_option(app, arguments->order.study_seed);
+    add_jobs_option(app, arguments->jobs);
+    add_json_option(app, arguments->printing, "the list of files");
+    CLI::Option* const samples = add_sample_options(app, *arguments);
+    add_published_options(app, arguments->order, samples);
+    add_scenario_options(app, arguments->options);
+    return [arguments](const Invocation& invocation) { return record(*arguments, invocation); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "cli/common_options.hpp"
+#include "cli/programs.hpp"
+#include "cli/verb.hpp"
+
+namespace clearway::cli {
+namespace {
+
+/// SUMO's series that the gateway is written for and tested with.
+const std::string supported_sumo = "1.15";
+
+enum class Severity { required, optional };
+
+struct Check {
+    std::string name;
+    bool passed = false;
+    Severity severity = Severity::required;
+    std::string found;
+    std::string cure;
+};
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+Check check_sumo(const std::string& program) {
+    Check check{program, false, Severity::required, "missing", "Install the packages sumo and sumo-tools"};
+    const std::string text = first_line(output_of(program, {"--version"}).value_or(""));
+    if (text.empty()) return check;
+    check.found = text;
+    check.passed = text.find(" " + supported_sumo + ".") != std::string::npos;
+    check.cure = fmt::format("Clearway is made for SUMO {}.x; install that version", supported_sumo);
+    return check;
+}
+
+Check check_sumo_home() {
+    const char* const home = std::getenv("SUMO_HOME");
+    Check check{"SUMO_HOME", false, Severity::required, home == nullptr ? "not set" : home,
+                "Start through ./clearway, or set SUMO_HOME to the folder that holds tools/ and data/"};
+    check.passed = home != nullptr && std::filesystem::is_directory(std::filesystem::path(home) / "tools");
+    return check;
+}
+
+/// A program of Clearway's own; `probe` makes it answer at once when all its libraries are there.
+Check check_sister(const std::string& program, const std::string& probe, const std::string& purpose) {
+    Check check{program, false, Severity::required, "cannot be started",
+                fmt::format("Build it ({}); a missing shared library also shows here", purpose)};
+    const std::optional<std::string> text = output_of(sister_program(program), {probe});
+    check.passed = text.has_value();
+    if (check.passed) check.found = probe == "--version" ? first_line(*text) : "starts";
+    return check;
+}
+
+Check check_osmium() {
+    const std::string text = first_line(output_of("osmium", {"--version"}).value_or(""));
+    return {"osmium", !text.empty(), Severity::optional, text.empty() ? "missing" : text,
+            "Install the package osmium-tool to import .osm.pbf files"};
+}
+
+Check check_folder() {
+    const std::filesystem::path here = std::filesystem::current_path();
+    const bool writable = ::access(here.c_str(), W_OK) == 0;
+    std::error_code error;
+    const double free_gb = static_cast<double>(std::filesystem::space(here, error).available) / 1e9;
+    return {"present folder", writable && free_gb > 1.0, Severity::required,
+            fmt::format("{}, {:.1f} GB free", writable ? "writable" : "not writable", free_gb),
+            "Runs are written below the present folder; choose another with --out"};
+}
+
+std::vector<Check> all_checks() {
+    return {
+        check_sumo("sumo"),
+        check_sumo("netconvert"),
+        check_sumo_home(),
+        check_sister("clearway-run", "--version", "the worker that holds SUMO"),
+        check_sister("clearway-train", "--help", "training, holds libtorch"),
+        check_osmium(),
+        check_folder(),
+        {"processors", true, Severity::optional, std::to_string(std::thread::hardware_concurrency()), ""}};
+}
+
+void print_json(const std::vector<Check>& checks) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Check& check : checks) {
+        list.push_back({{"check", check.name},
+                        {"passed", check.passed},
+                        {"required", check.severity == Severity::required},
+                        {"found", check.found}});
+    }
+    fmt::print("{}\n", list.dump(2));
+}
+
+void print_text(const std::vector<Check>& checks) {
+    for (const Check& check : checks) {
+        const char* const mark = check.passed                           ? "ok"
+                                 : check.severity == Severity::required ? "MISSING"
+                                                                        : "missing";
+        fmt::print("{:8} {:15} {}\n", mark, check.name, check.found);
+        if (!check.passed) fmt::print("{:8} {:15} {}\n", "", "", check.cure);
+    }
+}
+
+}  // namespace
+
+Action configure_doctor(CLI::App& app) {
+    const auto printing = std::make_shared<Printing>(Printing::text);
+    add_json_option(app, *printing, "the findings");
+    return [printing](const Invocation&) {
+        const std::vector<Check> checks = all_checks();
+        *printing == Printing::json ? print_json(checks) : print_text(checks);
+        const bool healthy = std::ranges::all_of(
+            checks, [](const Check& check) { return check.passed || check.severity == Severity::optional; });
+        return healthy ? core::ExitCode::ok : core::ExitCode::environment;
+    };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,56 @@
+#include "cli/names.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/common_options.hpp"
+#include "policy/part.hpp"
+#include "prediction/predictor.hpp"
+#include "sensing/failure_config.hpp"
+
+namespace clearway::cli {
+
+core::Problem unknown_name(const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known) {
+    const std::string near = core::nearest(name, known);
+    return {where, fmt::format("`{}` is unknown", name), joined(known),
+            near.empty() ? "`clearway list` describes them" : fmt::format("Did you mean `{}`?", near)};
+}
+
+std::vector<std::string> failure_names() {
+    std::vector<std::string> names;
+    for (const sensing::FailurePreset& preset : sensing::failure_presets()) {
+        names.push_back(preset.name);
+    }
+    return names;
+}
+
+std::vector<std::string> part_names() {
+    std::vector<std::string> names;
+    for (const policy::PartEntry& part : policy::parts()) {
+        names.push_back(part.name);
+    }
+    return names;
+}
+
+void check_names(const std::vector<results::ConditionSpec>& conditions) {
+    std::vector<core::Problem> problems;
+    const auto check = [&](const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known) {
+        if (std::ranges::find(known, name) == known.end()) {
+            problems.push_back(unknown_name(where, name, known));
+        }
+    };
+    for (const results::ConditionSpec& condition : conditions) {
+        const std::string where = fmt::format("condition {}: ", condition.name);
+        check(where + "failure", condition.failure, failure_names());
+        check(where + "predictor", condition.predictor, prediction::predictor_names());
+        for (const std::string& part : condition.parts) {
+            check(where + "policy", part, part_names());
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "results/unit.hpp"
+
+namespace clearway::cli {
+
+/// `name` at `where` is none of `known`: lists them and names the nearest.
+core::Problem unknown_name(const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known);
+
+std::vector<std::string> failure_names();
+std::vector<std::string> part_names();
+
+/// Checks failure, predictor and policy parts of every condition before anything runs. Throws
+/// core::InputError with all unknown names.
+void check_names(const std::vector<results::ConditionSpec>& conditions);
+
+}  // namespace clearway::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/plan.hpp"
+
+namespace clearway::cli {
+
+/// What a program prints on both streams (its last 100 lines), or nothing when it cannot be started or fails.
+/// `program` is a path or a name looked up in PATH.
+std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments);
+
+/// Path of one of Clearway's own programs, beside this one.
+std::string sister_program(const std::string& name);
+
+/// Versions of Clearway and of the SUMO inside its worker, as the worker tells them. Throws
+/// core::EnvironmentError when it cannot be started, usually because a shared library is missing.
+study::Versions installed_versions();
+
+}  // namespace clearway::cli

@@ -1,0 +1,61 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/run_plan.hpp"
+#include "cli/scenario_options.hpp"
+#include "cli/verb.hpp"
+
+namespace clearway::cli {
+namespace {
+
+constexpr std::uint32_t usual_seeds = 20;  // the least that the dissertation's tables are printed from
+constexpr std::uint32_t quick_seeds = 4;   // about a minute on two cores
+
+struct Arguments {
+    std::uint32_t seeds = usual_seeds;
+    std::uint64_t seed = 1;
+    std::string folder;
+    unsigned jobs = 0;
+    Printing printing = Printing::text;
+    scenario::Options scenario;
+};
+
+/// `runs/reproduce`, with what was asked for behind it, so that a quick try is not in the way of the real
+/// thing.
+std::string folder_of(const Arguments& arguments) {
+    if (!arguments.folder.empty()) return arguments.folder;
+    std::string folder = "runs/reproduce";
+    if (arguments.scenario.variant == scenario::Variant::dense) folder += "-dense";
+    if (arguments.seeds != usual_seeds) folder += fmt::format("-{}-seeds", arguments.seeds);
+    return folder;
+}
+
+core::ExitCode reproduce(const Arguments& arguments, const Invocation& invocation) {
+    RunPlanOptions options{folder_of(arguments), arguments.jobs, arguments.printing, invocation.command};
+    const study::Plan plan =
+        plan_for(study::dissertation_study(arguments.seeds, arguments.seed, arguments.scenario), options);
+    return run_and_print(plan, options);
+}
+
+}  // namespace
+
+Action configure_reproduce(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
+    app.add_flag_callback(
+           "--quick", [arguments] { arguments->seeds = quick_seeds; },
+           fmt::format("About a minute on two cores: {} seeds [{}]", quick_seeds, usual_seeds))
+        ->excludes(seeds);
+    add_seed_option(app, arguments->seed);
+    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
+        ->option_text("DIR [runs/reproduce, with the number of seeds unless it is 20]");
+    add_jobs_option(app, arguments->jobs);
+    add_json_option(app, arguments->printing, "the tables");
+    add_scenario_options(app, arguments->scenario);
+    return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/run_plan.hpp"
+#include "cli/scenario_options.hpp"
+#include "cli/verb.hpp"
+#include "study/conditions.hpp"
+
+namespace clearway::cli {
+namespace {
+
+enum class Floor : std::uint8_t { solo, none };
+
+constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replications
+
+results::ConditionSpec named_custom() {
+    results::ConditionSpec condition;
+    condition.name = "custom";
+    return condition;
+}
+
+struct Arguments {
+    std::string scenario;
+    std::vector<std::string> conditions;  ///< Built-in ones, by name.
+    results::ConditionSpec own = named_custom();
+    Floor floor = Floor::solo;
+    std::uint32_t seeds = usual_seeds;
+    std::uint64_t seed = 1;
+    std::string folder;
+    unsigned jobs = 0;
+    Printing printing = Printing::text;
+    scenario::Options options;
+};
+
+/// Whether any option describes a condition of the user's own.
+bool has_own_condition(const results::ConditionSpec& own) {
+    results::ConditionSpec untouched;
+    untouched.name = own.name;
+    return own != untouched;
+}
+
+void add_once(std::vector<results::ConditionSpec>& conditions, const results::ConditionSpec& condition) {
+    const auto same_name = [&](const auto& other) { return other.name == condition.name; };
+    if (std::ranges::none_of(conditions, same_name)) conditions.push_back(condition);
+}
+
+/// What is compared with a condition: nothing but the car-following model, on the same engine.
+results::ConditionSpec baseline_of(results::Engine engine) {
+    results::ConditionSpec baseline = study::built_in_condition("baseline", "--condition");
+    if (engine == baseline.engine) return baseline;
+    baseline.name += fmt::format("_{}", results::name(engine));
+    baseline.engine = engine;
+    return baseline;
+}
+
+std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments) {
+    std::vector<results::ConditionSpec> chosen;
+    for (const std::string& name : arguments.conditions) {
+        add_once(chosen, study::built_in_condition(name, "--condition"));
+    }
+    if (has_own_condition(arguments.own)) {
+        if (std::ranges::find(arguments.conditions, arguments.own.name) != arguments.conditions.end()) {
+            throw core::InputError({"--name", fmt::format("`{}` is a built-in condition", arguments.own.name),
+                                    "", "Choose another name"});
+        }
+        chosen.push_back(arguments.own);
+    }
+    if (chosen.empty()) {
+        for (const study::BuiltInCondition& known : study::built_in_conditions()) {
+            chosen.push_back(known.condition);
+        }
+    }
+    std::vector<results::ConditionSpec> all;
+    for (const results::ConditionSpec& condition : chosen) {
+        if (condition.engine != results::Engine::solo) add_once(all, baseline_of(condition.engine));
+    }
+    for (const results::ConditionSpec& condition : chosen) {
+        add_once(all, condition);
+    }
+    if (arguments.floor == Floor::solo) {
+        add_once(all, study::built_in_condition("solo", "--condition"));
+    } else {
+        std::erase_if(all, [](const auto& condition) { return condition.engine == results::Engine::solo; });
+    }
+    return all;
+}
+
+core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
+    study::StudyConfig config;
+    config.seed = arguments.seed;
+    config.replications = arguments.seeds;
+    config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
+    config.name = config.scenarios.front().name;
+    config.conditions = conditions_of(arguments);
+    RunPlanOptions options{arguments.folder, arguments.jobs, arguments.printing, invocation.command};
+    const study::Plan plan = plan_for(config, options);
+    return run_and_print(plan, options);
+}
+
+void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+    const char* const group = "A condition of your own (names: clearway list)";
+    results::ConditionSpec& own = arguments->own;
+    app.add_option("--policy", own.parts, "Policy parts, in this order; none: the car-following model alone")
+        ->option_text("PART ... [none]")
+        ->group(group);
+    app.add_option("--failure", own.failure, "How sensors fail")->option_text("NAME [perfect]")->group(group);
+    app.add_option("--predictor", own.predictor, "How the graph is repaired")
+        ->option_text("NAME [none]")
+        ->group(group);
+    static const std::map<std::string, traffic::SafetyChecks> checks = {{"on", traffic::SafetyChecks::on},
+                                                                        {"off", traffic::SafetyChecks::off}};
+    app.add_option_function<std::string>(
+           "--safety-checks", [&own](const std::string& name) { own.safety_checks = checks.at(name); },
+           "SUMO's own checks of commanded speeds and lane changes")
+        ->check(CLI::IsMember(checks))
+        ->option_text("on|off [on]")
+        ->group(group);
+    static const std::map<std::string, results::Engine> engines = {{"standard", results::Engine::standard},
+                                                                   {"sublane", results::Engine::sublane}};
+    app.add_option_function<std::string>(
+           "--engine", [&own](const std::string& name) { own.engine = engines.at(name); },
+           "SUMO's lateral model; sublane brings a baseline of its own")
+        ->check(CLI::IsMember(engines))
+        ->option_text("standard|sublane [standard]")
+        ->group(group);
+    app.add_option("--name", own.name, "Its name in tables and folders")
+        ->option_text("NAME [custom]")
+        ->group(group);
+}
+
+}  // namespace
+
+Action configure_run(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
+        ->required()
+        ->option_text("SCENARIO (required)");
+    app.add_option("--condition", arguments->conditions,
+                   "A built-in condition; can be repeated. A baseline is always added")
+        ->option_text("NAME ... [all built-in ones, unless one of your own is described]");
+    app.add_flag_callback(
+        "--no-solo", [arguments] { arguments->floor = Floor::none; },
+        "Leave out the emergency vehicles alone on the road, hence the gap closed [with them]");
+    add_seeds_option(app, arguments->seeds);
+    add_seed_option(app, arguments->seed);
+    app.add_option("--out", arguments->folder, "Run folder; what was interrupted there continues")
+        ->option_text("DIR [runs/SCENARIO-xxxxxx, digits by what is run]");
+    add_jobs_option(app, arguments->jobs);
+    add_json_option(app, arguments->printing, "the tables");
+    add_own_condition_options(app, arguments);
+    add_scenario_options(app, arguments->options);
+    return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,176 @@
+#include "cli/run_plan.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/summary.hpp"
+#include "cli/names.hpp"
+#include "cli/programs.hpp"
+#include "cli/shipped_trainings.hpp"
+#include "core/files.hpp"
+#include "core/progress.hpp"
+#include "report/console.hpp"
+#include "report/html.hpp"
+#include "report/read_facts.hpp"
+#include "scenario/network.hpp"
+#include "scenario/picture.hpp"
+#include "scenario/prepare.hpp"
+#include "study/runner.hpp"
+
+namespace clearway::cli {
+namespace {
+
+/// Failed runs that are named one by one; more are in runs.csv.
+constexpr std::size_t named_failures = 10;
+
+/// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
+/// destinations before any worker starts, and a picture for the report.
+void complete_scenario(const scenario::ScenarioConfig& config, const results::UnitSpec& unit,
+                       const std::filesystem::path& folder) {
+    const std::filesystem::path picture = folder / "network.svg";
+    if (std::filesystem::exists(picture)) return;
+    const scenario::BuiltNetwork built = scenario::open_network(config, unit.network_folder);
+    const std::filesystem::path demand = folder / "demand" / std::to_string(unit.replication);
+    core::make_folder(demand);
+    scenario::prepare(config, built, core::StudySeed{unit.study_seed}, core::Replication{unit.replication},
+                      demand);
+    const std::string title = config.title.empty() ? config.name : config.title;
+    core::write_atomically(picture, scenario::network_picture(built.network, title));
+}
+
+void complete_scenarios(const study::Plan& plan, const results::Store& store) {
+    std::vector<core::Problem> problems;
+    for (const scenario::ScenarioConfig& config : plan.scenarios) {
+        const auto planned = std::ranges::find_if(
+            plan.units, [&](const study::PlannedUnit& each) { return each.unit.scenario == config.name; });
+        if (planned == plan.units.end()) continue;
+        try {
+            complete_scenario(config, planned->unit, store.scenario_folder(config.name));
+        } catch (const core::InputError& error) {
+            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+/// The command that began the study stays, whatever continues it.
+void write_command(const results::Store& store, const std::string& command) {
+    const std::filesystem::path file = store.folder() / "command.txt";
+    if (!std::filesystem::exists(file)) core::write_atomically(file, command + "\n");
+}
+
+bool is_absent_or_empty(const std::filesystem::path& folder) {
+    std::error_code none;
+    return !std::filesystem::exists(folder, none) || std::filesystem::is_empty(folder, none);
+}
+
+/// Makes the run folder ready for workers. What was made in a new folder for a study that does not work out
+/// is taken back, so that it is not in the way of the corrected one.
+results::Store prepare(const study::Plan& plan, const RunPlanOptions& options) {
+    const bool is_new = is_absent_or_empty(options.folder);
+    try {
+        results::Store store = study::prepare_folder(plan, options.folder);
+        complete_scenarios(plan, store);
+        write_command(store, options.command);
+        copy_shipped_trainings(store.folder() / "training");
+        return store;
+    } catch (const core::InputError&) {
+        std::error_code ignored;
+        if (is_new) std::filesystem::remove_all(options.folder, ignored);
+        throw;
+    }
+}
+
+study::StudyResult run_with_progress(const study::Plan& plan, const results::Store& store, unsigned workers) {
+    core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
+    study::RunnerOptions options;
+    options.workers = workers;
+    study::StudyResult result = study::run(plan, store, options, [&](const study::StudyProgress& now) {
+        progress.update(now.done + now.failed, now.failed);
+    });
+    progress.finish();
+    return result;
+}
+
+void say_how_to_continue(const std::filesystem::path& folder, const study::StudyProgress& progress,
+                         const std::string& command) {
+    fmt::print(stderr,
+               "clearway: interrupted with {} of {} runs complete; they are kept in {}. To continue:\n  {}\n",
+               progress.done, progress.total, folder.string(), command);
+}
+
+void write_report(const report::StudyFacts& facts, const std::filesystem::path& file) {
+    std::ostringstream page;
+    report::write_html(facts, page);
+    core::write_atomically(file, page.str());
+}
+
+/// `: the last line of a log`, or nothing.
+std::string last_words(std::string log) {
+    while (log.ends_with('\n')) {
+        log.pop_back();
+    }
+    const std::size_t line = log.rfind('\n');
+    if (line != std::string::npos) log.erase(0, line + 1);
+    return log.empty() ? "" : ": " + log;
+}
+
+void name_failures(const results::Store& store, const results::Results& results) {
+    const std::size_t count = results.failures.size();
+    if (count == 0) return;
+    fmt::print(stderr, "clearway: {} of {} runs failed; their logs are in {}\n", count,
+               results.manifest.runs().size(), (store.folder() / "logs").string());
+    for (std::size_t i = 0; i < std::min(count, named_failures); ++i) {
+        const results::FailureRecord& failure = results.failures[i];
+        fmt::print(stderr, "  {}: {}{}\n", results::to_text(failure.key), failure.message,
+                   last_words(failure.log_tail));
+    }
+    if (count > named_failures) {
+        fmt::print(stderr, "  and {} more, in {}\n", count - named_failures, store.runs_csv().string());
+    }
+}
+
+}  // namespace
+
+study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) {
+    check_names(config.conditions);
+    const study::Versions versions = installed_versions();
+    if (options.folder.empty()) {
+        const results::Manifest manifest = study::make_plan(config, versions, "runs").manifest;
+        options.folder = std::filesystem::path("runs") /
+                         fmt::format("{}-{}", config.name, results::manifest_hash(manifest).substr(0, 6));
+    }
+    return study::make_plan(config, versions, options.folder);
+}
+
+core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
+    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
+    const results::Store store = prepare(plan, options);
+    const study::StudyResult result = run_with_progress(plan, store, options.workers);
+    if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
+        say_how_to_continue(store.folder(), result.progress, options.command);
+        return result.exit_code;
+    }
+    return publish(store, options.printing);
+}
+
+core::ExitCode publish(const results::Store& store, Printing printing) {
+    const results::Results results = results::read_results(store);
+    results::write_tables(store, results);
+    const report::StudyFacts facts = report::facts_of(results, analysis::summarise(results), store.folder());
+    write_report(facts, store.folder() / "report.html");
+    fmt::print("{}", printing == Printing::json ? report::json_tables(facts) : report::console_tables(facts));
+    name_failures(store, results);
+    fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
+    if (!results.missing.empty()) {
+        fmt::print(stderr, "clearway: {} of {} runs are missing; the command that started them continues\n",
+                   results.missing.size(), results.manifest.runs().size());
+        return core::ExitCode::incomplete;
+    }
+    return results.failures.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,64 @@
+#include "cli/scenario_options.hpp"
+
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace clearway::cli {
+namespace {
+
+const char* const group = "Scenario (what is not given stays as the scenario says)";
+
+void add_demand_options(CLI::App& app, scenario::Options& options) {
+    app.add_flag_callback(
+           "--dense", [&options] { options.variant = scenario::Variant::dense; },
+           "The scenario's dense variant [standard]")
+        ->group(group);
+    app.add_option("--density", options.density, "Factor on human and automated vehicles")
+        ->option_text("FACTOR, 0 to 100 [1]")
+        ->group(group);
+    app.add_option("--av-share", options.automated_share, "Share of them that is automated")
+        ->option_text("SHARE, 0 to 1 [as counted]")
+        ->group(group);
+    app.add_option("--kinds", options.traffic_kinds, "Weights of the kinds car, van, truck, bus")
+        ->option_text("car=W,... [car=1]")
+        ->group(group);
+    app.add_option("--emergency-kinds", options.emergency_kinds,
+                   "Weights of the kinds ambulance, fire_engine, police_car")
+        ->option_text("ambulance=W,... [ambulance=1]")
+        ->group(group);
+}
+
+void add_physics_options(CLI::App& app, scenario::Options& options) {
+    app.add_option("--road-limit", options.road_limit_kmh,
+                   "Limit faster roads to this, km/h; 0 leaves them as they are")
+        ->option_text("KMH, 0 to 400 [0]")
+        ->group(group);
+    app.add_option("--warm-up", options.warm_up_s, "Emergency vehicles enter after this simulation time, s")
+        ->option_text("SECONDS [by scenario]")
+        ->group(group);
+    app.add_option("--horizon", options.horizon_s, "Cut a run at this simulation time, s")
+        ->option_text("SECONDS [by scenario]")
+        ->group(group);
+    app.add_option("--step-length", options.step_length_s, "Simulation step, s")
+        ->option_text("SECONDS, 0.1 to 0.25 [0.25]")
+        ->group(group);
+    static const std::map<std::string, scenario::IdmPreset> presets = {
+        {"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}};
+    app.add_option_function<std::string>(
+           "--idm", [&options](const std::string& name) { options.idm = presets.at(name); },
+           "Parameters of the car-following model (IDM)")
+        ->check(CLI::IsMember(presets))
+        ->option_text("sumo|treiber [sumo]")
+        ->group(group);
+}
+
+}  // namespace
+
+void add_scenario_options(CLI::App& app, scenario::Options& options) {
+    add_demand_options(app, options);
+    add_physics_options(app, options);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,150 @@
+// What is wrong in the user's files, and what the machine refuses.
+#include <gmock/gmock.h>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class BadInputTest : public UserTest {
+  protected:
+    /// Runs the line scenario with one piece of it replaced.
+    Ended run_changed(const std::string& replaced, const std::string& replacement) const {
+        write_line_scenario(replaced, replacement);
+        return clearway({"run", "line", "--seeds", "1", "--out", "out"});
+    }
+};
+
+TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
+    const Ended ended = clearway({"run", "mergee"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("mergee"), HasSubstr("did you mean 'merge'?")));
+    EXPECT_THAT(ended.out, IsEmpty());
+}
+
+TEST_F(BadInputTest, an_unknown_key_is_named_with_file_line_and_nearest_key) {
+    const Ended ended = run_changed("warm_up_s", "warmup_s");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("line/scenario.toml:10:"), HasSubstr("warmup_s"), HasSubstr("warm_up_s")));
+}
+
+TEST_F(BadInputTest, a_negative_count_is_named_with_file_line_and_range) {
+    const Ended ended = run_changed("human = 5", "human = -5");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("line/scenario.toml:15:"), HasSubstr("-5"), HasSubstr("0 to")));
+}
+
+TEST_F(BadInputTest, an_unknown_edge_is_named_with_file_and_line) {
+    const Ended ended = run_changed("to = \"second\"", "to = \"secnd\"");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("line/scenario.toml:21:"), HasSubstr("secnd"), HasSubstr("second")));
+}
+
+TEST_F(BadInputTest, an_unreachable_destination_is_named_with_file_and_line) {
+    const Ended ended = run_changed("to = \"second\"", "to = \"side\"");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("line/scenario.toml:"), HasSubstr("side")));
+}
+
+TEST_F(BadInputTest, a_missing_network_file_is_named) {
+    const Ended ended = run_changed("line.nod.xml", "none.nod.xml");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("none.nod.xml"));
+}
+
+TEST_F(BadInputTest, a_missing_study_file_is_named) {
+    const Ended ended = clearway({"study", "none.toml"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("none.toml"));
+}
+
+TEST_F(BadInputTest, all_problems_of_a_study_file_are_told_at_once) {
+    write_line_scenario();
+    write("my.toml",
+          "replications = 3\nscenarios = [\"./line\"]\nconditions = [\"baselin\"]\nseeed = 4\n"
+          "[[condition]]\nname = \"mine\"\nfailur = \"B10\"\n");
+    const Ended ended = clearway({"study", "my.toml"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("'baseline'"), HasSubstr("my.toml:4:"), HasSubstr("seeed"),
+                                 HasSubstr("my.toml:7:"), HasSubstr("failur")));
+}
+
+TEST_F(BadInputTest, unknown_failure_predictor_and_policy_are_told_before_anything_runs) {
+    write_line_scenario();
+    const Ended ended = clearway({"run", "line", "--out", "out", "--failure", "B11", "--predictor",
+                                  "dead_reckonin", "--policy", "disertation"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean `dead_reckoning`?"),
+                                 HasSubstr("Did you mean `dissertation`?")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(BadInputTest, an_unknown_condition_names_the_nearest) {
+    const Ended ended = clearway({"run", "merge", "--condition", "graph_simulations"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("graph_simulation"));
+}
+
+TEST_F(BadInputTest, scenario_options_out_of_range_are_named_as_typed) {
+    const Ended ended = clearway({"run", "merge", "--step-length", "2", "--av-share", "1.5"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--step-length"), HasSubstr("--av-share"), HasSubstr("0 to 1")));
+}
+
+TEST_F(BadInputTest, report_of_a_folder_without_runs_is_refused) {
+    const Ended ended = clearway({"report", "."});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("manifest.json"));
+}
+
+TEST_F(BadInputTest, init_refuses_a_folder_that_is_in_use) {
+    write("mine/notes.txt", "keep me");
+    const Ended ended = clearway({"init", "mine"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_EQ(read("mine/notes.txt"), "keep me");
+}
+
+TEST_F(BadInputTest, a_run_folder_below_a_file_cannot_be_written) {
+    write_line_scenario();
+    write("plain.txt", "");
+    const Ended ended = clearway({"run", "line", "--seeds", "1", "--out", "plain.txt/out"});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.err, HasSubstr("plain.txt"));
+}
+
+TEST_F(BadInputTest, a_full_disk_exits_with_4_and_leaves_no_half_file) {
+    write_line_scenario();
+    // Files of at most 512 bytes: every longer write fails as on a full disk.
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--out", "out"}, {.before = "trap '' XFSZ && ulimit -f 1"});
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("out"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "manifest.json"));
+}
+
+TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
+    write_line_scenario();
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--out", "out"},
+                 {.environment = {{"PATH", folder().string()}, {"SUMO_HOME", folder().string()}}});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.err, HasSubstr("netconvert"));
+}
+
+TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {
+    const Ended ended = clearway({"dataset", "merge", "--out", "data", "--seeds", "3"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--seeds"), HasSubstr("--samples")));
+    EXPECT_EQ(clearway({"dataset", "merge", "--out", "data", "--samples", "--features", "2"}).code, 2);
+    EXPECT_EQ(clearway({"dataset", "merge", "--out", "data", "--samples", "--failure", "B11"}).code, 3);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
+}
+
+}  // namespace
+}  // namespace clearway::cli

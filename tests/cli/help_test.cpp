@@ -1,0 +1,189 @@
+// What the program says about itself.
+#include <regex>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::vector<std::string> every_verb = {"reproduce", "run",  "study", "report", "dataset",
+                                             "train",     "list", "init",  "doctor"};
+
+class HelpTest : public UserTest {};
+
+/// Options of a help text, each with its description, which may go on over lines.
+std::vector<std::string> options_in(const std::string& help) {
+    std::vector<std::string> options;
+    std::istringstream lines(help);
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        const bool begins = line.starts_with("  -");
+        if (begins) options.push_back(line);
+        if (!begins && inside && line.starts_with("    ")) options.back() += line;
+        inside = begins || (inside && line.starts_with("    "));
+    }
+    return options;
+}
+
+TEST_F(HelpTest, names_every_verb_and_the_exit_codes) {
+    const Ended help = clearway({"--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.err, IsEmpty());
+    for (const std::string& verb : every_verb) {
+        EXPECT_THAT(help.out, HasSubstr("  " + verb + " "));
+    }
+    EXPECT_THAT(help.out, AllOf(HasSubstr("3 bad input"), HasSubstr("130")));
+}
+
+TEST_F(HelpTest, of_every_verb_shows_an_example_and_a_default_for_each_option_with_a_value) {
+    const std::regex flag("^  -[-a-z,]+(  |$)");
+    for (const std::string& verb : every_verb) {
+        const Ended help = clearway({verb, "--help"});
+        EXPECT_EQ(help.code, 0) << verb;
+        EXPECT_THAT(help.out, HasSubstr("clearway " + verb)) << verb;
+        EXPECT_THAT(help.out, testing::ContainsRegex("Examples?:")) << verb;
+        if (verb == "train") continue;  // the trainer prints its own help
+        for (const std::string& option : options_in(help.out)) {
+            if (std::regex_search(option, flag)) continue;
+            EXPECT_TRUE(option.find('[') != std::string::npos ||
+                        option.find("(required)") != std::string::npos)
+                << verb << " does not tell the default of:\n"
+                << option;
+        }
+    }
+}
+
+TEST_F(HelpTest, tells_units_where_an_option_has_one) {
+    const std::string run = clearway({"run", "--help"}).out;
+    for (const std::string& option : options_in(run)) {
+        for (const char* const timed : {"--warm-up", "--horizon", "--step-length"}) {
+            if (option.find(timed) == std::string::npos) continue;
+            EXPECT_THAT(option, HasSubstr(", s"));
+        }
+        if (option.find("--road-limit") == std::string::npos) continue;
+        EXPECT_THAT(option, HasSubstr("km/h"));
+    }
+    EXPECT_THAT(run, AllOf(HasSubstr("--step-length"), HasSubstr("--road-limit")));
+    EXPECT_THAT(clearway({"dataset", "--help"}).out, testing::ContainsRegex("--interval SECONDS"));
+}
+
+TEST_F(HelpTest, version_is_one_line_on_standard_output) {
+    const Ended version = clearway({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_THAT(version.out, testing::MatchesRegex("clearway [0-9.]+\n"));
+}
+
+TEST_F(HelpTest, an_unknown_verb_names_the_nearest) {
+    const Ended ended = clearway({"reproduse"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("did you mean `reproduce`?"));
+    EXPECT_THAT(ended.out, IsEmpty());
+}
+
+TEST_F(HelpTest, no_verb_lists_them) {
+    const Ended ended = clearway({});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("reproduce"), HasSubstr("doctor")));
+}
+
+TEST_F(HelpTest, an_unknown_option_names_the_nearest) {
+    const Ended ended = clearway({"run", "merge", "--densty", "2"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--densty"), HasSubstr("did you mean --density?")));
+}
+
+TEST_F(HelpTest, a_word_too_many_is_refused) {
+    const Ended ended = clearway({"report", "one", "two"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("two"));
+}
+
+TEST_F(HelpTest, a_missing_argument_is_named) {
+    const Ended ended = clearway({"run"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("scenario"), HasSubstr("`clearway run --help`")));
+}
+
+TEST_F(HelpTest, negative_and_fractional_counts_are_refused) {
+    for (const char* const seeds : {"-3", "0", "2.5", "100001", "many"}) {
+        const Ended ended = clearway({"run", "merge", "--seeds", seeds});
+        EXPECT_EQ(ended.code, 2) << seeds;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("--seeds"), HasSubstr(seeds)));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
+}
+
+TEST_F(HelpTest, quick_excludes_a_number_of_seeds) {
+    const Ended ended = clearway({"reproduce", "--quick", "--seeds", "3"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--quick"), HasSubstr("--seeds")));
+}
+
+TEST_F(HelpTest, list_shows_what_can_be_named) {
+    const Ended list = clearway({"list"});
+    EXPECT_EQ(list.code, 0) << list.err;
+    for (const char* const name :
+         {"merge", "intersection", "city", "bologna", "baseline", "graph_graphsage", "solo", "perfect", "B10",
+          "dead_reckoning", "graphsage_corrected", "listing_5_5", "dissertation"}) {
+        EXPECT_THAT(list.out, HasSubstr(std::string("  ") + name + " "));
+    }
+    EXPECT_THAT(list.err, IsEmpty());
+}
+
+TEST_F(HelpTest, list_as_json_has_units_in_the_names_of_parameters) {
+    const auto list = nlohmann::json::parse(clearway({"list", "--json"}).out);
+    for (const char* const key : {"scenarios", "conditions", "failures", "predictors", "policy_parts"}) {
+        EXPECT_FALSE(list.at(key).empty()) << key;
+    }
+    for (const auto& failure : list["failures"]) {
+        if (failure["name"] != "B10") continue;
+        EXPECT_EQ(failure["parameters"]["mean_outage_s"], 10.0);
+    }
+}
+
+TEST_F(HelpTest, full_standard_output_exits_with_4) {
+    const Ended ended = clearway({"list"}, {.output = "/dev/full"});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.err, HasSubstr("clearway: "));
+}
+
+TEST_F(HelpTest, doctor_finds_this_machine_fit) {
+    const Ended ended = clearway({"doctor", "--json"});
+    EXPECT_EQ(ended.code, 0) << ended.out;
+    for (const auto& check : nlohmann::json::parse(ended.out)) {
+        EXPECT_TRUE(check["passed"] || !check["required"]) << check;
+    }
+}
+
+TEST_F(HelpTest, doctor_tells_a_missing_sumo) {
+    const Ended ended = clearway({"doctor"}, {.environment = {{"PATH", folder().string()}}});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.out, AllOf(testing::ContainsRegex("MISSING +sumo +missing"),
+                                 HasSubstr("Install the packages sumo")));
+}
+
+TEST_F(HelpTest, doctor_tells_another_version_of_sumo) {
+    write_program("sumo", "Eclipse SUMO sumo Version 1.20.0");
+    const Ended ended =
+        clearway({"doctor"}, {.environment = {{"PATH", folder().string() + ":" + std::getenv("PATH")}}});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("1.20.0"), HasSubstr("SUMO 1.15")));
+}
+
+TEST_F(HelpTest, doctor_tells_a_missing_sumo_home) {
+    const Ended ended = clearway({"doctor"}, {.environment = {{"SUMO_HOME", "/nowhere"}}});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("SUMO_HOME"), HasSubstr("/nowhere")));
+}
+
+}  // namespace
+}  // namespace clearway::cli

@@ -1,0 +1,227 @@
+// Runs with SUMO, from the command line to the files.
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class RunTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario();
+    }
+
+    /// A run of `seeds` replications of the line under two conditions.
+    static std::vector<std::string> two_conditions(const std::string& out, int seeds, int jobs = 1) {
+        return {"run",   "line", "--seeds",   std::to_string(seeds), "--jobs",          std::to_string(jobs),
+                "--out", out,    "--no-solo", "--condition",         "graph_simulation"};
+    }
+    std::size_t complete_runs(const std::string& out) const {
+        std::size_t count = 0;
+        const std::filesystem::path runs = folder() / out / "runs";
+        std::error_code ignored;
+        for (auto entry = std::filesystem::recursive_directory_iterator(runs, ignored);
+             entry != std::filesystem::recursive_directory_iterator(); entry.increment(ignored)) {
+            if (entry->path().filename() == "run.json") ++count;
+        }
+        return count;
+    }
+    /// Starts ten replications, interrupts them once a run is complete, and checks what is left.
+    void interrupt_and_resume(int signal, int expected_code) const;
+};
+
+TEST_F(RunTest, writes_a_run_folder_and_prints_tables_on_standard_output_alone) {
+    const Ended ended = clearway({"run", "line", "--seeds", "2", "--out", "out", "--policy", "dissertation",
+                                  "--failure", "B10", "--predictor", "dead_reckoning"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("EV travel time"), HasSubstr("custom")));
+    EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("elapsed")), Not(HasSubstr("report.html"))));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("6/6"), HasSubstr("report.html")));
+    for (const char* const file : {"manifest.json", "command.txt", "runs.csv", "vehicles.csv",
+                                   "results.sqlite", "report.html", "scenarios/line/scenario.toml",
+                                   "scenarios/line/network.svg", "scenarios/line/network/network.net.xml"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder() / "out" / file)) << file;
+    }
+    EXPECT_THAT(read("out/command.txt"), HasSubstr("clearway run line --seeds 2"));
+    EXPECT_THAT(read("out/runs.csv"), AllOf(HasSubstr("line,baseline,0,ok"), HasSubstr("line,solo,1,ok")));
+}
+
+TEST_F(RunTest, json_is_all_of_standard_output_and_carries_units) {
+    std::vector<std::string> words = two_conditions("out", 2);
+    words.emplace_back("--json");
+    const Ended ended = clearway(words);
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto tables = nlohmann::json::parse(ended.out);
+    const auto& conditions = tables.at("scenarios").at(0).at("conditions");
+    ASSERT_EQ(conditions.size(), 2U);
+    const double travel_time_s = conditions[0].at("measures").at("emergency_travel_time_s").at("mean");
+    EXPECT_GT(travel_time_s, 600.0 / 40.0);
+    EXPECT_LT(travel_time_s, 200.0);
+}
+
+TEST_F(RunTest, one_and_two_jobs_give_the_same_bytes) {
+    ASSERT_EQ(clearway(two_conditions("one", 4, 1)).code, 0);
+    ASSERT_EQ(clearway(two_conditions("two", 4, 2)).code, 0);
+    EXPECT_EQ(read("one/runs.csv"), read("two/runs.csv"));
+    EXPECT_EQ(read("one/vehicles.csv"), read("two/vehicles.csv"));
+    EXPECT_THAT(read("one/runs.csv"), HasSubstr("line,graph_simulation,3,ok"));
+}
+
+TEST_F(RunTest, without_out_the_same_command_finds_its_folder_again) {
+    const std::vector<std::string> words = {"run", "line", "--seeds", "1", "--condition", "baseline"};
+    ASSERT_EQ(clearway(words).code, 0);
+    const Ended again = clearway(words);
+    EXPECT_EQ(again.code, 0) << again.err;
+    const auto first = std::filesystem::directory_iterator(folder() / "runs");
+    EXPECT_EQ(std::distance(first, std::filesystem::directory_iterator()), 1);
+    std::vector<std::string> other = words;
+    other.insert(other.end(), {"--seed", "7"});
+    ASSERT_EQ(clearway(other).code, 0);
+    const auto second = std::filesystem::directory_iterator(folder() / "runs");
+    EXPECT_EQ(std::distance(second, std::filesystem::directory_iterator()), 2);
+}
+
+TEST_F(RunTest, another_study_in_the_same_folder_is_refused) {
+    ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
+    const std::string before = read("out/runs.csv");
+    const Ended other = clearway(two_conditions("out", 2));
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err, HasSubstr("out"));
+    EXPECT_EQ(read("out/runs.csv"), before);
+}
+
+TEST_F(RunTest, sublane_brings_a_baseline_of_its_own) {
+    const Ended ended = clearway({"run", "line", "--seeds", "1", "--out", "out", "--no-solo", "--engine",
+                                  "sublane", "--policy", "dissertation", "--name", "mine"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("out/runs.csv"),
+                AllOf(HasSubstr("line,baseline_sublane,0,ok"), HasSubstr("line,mine,0,ok")));
+}
+
+TEST_F(RunTest, the_trace_of_a_small_run_is_as_recorded) {
+    ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
+    const auto trace_of = [&](const std::string& condition) {
+        const auto run = nlohmann::json::parse(read("out/runs/line/" + condition + "/00000/run.json"));
+        return run.at("provenance").at("trace_hash").get<std::string>();
+    };
+    // Recorded with SUMO 1.15.0. A change means that every result changes: say so in the changelog.
+    EXPECT_EQ(trace_of("baseline"), "baa39fe9f426d67f7c43339abee66cda");
+    EXPECT_EQ(trace_of("graph_simulation"), "5066a8d7ed43b5248f36af76c560bfdf");
+}
+
+void RunTest::interrupt_and_resume(int signal, int expected_code) const {
+    const int seeds = 10;
+    const core::Child child = start(two_conditions("out", seeds));
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (complete_runs("out") == 0 && std::chrono::steady_clock::now() < patience) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ::kill(child.pid, signal);
+    const Ended interrupted = finish(child);
+    EXPECT_EQ(interrupted.code, expected_code) << interrupted.err;
+    EXPECT_THAT(interrupted.err, AllOf(HasSubstr("To continue:"), HasSubstr("clearway run line")));
+    const std::size_t kept = complete_runs("out");
+    EXPECT_GE(kept, 1U);
+    ASSERT_LT(kept, 2U * seeds);
+
+    const Ended incomplete = clearway({"report", "out"});
+    EXPECT_EQ(incomplete.code, 5) << incomplete.err;
+    const Ended resumed = clearway(two_conditions("out", seeds));
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    ASSERT_EQ(clearway(two_conditions("undisturbed", seeds, 2)).code, 0);
+    EXPECT_EQ(read("out/runs.csv"), read("undisturbed/runs.csv"));
+    EXPECT_EQ(read("out/vehicles.csv"), read("undisturbed/vehicles.csv"));
+}
+
+TEST_F(RunTest, interrupted_it_exits_with_130_and_continues_to_the_same_result) {
+    interrupt_and_resume(SIGINT, 130);
+}
+
+TEST_F(RunTest, terminated_it_exits_with_143_and_continues_to_the_same_result) {
+    interrupt_and_resume(SIGTERM, 143);
+}
+
+TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
+    write("my.toml",
+          "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
+          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\nparts = [\"dissertation\"]\n");
+    const Ended plan = clearway({"study", "my.toml", "--dry-run", "--json"});
+    ASSERT_EQ(plan.code, 0) << plan.err;
+    const auto json = nlohmann::json::parse(plan.out);
+    EXPECT_EQ(json.at("runs"), 4);
+    EXPECT_GT(json.at("estimated_time_left_s"), 0.0);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
+
+    const Ended ended = clearway({"study", "my.toml"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,b20,1,ok"));
+    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("4 complete in runs/mine"));
+}
+
+TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {
+    const Ended ended = clearway(two_conditions("out", 2));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    std::filesystem::remove(folder() / "out" / "report.html");
+    const Ended report = clearway({"report", "out"});
+    EXPECT_EQ(report.code, 0) << report.err;
+    EXPECT_EQ(report.out, ended.out);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out" / "report.html"));
+}
+
+TEST_F(RunTest, init_copies_a_scenario_that_runs) {
+    ASSERT_EQ(clearway({"init", "mine", "--from", "line"}).code, 0);
+    const Ended ended =
+        clearway({"run", "mine", "--seeds", "1", "--condition", "baseline", "--no-solo", "--out", "out"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("out/runs.csv"), HasSubstr("mine,baseline,0,ok"));
+}
+
+TEST_F(RunTest, dataset_writes_the_three_files_of_the_dissertation) {
+    const Ended ended =
+        clearway({"dataset", "line", "--out", "data", "--pairs", "true-links", "--features", "2"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("data: "));
+    std::istringstream target(read("data/target_y.csv"));
+    std::string row;
+    std::getline(target, row);
+    EXPECT_THAT(row, AllOf(HasSubstr("1"), Not(HasSubstr("0"))));  // only true links
+    std::istringstream features(read("data/vehicle_features.csv"));
+    std::getline(features, row);
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 1);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "data" / "edge_list.csv"));
+}
+
+TEST_F(RunTest, dataset_records_samples_of_each_failure_and_replication) {
+    const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "B10", "A.5",
+                                  "--seeds", "2", "--first-seed", "5", "--interval", "2", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("files").size(), 4U);
+    for (const char* const file : {"line-B10-0005.samples", "line-A.5-0006.samples"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder() / "data" / file)) << file;
+    }
+    EXPECT_THAT(ended.err, HasSubstr("2/2"));
+}
+
+TEST_F(RunTest, train_takes_what_dataset_wrote) {
+    ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
+    const Ended ended = clearway({"train", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("epochs_run"), 3);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "model" / "GraphSAGENet.pth"));
+}
+
+}  // namespace
+}  // namespace clearway::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::cli {
+
+/// How a program ended and what it said.
+struct Ended {
+    int code = 0;  ///< As a shell sees it: 128 + signal for a killed program.
+    std::string out;
+    std::string err;
+};
+
+/// How a command line is run beside its words.
+struct Surroundings {
+    std::map<std::string, std::string> environment = {};
+    std::string before = {};  ///< Shell commands that come first, for example `ulimit -f 1`.
+    std::string output = {};  ///< Where standard output goes instead of being read.
+};
+
+/// A test that drives the real `clearway` in a temporary folder, as a user does.
+class UserTest : public testing::Test {
+  protected:
+    void SetUp() override;
+
+    /// Runs `clearway WORDS` in the folder and waits.
+    Ended clearway(const std::vector<std::string>& words, const Surroundings& surroundings = {}) const;
+    /// Starts it; its process id is that of `clearway` itself. `finish` collects it.
+    core::Child start(const std::vector<std::string>& words, const Surroundings& surroundings = {}) const;
+    Ended finish(const core::Child& child) const;
+
+    /// A file of the folder.
+    std::string read(const std::string& name) const;
+    const std::filesystem::path& folder() const { return folder_.path(); }
+    std::filesystem::path write(const std::string& name, const std::string& text) const;
+    /// An executable script that prints `text`.
+    void write_program(const std::string& name, const std::string& text) const;
+
+    /// Writes the scenario `line` into a folder of this name: 600 m of two lanes, nine vehicles, one of them
+    /// emergency; a run takes a fraction of a second.
+    void write_line_scenario(const std::string& replaced = "", const std::string& replacement = "") const;
+
+  private:
+    support::TemporaryFolder folder_;
+};
+
+}  // namespace clearway::cli
