@@ -2,9 +2,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,12 +20,11 @@ namespace fs = std::filesystem;
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* part_suffix = ".part";
 
-/// Makes the entries of a folder survive a loss of power. File systems that cannot do so are not an error.
-void flush_folder(const fs::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
+/// Without waiting for the disk: for what may be lost with the power.
+void write_unflushed(const fs::path& file, const std::string& content) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << content;
+    if (!stream.flush()) throw core::EnvironmentError(fmt::format("{}: cannot write", file.string()));
 }
 
 /// A folder that is being filled; goes with this object unless it was put in place.
@@ -47,14 +46,14 @@ class PartFolder {
     const fs::path& path() const { return part_; }
 
     /// False when the target exists. rename(2) never replaces a folder that is not empty, on any file system.
+    /// Folders are not flushed (5 ms each here, against runs of 70 ms): a rename that is lost with the power
+    /// is a run to do again.
     bool put_in_place() {
-        flush_folder(part_);
         if (::rename(part_.c_str(), target_.c_str()) != 0) {
             if (errno == EEXIST || errno == ENOTEMPTY) return false;
             throw core::EnvironmentError(
                 fmt::format("{}: cannot be put in place: {}", target_.string(), std::strerror(errno)));
         }
-        flush_folder(target_.parent_path());
         return true;
     }
 
@@ -113,7 +112,6 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
         throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
                                 "Choose another folder with --out"});
     core::write_atomically(file, to_json(manifest));
-    flush_folder(folder);
     return {folder, manifest};
 }
 
@@ -152,7 +150,7 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
     core::make_folder(target.parent_path());
     PartFolder part(target);
     core::write_atomically(part.path() / "vehicles.csv", vehicles);
-    core::write_atomically(part.path() / "timing.json", detail::timing_to_json(timing));
+    write_unflushed(part.path() / "timing.json", detail::timing_to_json(timing));
     core::write_atomically(part.path() / "run.json", run);
     const bool first = part.put_in_place();
     if (!first) {
@@ -213,6 +211,7 @@ void Store::remove_leftovers() const {
     }
     for (const fs::path& leftover : leftovers)
         fs::remove_all(leftover, error);
+    fs::remove(folder_ / "work", error);  // Goes only when it is empty.
 }
 
 }  // namespace clearway::results

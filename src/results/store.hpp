@@ -20,6 +20,7 @@ namespace clearway::results {
 ///                                        /timing.json    differs from machine to machine
 ///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
 ///     units/, logs/                                      orders for workers, and what they said
+///     work/                                              SUMO's files of runs that did not end well
 ///     runs.csv, vehicles.csv, results.sqlite             all runs in one table each, written at the end
 ///
 /// Several processes may write different runs, or the same run, at one time: a run's folder is written aside,
