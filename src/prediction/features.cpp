@@ -13,7 +13,7 @@ FeatureSchema as_published_attributes_schema() {
     return {"as_published_attributes", 1, 5};
 }
 FeatureSchema corrected_schema() {
-    return {"corrected", 1, 5};
+    return {"corrected", 2, 5};
 }
 
 std::vector<FeatureSchema> feature_schemas() {
@@ -58,10 +58,10 @@ void corrected_features(const Tracks& tracks, std::vector<float>& features) {
     features.resize(tracks.size() * 5);
     for (std::size_t row = 0; row < tracks.size(); ++row) {
         float* const out = &features[row * 5];
-        out[0] = std::cos(wave_number * tracks.x_m[row]);
-        out[1] = std::sin(wave_number * tracks.x_m[row]);
-        out[2] = std::cos(wave_number * tracks.y_m[row]);
-        out[3] = std::sin(wave_number * tracks.y_m[row]);
+        out[0] = corrected_amplitude * std::cos(wave_number * tracks.x_m[row]);
+        out[1] = corrected_amplitude * std::sin(wave_number * tracks.x_m[row]);
+        out[2] = corrected_amplitude * std::cos(wave_number * tracks.y_m[row]);
+        out[3] = corrected_amplitude * std::sin(wave_number * tracks.y_m[row]);
         out[4] = std::exp(-tracks.age_s[row] / corrected_age_scale_s);
     }
 }

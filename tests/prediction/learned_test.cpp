@@ -114,9 +114,9 @@ TEST(LearnedPredictors, RefuseAModelForOtherFeaturesNamingBoth) {
         FAIL() << "accepted";
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), AllOf(HasSubstr("as_published_position version 1"),
-                                        HasSubstr("corrected version 1"), HasSubstr(file.string())));
+                                        HasSubstr("corrected version 2"), HasSubstr(file.string())));
     }
-    write_weights(file, random_net({"corrected", 2, 5}, 10, 5));
+    write_weights(file, random_net({"corrected", 1, 5}, 10, 5));
     EXPECT_THROW(make_graphsage_corrected({scene.network(), {}, file.string(), {}}), core::InputError);
     EXPECT_THROW(make_graphsage_as_published({scene.network(), {}, file.string(), {}}), core::InputError);
 }

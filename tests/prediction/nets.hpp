@@ -68,7 +68,7 @@ inline Weights kernel_net() {
         values(weights, "graphsage.conv2.lin_r.weight")[at * 10 + at] = 1.0F;
     }
     for (std::size_t product = 0; product < 4; ++product) {
-        values(weights, "nn.fc1.weight")[product] = 1.0F;
+        values(weights, "nn.fc1.weight")[product] = 1.0F / (corrected_amplitude * corrected_amplitude);
     }
     values(weights, "nn.fc2.weight")[0] = 40.0F;
     values(weights, "nn.fc2.bias")[0] = -40.0F * 1.7071068F;  // 1 + cos(2 pi 50 m / 400 m)

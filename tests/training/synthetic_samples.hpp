@@ -12,7 +12,7 @@ namespace clearway::training {
 
 /// Points that move on a line of 1 km with their own speeds; each is dark with probability 0.4 for some
 /// seconds, and is then believed where its old speed would have brought it, though its true speed changed.
-/// Features as the schema `corrected 1` has them.
+/// Features as the schema `corrected` has them.
 class SyntheticRun {
   public:
     explicit SyntheticRun(std::uint32_t seed) : random_(seed) {}
@@ -39,9 +39,10 @@ class SyntheticRun {
             points.push_back(point());
         for (const Point& point : points) {
             constexpr float k = 2.0F * std::numbers::pi_v<float> / prediction::corrected_wavelength_m;
-            sample.features.insert(sample.features.end(),
-                                   {std::cos(k * point.believed_x), std::sin(k * point.believed_x), 1.0F,
-                                    0.0F, std::exp(-point.age / 10.0F)});
+            constexpr float amplitude = prediction::corrected_amplitude;
+            sample.features.insert(sample.features.end(), {amplitude * std::cos(k * point.believed_x),
+                                                           amplitude * std::sin(k * point.believed_x),
+                                                           amplitude, 0.0F, std::exp(-point.age / 10.0F)});
         }
         for (std::uint32_t left = 0; left < sample.vehicle_count; ++left) {
             for (std::uint32_t right = left + 1; right < sample.vehicle_count; ++right) {
