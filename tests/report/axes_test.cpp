@@ -22,6 +22,19 @@ TEST(NiceTicks, are_multiples_of_one_two_or_five) {
     EXPECT_THAT(nice_ticks(range(3, 7.4), 5).values, Pointwise(DoubleEq(), {3.0, 4.0, 5.0, 6.0, 7.0}));
 }
 
+TEST(DecadeTicks, ArePowersOfTenAndAtMostSeven) {
+    EXPECT_THAT(decade_ticks(range(-1, 2)).values, Pointwise(DoubleEq(), {0.1, 1.0, 10.0, 100.0}));
+    EXPECT_THAT(decade_ticks(range(-4, 5)).values, Pointwise(DoubleEq(), {1e-4, 1e-2, 1.0, 1e2, 1e4}));
+}
+
+TEST(LogarithmicAxis, GivesDecadesOneWidthAndKeepsZeroAtItsLowEnd) {
+    const Axis axis{range(-2, 2), "", 100.0, 0.0, Scale::logarithmic};
+    EXPECT_DOUBLE_EQ(axis.place(1.0), 50.0);
+    EXPECT_DOUBLE_EQ(axis.place(10.0), 25.0);
+    EXPECT_DOUBLE_EQ(axis.place(1e-9), 100.0);
+    EXPECT_DOUBLE_EQ(axis.place(0.0), 100.0);
+}
+
 TEST(NiceTicks, have_decimals_that_tell_neighbours_apart) {
     EXPECT_EQ(nice_ticks(range(0, 1), 5).decimals, 1);
     EXPECT_EQ(nice_ticks(range(0, 0.12), 5).decimals, 2);

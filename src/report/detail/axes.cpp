@@ -36,6 +36,15 @@ Ticks nice_ticks(Range range, int wanted) {
     return ticks;
 }
 
+Ticks decade_ticks(Range exponents) {
+    Ticks ticks;
+    const double stride = std::ceil((exponents.high - exponents.low) / 6.0);
+    for (double power = std::ceil(exponents.low); power <= exponents.high; power += stride) {
+        ticks.values.push_back(std::pow(10.0, power));
+    }
+    return ticks;
+}
+
 Range padded(Range range, double share) {
     double margin = (range.high - range.low) * share;
     if (range.high <= range.low) margin = std::max(1.0, std::abs(range.high) * 0.1);
@@ -64,12 +73,14 @@ void Plot::grid_x() {
 }
 
 void Plot::grid_y() {
-    const Ticks ticks = nice_ticks(y_.values, 5);
+    const bool decades = y_.scale == Scale::logarithmic;
+    const Ticks ticks = decades ? decade_ticks(y_.values) : nice_ticks(y_.values, 5);
     for (const double value : ticks.values) {
         fmt::format_to(std::back_inserter(svg_), "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>",
                        x_.from, y_.place(value), x_.to);
-        text(x_.from - 6.0, y_.place(value) + 4.0, number(value, {ticks.decimals, Script::typeset}),
-             Anchor::end, "tick");
+        const std::string label =
+            decades ? fmt::format("{:g}", value) : number(value, {ticks.decimals, Script::typeset});
+        text(x_.from - 6.0, y_.place(value) + 4.0, label, Anchor::end, "tick");
     }
     text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,19 +27,29 @@ struct Ticks {
     int decimals = 0;  ///< That tell neighbours apart.
 };
 Ticks nice_ticks(Range range, int wanted);
+/// Powers of ten within 10^exponents, at most seven.
+Ticks decade_ticks(Range exponents);
 
 /// The range with a margin on both sides, wide enough to be drawn when all of its values are equal.
 Range padded(Range range, double share);
 
+/// How an axis spaces its values: evenly, or a decade as wide as the next.
+enum class Scale { linear, logarithmic };
+
 /// An axis of a figure: what it shows and where.
 struct Axis {
-    Range values;
+    Range values;  ///< Decimal logarithms of the values where the scale is logarithmic.
     std::string label;
     double from = 0.0;  ///< Place of `values.low` in the figure's units.
     double to = 0.0;    ///< Place of `values.high`.
+    Scale scale = Scale::linear;
 
+    /// On a logarithmic axis values below its range, 0 included, are placed at its low end.
     double place(double value) const {
-        return from + (value - values.low) / (values.high - values.low) * (to - from);
+        const double at = scale == Scale::linear ? value
+                          : value > 0.0          ? std::max(values.low, std::log10(value))
+                                                 : values.low;
+        return from + (at - values.low) / (values.high - values.low) * (to - from);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "report/detail/figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -138,6 +139,30 @@ std::vector<std::pair<double, double>> zipped(const std::vector<double>& x, cons
     return points;
 }
 
+/// From 0 when the losses are of one size; by decades, down to the smallest that is told from 0, when the
+/// largest is more than a hundred times the last: the curve would be a line along the bottom.
+Axis loss_axis(const LossCurve& curve) {
+    constexpr double smallest = 1e-4;
+    Range losses;
+    for (const std::vector<double>* const column : {&curve.train, &curve.test}) {
+        for (const double loss : *column) {
+            losses.include(loss);
+        }
+    }
+    if (curve.constant_loss) losses.include(*curve.constant_loss);
+    const bool decades = losses.high > 100.0 * std::max(smallest, curve.train.back());
+    if (!decades) {
+        losses.low = 0.0;
+        losses.high = losses.high > 0.0 ? losses.high * 1.05 : 1.0;
+        return {losses, "loss, nat", 0.0, 0.0};
+    }
+    Range exponents;
+    exponents.include(std::floor(std::log10(std::max(smallest, losses.low))));
+    exponents.include(std::ceil(std::log10(losses.high)));
+    return {exponents, fmt::format("loss, nat, in decades; below {:g} at the bottom", smallest), 0.0, 0.0,
+            Scale::logarithmic};
+}
+
 }  // namespace
 
 std::string forest_figure(const ScenarioFacts& scenario) {
@@ -198,19 +223,16 @@ std::string distribution_figure(const ScenarioFacts& scenario) {
 std::string loss_figure(const LossCurve& curve) {
     if (curve.epoch.empty()) return {};
     Range epochs;
-    Range losses;
-    losses.include(0.0);
-    for (std::size_t row = 0; row < curve.epoch.size(); ++row) {
-        epochs.include(curve.epoch[row]);
-        losses.include(curve.train[row]);
-        losses.include(curve.test[row]);
+    for (const double epoch : curve.epoch) {
+        epochs.include(epoch);
     }
-    if (curve.constant_loss) losses.include(*curve.constant_loss);
     if (epochs.high <= epochs.low) epochs = padded(epochs, 0.0);
-    losses.high = losses.high > 0.0 ? losses.high * 1.05 : 1.0;
     const double height = 270.0;
+    Axis losses = loss_axis(curve);
+    losses.from = height - label_space;
+    losses.to = 26.0;
     Plot plot(fmt::format("Train and test loss: {}", curve.title), height,
-              {epochs, "epoch", left_edge, right_edge}, {losses, "loss, nat", height - label_space, 26.0});
+              {epochs, "epoch", left_edge, right_edge}, losses);
     plot.grid_x();
     plot.grid_y();
     std::vector<std::pair<std::size_t, std::string>> entries = {{1, "train"}, {2, curve.held_out}};
