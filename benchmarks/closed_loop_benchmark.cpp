@@ -72,4 +72,3 @@ BENCHMARK_CAPTURE(closed_loop, graph_simulation, condition("perfect", "none", "d
 BENCHMARK_CAPTURE(closed_loop, graph_graphsage, condition("B10", "graphsage_corrected", "dissertation"))
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
-
