@@ -74,8 +74,10 @@ void SceneBuilder::collect_detected(const traffic::Observation& observation, Sce
     }
     // Where both ends detect each other, the larger range stays: one that was measured beats none.
     std::ranges::sort(detections_, std::greater<>{});
-    const auto surplus = std::ranges::unique(detections_, {}, &Detection::rows);
-    detections_.erase(surplus.begin(), surplus.end());
+    detections_.erase(
+        std::unique(detections_.begin(), detections_.end(),
+                    [](const Detection& one, const Detection& other) { return one.rows == other.rows; }),
+        detections_.end());
     std::ranges::reverse(detections_);
     for (const Detection& detection : detections_) {
         scene.detected.add(detection.rows, distance_m(tracks.last_x_m, tracks.last_y_m, detection.rows),
