@@ -67,9 +67,7 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
 
 void declare_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--data", arguments.data,
-                   "Folder with edge_list.csv, vehicle_features.csv and target_y.csv; with --corrected, with "
-                   "*.samples files. "
-                   "Both come from `clearway dataset`")
+                   "Data set of `clearway dataset`; with --corrected, of `clearway dataset --samples`")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out, "Folder for the results; made when absent")
@@ -78,16 +76,16 @@ void declare_options(CLI::App& app, Arguments& arguments) {
     auto* const corrected = app.add_flag_callback(
         "--corrected", [&] { arguments.mode = Mode::corrected; },
         "Train on many snapshots, split by seed, without messages along the labels");
-    app.add_option("--pairs", arguments.pairs,
-                   "Which listed pairs to use: `candidates`, all with their labels 0 and 1; `true`, only "
-                   "those labelled 1")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, PairChoice>{
-            {"candidates", PairChoice::candidates}, {"true", PairChoice::true_only}}))
-        ->option_text("candidates|true [candidates]")
+    static const std::map<std::string, PairChoice> pairs = {{"true-links", PairChoice::true_only},
+                                                            {"candidates", PairChoice::candidates}};
+    app.add_option_function<std::string>(
+           "--pairs", [&](const std::string& name) { arguments.pairs = pairs.at(name); },
+           "Pairs of the list to use: only those labelled 1, or all")
+        ->check(CLI::IsMember(pairs))
+        ->option_text("true-links|candidates [candidates]")
         ->excludes(corrected);
-    app.add_option(
-           "--unseen", arguments.unseen,
-           "Folders of the same three files, for example of other seeds, on which the trained net is scored")
+    app.add_option("--unseen", arguments.unseen,
+                   "Data sets, for example of other seeds, on which the net is scored")
         ->option_text("DIR...")
         ->excludes(corrected);
     app.add_flag_callback(
@@ -105,7 +103,8 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv.\n\n"
         "Examples:\n  clearway dataset city --out data/city\n  clearway train --data data/city --out "
         "models/mine\n"
-        "  clearway train --data data/city --pairs true --epochs 100 --seed 1 --out models/true_only --json");
+        "  clearway train --data data/city --pairs true-links --epochs 100 --seed 1 --out models/true_links "
+        "--json");
 }
 
 TrainingHooks hooks_for(Printing printing) {
@@ -225,6 +224,7 @@ core::ExitCode run_corrected(const Arguments& arguments) {
 int run(int argument_count, char** argument_values) {
     CLI::App app("Trains the dissertation's GraphSAGENet for link prediction, as published or corrected.");
     app.name("clearway train");
+    app.set_version_flag("--version", "clearway-train " CLEARWAY_VERSION);
     Arguments arguments;
     declare_options(app, arguments);
     try {

@@ -54,13 +54,13 @@ Check check_sumo_home() {
     return check;
 }
 
-/// A program of Clearway's own; `probe` makes it answer at once when all its libraries are there.
-Check check_sister(const std::string& program, const std::string& probe, const std::string& purpose) {
+/// A program of Clearway's own; it answers at once when all its libraries are there.
+Check check_sister(const std::string& program, const std::string& purpose) {
     Check check{program, false, Severity::required, "cannot be started",
                 fmt::format("Build it ({}); a missing shared library also shows here", purpose)};
-    const std::optional<std::string> text = output_of(sister_program(program), {probe});
+    const std::optional<std::string> text = output_of(sister_program(program), {"--version"});
     check.passed = text.has_value();
-    if (check.passed) check.found = probe == "--version" ? first_line(*text) : "starts";
+    if (check.passed) check.found = first_line(*text);
     return check;
 }
 
@@ -85,8 +85,8 @@ std::vector<Check> all_checks() {
         check_sumo("sumo"),
         check_sumo("netconvert"),
         check_sumo_home(),
-        check_sister("clearway-run", "--version", "the worker that holds SUMO"),
-        check_sister("clearway-train", "--help", "training, holds libtorch"),
+        check_sister("clearway-run", "the worker that holds SUMO"),
+        check_sister("clearway-train", "training, holds libtorch"),
         check_osmium(),
         check_folder(),
         {"processors", true, Severity::optional, std::to_string(std::thread::hardware_concurrency()), ""}};

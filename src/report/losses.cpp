@@ -70,7 +70,7 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     }
     const std::string pairs = text_of(summary, "pairs");
     if (text_of(summary, "mode") == "corrected") curve.title = "Corrected, validated on unseen seeds";
-    if (pairs == "true") curve.title = "As published, list of true links only";
+    if (pairs == "true-links") curve.title = "As published, list of true links only";
     if (pairs == "candidates") curve.title = "As published, list of candidate pairs";
     curve.constant_loss = number_of(summary, "constant_test_loss_nat");
     if (curve.constant_loss && !curve.held_out.empty()) {
@@ -83,7 +83,7 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (auc) {
         curve.note +=
             fmt::format(" AUC on the test pairs: {} (chance: 0.5).", number(*auc, {2, Script::typeset}));
-    } else if (pairs == "true") {
+    } else if (pairs == "true-links") {
         curve.note += " No AUC: without a pair that is not linked nothing can be told apart.";
     }
 }

@@ -106,7 +106,7 @@ void write_common(const std::filesystem::path& folder, const std::vector<EpochLo
 
 Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
     Json summary = base_summary("as_published", result.outcome, run, result.losses);
-    summary["pairs"] = pairs == PairChoice::true_only ? "true" : "candidates";
+    summary["pairs"] = pairs == PairChoice::true_only ? "true-links" : "candidates";
     summary["vehicle_count"] = result.dataset.vehicle_count();
     summary["feature_count"] = result.dataset.feature_count;
     summary["pair_count"] = result.dataset.pair_count();

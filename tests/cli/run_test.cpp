@@ -223,5 +223,15 @@ TEST_F(RunTest, train_takes_what_dataset_wrote) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "model" / "GraphSAGENet.pth"));
 }
 
+TEST_F(RunTest, both_readings_of_the_list_have_one_name_in_dataset_and_train) {
+    for (const char* const pairs : {"candidates", "true-links"}) {
+        ASSERT_EQ(clearway({"dataset", "line", "--out", pairs, "--pairs", pairs}).code, 0);
+        const Ended ended = clearway({"train", "--data", "candidates", "--out", std::string("model-") + pairs,
+                                      "--pairs", pairs, "--epochs", "2", "--json"});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        EXPECT_EQ(nlohmann::json::parse(ended.out).at("pairs"), pairs);
+    }
+}
+
 }  // namespace
 }  // namespace clearway::cli

@@ -46,7 +46,8 @@ TEST(Losses, are_shown_with_what_they_hide) {
 TEST(Losses, of_true_links_only_have_no_auc) {
     const support::TemporaryFolder folder;
     folder.write("losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,0.7,0.75\n");
-    folder.write("summary.json", R"({"pairs":"true","constant_test_loss_nat":0.0,"test":{"auc":null}})");
+    folder.write("summary.json",
+                 R"({"pairs":"true-links","constant_test_loss_nat":0.0,"test":{"auc":null}})");
     EXPECT_THAT(read_losses(folder.path()).note, HasSubstr("No AUC"));
 }
 
