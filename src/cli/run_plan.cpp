@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/summary.hpp"
 #include "cli/names.hpp"
@@ -26,8 +27,17 @@ namespace {
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_failures = 10;
 
+/// The edges with more lanes for cars than the dissertation's networks have, as read_facts expects them.
+std::string wide_edges_json(const roads::Network& network) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const scenario::WideEdge& edge : scenario::wide_edges(network)) {
+        rows.push_back({{"edge", edge.id}, {"street", edge.name}, {"car_lanes", edge.car_lanes}});
+    }
+    return rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 /// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts, and a picture for the report.
+/// destinations before any worker starts, its wide edges, and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const results::UnitSpec& unit,
                        const std::filesystem::path& folder) {
     const std::filesystem::path picture = folder / "network.svg";
@@ -38,6 +48,7 @@ void complete_scenario(const scenario::ScenarioConfig& config, const results::Un
     scenario::prepare(config, built, core::StudySeed{unit.study_seed}, core::Replication{unit.replication},
                       demand);
     const std::string title = config.title.empty() ? config.name : config.title;
+    core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
     core::write_atomically(picture, scenario::network_picture(built.network, title));
 }
 

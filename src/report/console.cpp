@@ -158,6 +158,8 @@ void append_scenario(const ScenarioFacts& scenario, std::string& text) {
             fmt::format("{}: {}", label(condition), safe(verdict(scenario, condition, Script::plain))), text);
     }
     append_runs(scenario, text);
+    const std::string wide = wide_edges_sentence(scenario);
+    if (!wide.empty()) append_wrapped(wide, text);
     text += '\n';
 }
 

@@ -114,11 +114,19 @@ struct ConditionFacts {
     Outcome& outcome(Measure measure) { return outcomes[static_cast<std::size_t>(measure)]; }
 };
 
+/// An edge with at least three lanes for cars; the dissertation's networks are said to have fewer.
+struct WideEdge {
+    std::string edge;
+    std::string street;  ///< May be empty.
+    int car_lanes = 0;
+};
+
 struct ScenarioFacts {
     std::string name;
     std::string title;
     std::string attribution;  ///< Whom the map data must name; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty where the folder holds no usable picture.
+    std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; empty where the folder does not tell.
     std::uint64_t replications = 0;
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
 };

@@ -80,6 +80,14 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     return result;
 }
 
+Json to_json(const std::vector<WideEdge>& edges) {
+    Json rows = Json::array();
+    for (const WideEdge& edge : edges) {
+        rows.push_back({{"edge", edge.edge}, {"street", edge.street}, {"car_lanes", edge.car_lanes}});
+    }
+    return rows;
+}
+
 }  // namespace
 
 std::string json_tables(const StudyFacts& study) {
@@ -92,6 +100,7 @@ std::string json_tables(const StudyFacts& study) {
         scenarios.push_back({{"name", scenario.name},
                              {"replications", scenario.replications},
                              {"conditions", std::move(conditions)}});
+        if (scenario.wide_edges) scenarios.back()["wide_edges"] = to_json(*scenario.wide_edges);
     }
     const Json result = {
         {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};

@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/estimate.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "report/text.hpp"
 
@@ -224,6 +226,22 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
     return rows;
 }
 
+std::optional<std::vector<WideEdge>> wide_edges_in(const fs::path& file) {
+    if (!fs::exists(file)) return std::nullopt;
+    try {
+        std::vector<WideEdge> edges;
+        for (const nlohmann::json& row : nlohmann::json::parse(core::read_file(file))) {
+            edges.push_back({row.at("edge").get<std::string>(), row.at("street").get<std::string>(),
+                             row.at("car_lanes").get<int>()});
+        }
+        return edges;
+    } catch (const nlohmann::json::exception& error) {
+        throw core::InputError(core::Problem{file.string(), error.what(),
+                                             "a list of objects with edge, street and car_lanes",
+                                             "Remove the file, or make the run folder again"});
+    }
+}
+
 void add_files(const results::Manifest& manifest, const fs::path& folder, StudyFacts& study) {
     for (ScenarioFacts& scenario : study.scenarios) {
         const fs::path picture = folder / "scenarios" / scenario.name / "network.svg";
@@ -231,6 +249,7 @@ void add_files(const results::Manifest& manifest, const fs::path& folder, StudyF
             const std::string svg = core::read_file(picture);
             if (is_safe_picture(svg)) scenario.network_svg = svg.substr(svg.find("<svg"));
         }
+        scenario.wide_edges = wide_edges_in(folder / "scenarios" / scenario.name / "wide_edges.json");
         for (const results::ScenarioEntry& entry : manifest.scenarios) {
             if (entry.name == scenario.name) scenario.attribution = entry.attribution;
         }

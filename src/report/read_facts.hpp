@@ -13,6 +13,7 @@ namespace clearway::report {
 ///
 ///     what results::Store holds                      runs, failures, manifest
 ///     scenarios/SCENARIO/network.svg                 picture of the network; optional
+///     scenarios/SCENARIO/wide_edges.json             edges with three or more lanes for cars; optional
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional
 ///

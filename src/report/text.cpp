@@ -85,4 +85,16 @@ std::string counted(std::uint64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string wide_edges_sentence(const ScenarioFacts& scenario) {
+    if (!scenario.wide_edges) return {};
+    if (scenario.wide_edges->empty()) return "No edge has three or more lanes for cars.";
+    int most = 0;
+    for (const WideEdge& edge : *scenario.wide_edges) {
+        most = std::max(most, edge.car_lanes);
+    }
+    return fmt::format(
+        "{} with three or more lanes for cars, {} at most (listed in report.html and in JSON).",
+        counted(scenario.wide_edges->size(), "edge"), most);
+}
+
 }  // namespace clearway::report

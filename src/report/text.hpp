@@ -46,4 +46,7 @@ std::string grouped(std::uint64_t count);
 /// `1 run`, `2 runs`.
 std::string counted(std::uint64_t count, std::string_view noun);
 
+/// Edges of three or more lanes for cars, in a sentence without names; empty where the folder does not tell.
+std::string wide_edges_sentence(const ScenarioFacts& scenario);
+
 }  // namespace clearway::report

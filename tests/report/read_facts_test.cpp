@@ -160,6 +160,20 @@ TEST_F(RunFolder, does_not_take_in_a_picture_that_acts) {
     EXPECT_EQ(read_facts(study()).scenarios[0].network_svg, "");
 }
 
+TEST_F(RunFolder, tells_which_edges_have_three_or_more_lanes) {
+    EXPECT_FALSE(read_facts(study()).scenarios[0].wide_edges.has_value());
+    EXPECT_THAT(console_tables(read_facts(study())), Not(HasSubstr("lanes for cars")));
+    write("scenarios/merge/wide_edges.json", R"([{"edge":"a1","street":"<b>","car_lanes":3},
+                                                 {"edge":"a2","street":"","car_lanes":4}])");
+    const StudyFacts facts = read_facts(study());
+    EXPECT_THAT(console_tables(facts), HasSubstr("2 edges with three or more lanes for cars, 4 at most"));
+    EXPECT_THAT(json_tables(facts), HasSubstr("\"car_lanes\": 4"));
+    write("scenarios/merge/wide_edges.json", "[]");
+    EXPECT_THAT(console_tables(read_facts(study())), HasSubstr("No edge has three or more lanes for cars."));
+    write("scenarios/merge/wide_edges.json", "[{}]");
+    EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
+}
+
 TEST(ReadFacts, refuses_what_is_no_run_folder) {
     const support::TemporaryFolder folder;
     EXPECT_THROW(static_cast<void>(read_facts(folder.path())), core::InputError);

@@ -252,7 +252,14 @@ std::string loss_figure(const LossCurve& curve) {
 
 std::string network_figure(const ScenarioFacts& scenario) {
     if (scenario.network_svg.empty()) return {};
-    return to_html(Figure{scenario.name, scenario.network_svg, "", scenario.attribution, {}});
+    DataTable wide{{"edge", "street", "lanes for cars"}, {}, DataTable::Cells::words};
+    for (const WideEdge& edge : scenario.wide_edges.value_or(std::vector<WideEdge>{})) {
+        wide.rows.push_back({edge.edge, edge.street, std::to_string(edge.car_lanes)});
+    }
+    std::string note = wide_edges_sentence(scenario);
+    if (!note.empty() && !scenario.attribution.empty()) note += ' ';
+    return to_html(
+        Figure{scenario.name, scenario.network_svg, "", note + scenario.attribution, std::move(wide)});
 }
 
 }  // namespace clearway::report::detail
