@@ -18,7 +18,11 @@ namespace clearway::core {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* action) {
-    throw EnvironmentError(fmt::format("{}: cannot {}: {}", file.string(), action, std::strerror(errno)));
+    const int reason = errno;
+    const bool full = reason == ENOSPC || reason == EDQUOT;
+    throw EnvironmentError(fmt::format("{}: cannot {}: {}. {}", file.string(), action, std::strerror(reason),
+                                       full ? "Free some space there and give the same command again"
+                                            : "Choose another place, or correct its rights"));
 }
 
 void write_all(int descriptor, std::string_view content, const std::filesystem::path& file) {
@@ -68,7 +72,8 @@ void make_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, error);
     if (error)
         throw EnvironmentError(
-            fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
+            fmt::format("{}: cannot make this folder: {}. Choose another place, or correct its rights",
+                        folder.string(), error.message()));
     if (::access(folder.c_str(), W_OK) != 0) fail(folder, "write into this folder");
 }
 

@@ -54,7 +54,7 @@ TEST_F(FilesTest, AFullDiskLeavesTheOldFile) {
     // What is written aside ends up on a device without room.
     std::filesystem::create_symlink("/dev/full", file.string() + "." + std::to_string(getpid()) + ".part");
     const std::string text = complaint<EnvironmentError>([&] { write_atomically(file, "new"); });
-    EXPECT_THAT(text, HasSubstr("result.csv: cannot write: No space left on device"));
+    EXPECT_THAT(text, HasSubstr("result.csv: cannot write: No space left on device. Free some space"));
     EXPECT_EQ(read_file(file), "old");
     EXPECT_EQ(files_in_folder(), 1);
 }

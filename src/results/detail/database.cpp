@@ -43,8 +43,9 @@ class Database {
     }
     void check(int code) {
         if (code == SQLITE_OK || code == SQLITE_DONE) return;
-        throw core::EnvironmentError(
-            fmt::format("{}: {}", file_.string(), handle_ ? sqlite3_errmsg(handle_.get()) : "no memory"));
+        throw core::EnvironmentError(fmt::format(
+            "{}: {}{}", file_.string(), handle_ ? sqlite3_errmsg(handle_.get()) : "no memory",
+            code == SQLITE_FULL ? ". Free some space there and give the same command again" : ""));
     }
 
   private:
