@@ -200,6 +200,7 @@ std::vector<LossCurve> curves_in(const fs::path& folder) {
         }
     }
     std::vector<LossCurve> curves;
+    curves.reserve(trainings.size());
     for (const fs::path& training : trainings) {
         curves.push_back(read_losses(training));
     }
