@@ -27,9 +27,9 @@ constexpr std::array<Row, 9> dissertation_rows = {{
 }};
 
 constexpr std::array<PublishedTable, 3> dissertation_tables = {{
-    {"merge", "TABLE II. PERFORMANCE ON MERGE"},
-    {"intersection", "TABLE III. PERFORMANCE ON INTERSECTION"},
-    {"city", "TABLE IV. PERFORMANCE ON CITY NETWORK"},
+    {"merge", "TABLE II. PERFORMANCE ON MERGE", "Fig. 1"},
+    {"intersection", "TABLE III. PERFORMANCE ON INTERSECTION", "Fig. 2"},
+    {"city", "TABLE IV. PERFORMANCE ON CITY NETWORK", "Fig. 3"},
 }};
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace clearway::report {
 struct PublishedTable {
     std::string_view scenario;
     std::string_view caption;  ///< `TABLE II. PERFORMANCE ON MERGE`.
+    std::string_view figure;   ///< Of the network: `Fig. 1`.
 };
 
 /// The table of a scenario, or empty where the dissertation has none.

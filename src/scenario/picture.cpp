@@ -15,15 +15,22 @@ constexpr double picture_width = 960.0;   // user units of the SVG
 constexpr double picture_height = 540.0;  // at most; flat networks get less
 constexpr double margin = 30.0;
 
+/// A network flatter than this is stretched across, or its lanes would be one line; at most by the factor
+/// below.
+constexpr double flattest = 0.1;
+constexpr double largest_stretch = 10.0;
+
 /// From the network's metres (y up) to the picture's units (y down).
 struct Frame {
     double scale = 1.0;
+    double stretch = 1.0;  ///< Of y over x; above 1 for flat networks only.
+    double left = margin;  ///< Of the drawing, which stands in the middle.
     double left_m = 0.0;
     double top_m = 0.0;
     double height = 0.0;
 
-    double x(double metres) const { return margin + (metres - left_m) * scale; }
-    double y(double metres) const { return margin + (top_m - metres) * scale; }
+    double x(double metres) const { return left + (metres - left_m) * scale; }
+    double y(double metres) const { return margin + (top_m - metres) * scale * stretch; }
 };
 
 Frame frame_of(const roads::Network& network) {
@@ -42,10 +49,13 @@ Frame frame_of(const roads::Network& network) {
     Frame frame;
     const double width_m = std::max(1.0, right - left);
     const double height_m = std::max(1.0, top - bottom);
-    frame.scale = std::min((picture_width - 2 * margin) / width_m, (picture_height - 2 * margin) / height_m);
+    frame.stretch = std::clamp(flattest * width_m / height_m, 1.0, largest_stretch);
+    frame.scale = std::min((picture_width - 2 * margin) / width_m,
+                           (picture_height - 2 * margin) / (height_m * frame.stretch));
+    frame.left = 0.5 * (picture_width - width_m * frame.scale);
     frame.left_m = left;
     frame.top_m = top;
-    frame.height = height_m * frame.scale + 2 * margin + 20.0;
+    frame.height = height_m * frame.stretch * frame.scale + 2 * margin + 20.0;
     return frame;
 }
 
@@ -53,7 +63,7 @@ void draw_lanes(const roads::Network& network, const Frame& frame, std::string& 
     auto out = std::back_inserter(svg);
     for (const roads::Lane& lane : network.lanes()) {
         const bool internal = network.edge(lane.edge).internal;
-        const double width = std::max(0.7, 0.85 * lane.width_m * frame.scale);
+        const double width = std::max(0.7, 0.85 * lane.width_m * frame.scale * frame.stretch);
         fmt::format_to(out, "<polyline class=\"{}\" stroke-width=\"{:.2f}\" points=\"",
                        internal ? "junction" : "lane", internal ? 0.5 * width : width);
         for (const roads::Point& point : lane.shape) {
@@ -93,10 +103,12 @@ double scale_bar_m(const Frame& frame) {
 void draw_scale_bar(const Frame& frame, std::string& svg) {
     const double metres = scale_bar_m(frame);
     const double y = frame.height - 14.0;
-    fmt::format_to(std::back_inserter(svg),
-                   "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}h{2:.1f}\"/>"
-                   "<text x=\"{3:.1f}\" y=\"{4:.1f}\">{5:g} m</text>\n",
-                   margin, y, metres * frame.scale, margin + metres * frame.scale + 6.0, y + 4.0, metres);
+    fmt::format_to(
+        std::back_inserter(svg),
+        "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}h{2:.1f}\"/>"
+        "<text x=\"{3:.1f}\" y=\"{4:.1f}\">{5:g} m{6}</text>\n",
+        margin, y, metres * frame.scale, margin + metres * frame.scale + 6.0, y + 4.0, metres,
+        frame.stretch > 1.0 ? fmt::format("; drawn {:.1f} times as wide across", frame.stretch) : "");
 }
 
 std::string escaped(const std::string& text) {

@@ -20,6 +20,7 @@ constexpr double label_space = 44.0;  // below the drawing area
 
 constexpr std::array forest_measures = {Measure::emergency_travel_time, Measure::emergency_waiting_time,
                                         Measure::other_time_loss};
+constexpr double forest_right = 250.0;  // the numbers stand beside the drawing
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
 
@@ -50,7 +51,7 @@ void draw_forest_row(Plot& plot, const ConditionFacts& condition, const Outcome&
                      std::size_t series) {
     const Estimate& difference = outcome.difference;
     plot.text(10.0, top + 11.0, condition.title, Plot::Anchor::start, "label");
-    plot.text(right_edge, top + 11.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
+    plot.text(right_edge, top + 26.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
               "value");
     if (!difference.mean) return;
     if (difference.has_interval()) {
@@ -173,7 +174,7 @@ std::string forest_figure(const ScenarioFacts& scenario) {
                         heading_height * forest_measures.size();
     const double height = rows + 10.0 + label_space;
     Plot plot(fmt::format("{}: paired differences to the baseline", scenario.name), height,
-              {padded(range, 0.06), "difference to the baseline, s; left of 0: less time", 10.0, right_edge},
+              {padded(range, 0.06), "difference to the baseline, s", 10.0, forest_right},
               {{}, "", 6.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);
@@ -258,8 +259,11 @@ std::string network_figure(const ScenarioFacts& scenario) {
     }
     std::string note = wide_edges_sentence(scenario);
     if (!note.empty() && !scenario.attribution.empty()) note += ' ';
-    return to_html(
-        Figure{scenario.name, scenario.network_svg, "", note + scenario.attribution, std::move(wide)});
+    const std::optional<PublishedTable> published = published_table(scenario.name);
+    const std::string title =
+        published ? fmt::format("{} ({} of the dissertation)", scenario.name, published->figure)
+                  : scenario.name;
+    return to_html(Figure{title, scenario.network_svg, "", note + scenario.attribution, std::move(wide)});
 }
 
 }  // namespace clearway::report::detail
