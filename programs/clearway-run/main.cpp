@@ -24,11 +24,12 @@ int fail_usage() {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-    using namespace clearway;
+    namespace core = clearway::core;
+    namespace loop = clearway::loop;
     const std::string_view order = argument_count > 1 ? arguments[1] : "";
     try {
         if (order == "--version") {
-            fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, sumo::version());
+            fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, clearway::sumo::version());
             return 0;
         }
         if (argument_count != 3) return fail_usage();

@@ -88,7 +88,7 @@ std::vector<double> holm(std::span<const double> p_values) {
     std::vector<double> adjusted(p_values.size());
     double largest = 0.0;
     for (std::size_t step = 0; step < order.size(); ++step) {
-        const double factor = static_cast<double>(order.size() - step);
+        const auto factor = static_cast<double>(order.size() - step);
         largest = std::max(largest, std::min(1.0, factor * p_values[order[step]]));
         adjusted[order[step]] = largest;
     }

@@ -53,7 +53,7 @@ std::vector<std::uint16_t> links_between(const Network& network, core::EdgeIndex
         }
     }
     std::ranges::sort(links);
-    links.erase(std::ranges::unique(links).begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
     return links;
 }
 

@@ -191,8 +191,7 @@ void require_pairs(const std::vector<const GraphSample*>& samples, const char* p
 
 SeedSplit split_seeds(std::vector<DataSeed> seeds, const CorrectedConfig& config) {
     std::ranges::sort(seeds);
-    const auto repeated = std::ranges::unique(seeds);
-    seeds.erase(repeated.begin(), repeated.end());
+    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     if (seeds.size() < 3) {
         throw core::InputError(
             {"--data", fmt::format("runs of {} seeds", seeds.size()), "3 seeds or more",

@@ -39,8 +39,7 @@ Links SignalControl::requested(Ledger& ledger) {
         links.insert(links.end(), asked.begin(), asked.end());
     }
     std::ranges::sort(links);
-    const auto repeated = std::ranges::unique(links);
-    links.erase(repeated.begin(), repeated.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
     return links;
 }
 
@@ -100,7 +99,8 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
 
 /// Nobody who has lost green is still on a way that those who get it will cross.
 bool SignalControl::is_clear(const OccupiedLanes& occupied) const {
-    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+    const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
+    for (std::uint16_t link = 0; link < link_count; ++link) {
         const bool is_served = std::ranges::binary_search(links_, link);
         if (is_served || (!links_.empty() && !conflict(signal_, {link}, links_))) continue;
         for (const core::LaneIndex lane : inner_lanes_[link]) {

@@ -20,8 +20,8 @@ struct VehicleSurroundings {
     const truth::Snapshot& snapshot;
     const traffic::Roster& roster;
     const truth::SelfKnowledge& self;
-    traffic::SafetyChecks safety_checks;
-    LateralModel lateral_model;
+    traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
+    LateralModel lateral_model = LateralModel::lane;
     core::Seconds step;  ///< Time since the last step; 0 at the first.
 };
 

@@ -30,8 +30,7 @@ void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges,
         if (on_approach && !crosses) approach.links.push_back(link);
     }
     std::ranges::sort(approach.links);
-    const auto repeated = std::ranges::unique(approach.links);
-    approach.links.erase(repeated.begin(), repeated.end());
+    approach.links.erase(std::unique(approach.links.begin(), approach.links.end()), approach.links.end());
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ void NetworkBuilder::list_successors() {
             }
         }
         std::ranges::sort(reached);
-        const auto repeated = std::ranges::unique(reached);
-        network_.successors_.insert(network_.successors_.end(), reached.begin(), repeated.begin());
+        const auto repeated = std::unique(reached.begin(), reached.end());
+        network_.successors_.insert(network_.successors_.end(), reached.begin(), repeated);
         network_.first_successor_.push_back(static_cast<std::uint32_t>(network_.successors_.size()));
     }
 }
