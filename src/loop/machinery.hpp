@@ -10,7 +10,7 @@ namespace clearway::loop {
 /// What every condition of a worker shares; references outlive what is made from it.
 struct Surroundings {
     const roads::Network& network;
-    core::KeyedRandom random;
+    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
 };
 

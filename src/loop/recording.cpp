@@ -81,7 +81,7 @@ void PairDatasetRecorder::take(const truth::Snapshot& snapshot) {
     for (std::uint32_t row = 0; row < snapshot.size(); ++row) {
         prediction::as_published_row(
             snapshot.motion(row), snapshot.vehicle_class[row], network_,
-            std::span(dataset_.features).subspan(row * feature_count_, feature_count_));
+            std::span(dataset_.features).subspan(std::size_t{row} * feature_count_, feature_count_));
     }
     graph::LinkRules listed = rules_;
     if (pairs_ == results::ListedPairs::candidates) listed.radius_m = prediction::candidate_radius_m;

@@ -28,7 +28,7 @@ inline constexpr std::array vehicle_outcomes = {VehicleOutcome::arrived, Vehicle
 
 /// `arrived`, `running_at_end`, ...
 std::string_view name(VehicleOutcome outcome);
-std::optional<VehicleOutcome> vehicle_outcome_from(std::string_view name);
+std::optional<VehicleOutcome> vehicle_outcome_from(std::string_view word);
 
 /// One vehicle of a run, from SUMO's tripinfo. Times of a vehicle that did not arrive are those up to its
 /// last moment on the road, so lower bounds; a vehicle that was not inserted has none.

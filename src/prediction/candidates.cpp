@@ -104,7 +104,7 @@ void SceneBuilder::sort_pairs(Scene& scene) {
     }
 }
 
-void SceneBuilder::take(RowPair pair, Scene& scene) {
+void SceneBuilder::take(RowPair pair, Scene& scene) const {
     const Tracks& tracks = scene.tracks;
     const float last_m = distance_m(tracks.last_x_m, tracks.last_y_m, pair);
     const float now_m = tracks.all_current ? last_m : distance_m(tracks.x_m, tracks.y_m, pair);

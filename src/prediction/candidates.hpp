@@ -45,7 +45,7 @@ class SceneBuilder {
   private:
     void collect_detected(const traffic::Observation& observation, Scene& scene);
     void sort_pairs(Scene& scene);
-    void take(RowPair pair, Scene& scene);
+    void take(RowPair pair, Scene& scene) const;
 
     const roads::Network& network_;
     graph::LinkRules rules_;

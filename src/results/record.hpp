@@ -92,7 +92,7 @@ enum class FailureCause : std::uint8_t {
     other,
 };
 std::string_view name(FailureCause cause);
-std::optional<FailureCause> failure_cause_from(std::string_view name);
+std::optional<FailureCause> failure_cause_from(std::string_view word);
 /// Whether another attempt could end differently: signals and time limits.
 bool worth_retrying(FailureCause cause);
 

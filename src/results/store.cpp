@@ -1,5 +1,6 @@
 #include "results/store.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -79,10 +80,8 @@ std::string differences(const Manifest& stored, const Manifest& wanted) {
 }
 
 bool holds_something(const fs::path& folder) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        if (!entry.path().filename().string().starts_with(".")) return true;
-    }
-    return false;
+    return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                       [](const auto& entry) { return !entry.path().filename().string().starts_with("."); });
 }
 
 void require_same(const fs::path& file, const std::string& content, const RunKey& key) {

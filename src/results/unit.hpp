@@ -21,7 +21,7 @@ enum class Engine : std::uint8_t {
 
 /// `standard`, `sublane`, `solo`.
 std::string_view name(Engine engine);
-std::optional<Engine> engine_from(std::string_view name);
+std::optional<Engine> engine_from(std::string_view word);
 
 /// A named combination of failure, predictor and policy parts.
 struct ConditionSpec {

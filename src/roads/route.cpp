@@ -145,6 +145,8 @@ std::vector<StopLine> signals_ahead(const Network& network, Route route, const t
     return lines;
 }
 
+// Six parameters, as the public header explains each.
+// NOLINTNEXTLINE(readability-function-size)
 core::Metres drivable(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,
                       core::Metres lane_position, core::Metres horizon) {
     if (!lane.exists()) throw std::invalid_argument("no lane");

@@ -34,6 +34,7 @@ bool finite(const EpochLoss& loss) {
 }
 
 /// The published loop. Leaves losses, outcome and state in `result`.
+// NOLINTNEXTLINE(readability-function-size): the loop of the source, with all that it touches named
 void run_epochs(TorchNet& net, const GraphBatch& train, const GraphBatch& test, std::uint32_t epochs,
                 const TrainingHooks& hooks, AsPublishedResult& result) {
     for (std::uint32_t epoch = 0; epoch < epochs; ++epoch) {

@@ -83,6 +83,7 @@ std::string note_of(const Json& summary) {
                        summary["data_hash"].get<std::string>());
 }
 
+// NOLINTNEXTLINE(readability-function-size): every argument is a file or what goes into it
 void write_model(const std::filesystem::path& folder, const std::string& model, const StateDict& state,
                  const prediction::FeatureSchema& features, const TrainingConfig& config,
                  const Json& summary) {

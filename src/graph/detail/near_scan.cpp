@@ -9,6 +9,8 @@
 
 namespace clearway::graph::detail {
 
+// Six parameters: a kernel's arguments stay in registers.
+// NOLINTNEXTLINE(readability-function-size)
 std::size_t scan_scalar(const ScanColumns& columns, std::size_t first, std::size_t last,
                         const ScanTarget& target, std::uint32_t* vehicles, float* squared_m2) {
     std::size_t count = 0;
@@ -44,6 +46,7 @@ __attribute__((target("avx2"))) __m256i load(const void* words) {
 }
 
 /// No fused multiply-add, on purpose: the sums must equal those of the scalar kernel.
+// NOLINTNEXTLINE(readability-function-size)
 __attribute__((target("avx2"))) std::size_t scan_avx2(const ScanColumns& columns, std::size_t first,
                                                       std::size_t last, const ScanTarget& target,
                                                       std::uint32_t* vehicles, float* squared_m2) {

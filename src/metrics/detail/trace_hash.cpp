@@ -45,7 +45,7 @@ struct TraceHash::State {
     void operator()(core::VehicleKey vehicle) { value(vehicle.value); }
     void operator()(core::SignalIndex signal) { value(signal.value); }
 
-    XXH3_state_t hash;
+    XXH3_state_t hash{};
 };
 
 TraceHash::TraceHash() : state_(std::make_unique<State>()) {}

@@ -21,7 +21,8 @@ bool starts_on(const View& view, const roads::Signal& signal, std::size_t link, 
 void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges, Approach& approach) {
     const roads::Signal& signal = view.network().signal(approach.signal);
     approach.links = approach.own_links;
-    for (std::uint16_t link = 0; link < signal.links.size(); ++link) {
+    const auto link_count = static_cast<std::uint16_t>(signal.links.size());
+    for (std::uint16_t link = 0; link < link_count; ++link) {
         const bool on_approach = std::ranges::any_of(
             edges, [&](core::EdgeIndex edge) { return starts_on(view, signal, link, edge); });
         const bool crosses = std::ranges::any_of(approach.own_links, [&](std::uint16_t own) {

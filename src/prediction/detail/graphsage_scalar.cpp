@@ -8,14 +8,14 @@ struct ScalarLanes {
     float value[lane_count];
 
     static ScalarLanes all(float number) {
-        ScalarLanes lanes;
+        ScalarLanes lanes{};
         for (float& lane : lanes.value) {
             lane = number;
         }
         return lanes;
     }
     static ScalarLanes load(const float* from) {
-        ScalarLanes lanes;
+        ScalarLanes lanes{};
         for (std::size_t at = 0; at < lane_count; ++at) {
             lanes.value[at] = from[at];
         }
@@ -28,7 +28,7 @@ struct ScalarLanes {
     }
     template <class Operation>
     ScalarLanes with(const ScalarLanes& other, Operation operation) const {
-        ScalarLanes lanes;
+        ScalarLanes lanes{};
         for (std::size_t at = 0; at < lane_count; ++at) {
             lanes.value[at] = operation(value[at], other.value[at]);
         }

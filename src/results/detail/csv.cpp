@@ -28,11 +28,9 @@ std::vector<std::vector<std::string>> parse_csv(std::string_view text) {
             ++at;
         } else if (letter == '"') {
             quoted = !quoted;
-        } else if (quoted) {
-            cell += letter;
-        } else if (letter == ',') {
+        } else if (!quoted && letter == ',') {
             rows.back().emplace_back();
-        } else if (letter == '\n') {
+        } else if (!quoted && letter == '\n') {
             row_open = false;
         } else {
             cell += letter;

@@ -1,16 +1,18 @@
 #include "roads/detail/walk.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
 
 namespace clearway::roads::detail {
 namespace {
 
 bool leads_to(const Network& network, core::LaneIndex lane, core::EdgeIndex edge) {
-    for (const Connection& connection : network.connections_from(lane)) {
-        if (network.lane(connection.to).edge == edge) return true;
-    }
-    return false;
+    const std::span<const Connection> ways = network.connections_from(lane);
+    return std::any_of(ways.begin(), ways.end(), [&](const Connection& connection) {
+        return network.lane(connection.to).edge == edge;
+    });
 }
 
 core::EdgeIndex edge_at(Route route, std::size_t place) {

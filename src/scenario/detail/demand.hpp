@@ -29,7 +29,7 @@ struct PlannedDemand {
 struct DemandContext {
     const ScenarioConfig& config;
     const roads::Network& network;
-    core::KeyedRandom random;
+    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
 };
 
 /// Flows and trips: vehicles `human.0`, `automated.0`, ... counted by the configuration.

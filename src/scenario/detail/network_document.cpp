@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 7> newer_classes = {"cable_car", "subway"
 
 /// The bytes of a file, decompressed where it is compressed.
 std::string inflated(const std::filesystem::path& file) {
-    const gzFile stream = gzopen(file.c_str(), "rb");
+    gzFile stream = gzopen(file.c_str(), "rb");
     if (stream == nullptr) refuse(file, "cannot be read");
     std::string bytes;
     std::array<char, 1 << 16> buffer{};

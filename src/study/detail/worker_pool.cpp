@@ -31,7 +31,7 @@ void WorkerPool::start(std::size_t job, const core::Command& command) {
     running_.push_back({job, core::start(command), false, std::nullopt});
 }
 
-void WorkerPool::enforce_limit(Running& running) {
+void WorkerPool::enforce_limit(Running& running) const {
     if (!running.terminated && seconds_since(running.child.started) > limits_.time_limit_s) {
         running.timed_out = true;
         running.terminated = Clock::now();

@@ -50,7 +50,7 @@ class WorkerPool {
         bool timed_out = false;
         std::optional<Clock::time_point> terminated;  ///< When SIGTERM was sent.
     };
-    void enforce_limit(Running& running);
+    void enforce_limit(Running& running) const;
 
     PoolLimits limits_;
     std::vector<Running> running_;
