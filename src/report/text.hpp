@@ -4,13 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "core/markup.hpp"
 #include "report/facts.hpp"
 
 namespace clearway::report {
 
-/// Text made safe for HTML and SVG, in elements and in double-quoted attributes. Control characters other
-/// than tab and newline become U+FFFD.
-std::string escaped(std::string_view text);
+using core::escaped;
 
 /// Which letters numbers are written with.
 enum class Script : std::uint8_t {

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/markup.hpp"
+
 namespace clearway::scenario {
 namespace {
 
@@ -111,29 +113,6 @@ void draw_scale_bar(const Frame& frame, std::string& svg) {
         frame.stretch > 1.0 ? fmt::format("; drawn {:.1f} times as wide across", frame.stretch) : "");
 }
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '&':
-                result += "&amp;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += letter;
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string network_picture(const roads::Network& network, const std::string& title) {
@@ -145,7 +124,7 @@ std::string network_picture(const roads::Network& network, const std::string& ti
         ".network .lane{{opacity:.75}}.network .junction{{opacity:.3}}.network .signal{{fill:#d55e00}}"
         ".network .bar{{stroke:currentColor;stroke-width:2}}.network text{{font:12px "
         "sans-serif;fill:currentColor}}</style>\n",
-        picture_width, frame.height, escaped(title));
+        picture_width, frame.height, core::escaped(title));
     draw_lanes(network, frame, svg);
     draw_signals(network, frame, svg);
     draw_scale_bar(frame, svg);
