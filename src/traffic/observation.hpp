@@ -51,6 +51,7 @@ struct Observation {
     core::Seconds time;
     core::Seconds report_time;  ///< Time of the latest report round, <= time.
     bool is_report = false;     ///< A report round took place at `time`.
+    bool exits_known = true;    ///< Vehicles that left the network are absent: every exit has a detector.
     std::vector<ObservedVehicle> vehicles;
     /// What each emergency vehicle knows of itself, fresh, whether or not others see it. Ordered by key.
     std::vector<ObservedVehicle> own_states;

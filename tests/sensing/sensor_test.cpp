@@ -185,6 +185,7 @@ TEST(Sensor, DropsThoseThatLeftWhenExitsAreKnownAndKeepsThemOtherwise) {
         crowd.at(0.25);
         sensor->observe(crowd.snapshot, crowd.roster, observation);
         EXPECT_EQ(find(observation, gone) != nullptr, exits == Exits::unknown);
+        EXPECT_EQ(observation.exits_known, exits == Exits::known);
         EXPECT_EQ(observation.vehicles.size(), exits == Exits::known ? 9u : 10u);
         crowd.at(5.0);
         sensor->observe(crowd.snapshot, crowd.roster, observation);

@@ -25,6 +25,7 @@ void PerfectSensor::observe(const truth::Snapshot& snapshot, const traffic::Rost
     observation.time = snapshot.time;
     observation.report_time = snapshot.time;
     observation.is_report = true;
+    observation.exits_known = true;
     observation.vehicles.clear();
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
         observation.vehicles.push_back(exact_report(snapshot, row));

@@ -155,6 +155,7 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
                          traffic::Observation& observation) {
     observation.time = snapshot.time;
     observation.report_time = core::Seconds(std::max(newest_measured_s_, 0.0));
+    observation.exits_known = config_.exits == Exits::known;
     observation.vehicles.clear();
     for (const Report& report : last_reports_) {
         observation.vehicles.push_back(
