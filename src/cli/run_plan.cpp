@@ -99,6 +99,11 @@ study::StudyResult run_with_progress(const study::Plan& plan, const results::Sto
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     study::RunnerOptions options;
     options.workers = workers;
+    options.on_set_aside = [](const results::SetAside& damaged) {
+        fmt::print(stderr,
+                   "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
+                   results::to_text(damaged.key), damaged.why, damaged.place.string());
+    };
     study::StudyResult result = study::run(plan, store, options, [&](const study::StudyProgress& now) {
         progress.update(now.done + now.failed, now.failed);
     });

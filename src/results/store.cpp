@@ -92,6 +92,22 @@ void require_same(const fs::path& file, const std::string& content, const RunKey
                     file.string(), to_text(key)));
 }
 
+/// `target`, or with `.2`, `.3`, ... behind it, whichever is not there yet.
+fs::path free_place(const fs::path& target) {
+    fs::path place = target;
+    for (int number = 2; fs::exists(place); ++number)
+        place = target.string() + fmt::format(".{}", number);
+    return place;
+}
+
+void move_into(const fs::path& folder, const fs::path& source) {
+    std::error_code error;
+    fs::rename(source, folder / (fs::is_directory(source) ? "run" : "failure.json"), error);
+    if (error)
+        throw core::EnvironmentError(fmt::format("{}: is damaged and cannot be moved to {}: {}",
+                                                 source.string(), folder.string(), error.message()));
+}
+
 }  // namespace
 
 Store::Store(fs::path folder, Manifest manifest)
@@ -171,17 +187,57 @@ bool Store::complete(const RunKey& key) const {
     return fs::exists(run_folder(key) / "run.json");
 }
 
+RunRecord Store::read_checked(const RunKey& key, std::string& vehicles) const {
+    const fs::path folder = run_folder(key);
+    const std::string file = (folder / "run.json").string();
+    vehicles = core::read_file(folder / "vehicles.csv");
+    RunRecord record = detail::run_from_json(core::read_file(file), vehicles, file);
+    if (record.key != key)
+        throw core::InputError({file, "is of run " + to_text(record.key), to_text(key), ""});
+    return record;
+}
+
 std::optional<RunRecord> Store::read(const RunKey& key) const {
     if (!complete(key)) return std::nullopt;
+    try {
+        std::string vehicles;
+        RunRecord record = read_checked(key, vehicles);
+        record.vehicles = detail::vehicles_from_csv(vehicles, (run_folder(key) / "vehicles.csv").string());
+        return record;
+    } catch (const core::InputError& error) {
+        std::vector<core::Problem> problems = error.problems();
+        problems.back().cure =
+            "This record is damaged. The command that made the study (command.txt), given again, sets it "
+            "aside and makes the run anew";
+        throw core::InputError(std::move(problems));
+    }
+}
+
+void Store::check(const RunKey& key) const {
+    std::string vehicles;
     const fs::path folder = run_folder(key);
-    const std::string vehicles = core::read_file(folder / "vehicles.csv");
-    RunRecord record =
-        detail::run_from_json(core::read_file(folder / "run.json"), vehicles, (folder / "run.json").string());
-    record.vehicles = detail::vehicles_from_csv(vehicles, (folder / "vehicles.csv").string());
-    if (record.key != key)
-        throw core::InputError(
-            {(folder / "run.json").string(), "is of run " + to_text(record.key), to_text(key), ""});
-    return record;
+    if (fs::exists(folder)) {
+        read_checked(key, vehicles);
+        read_timing(key);
+    }
+    read_failure(key);
+}
+
+std::vector<SetAside> Store::set_damaged_aside(const std::vector<RunKey>& keys) const {
+    std::vector<SetAside> moved;
+    for (const RunKey& key : keys) {
+        try {
+            check(key);
+        } catch (const core::InputError& error) {
+            const fs::path place = free_place(folder_ / "damaged" / key.scenario / key.condition /
+                                              fmt::format("{:05}", key.replication));
+            core::make_folder(place);
+            if (fs::exists(run_folder(key))) move_into(place, run_folder(key));
+            if (fs::exists(failure_file(key))) move_into(place, failure_file(key));
+            moved.push_back({key, place, error.what()});
+        }
+    }
+    return moved;
 }
 
 std::optional<RunTiming> Store::read_timing(const RunKey& key) const {

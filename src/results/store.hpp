@@ -11,6 +11,13 @@
 
 namespace clearway::results {
 
+/// A run whose files are not what was written, and where they were put.
+struct SetAside {
+    RunKey key;
+    std::filesystem::path place;
+    std::string why;  ///< What is wrong, with the file.
+};
+
 /// The run folder of a study.
 ///
 ///     manifest.json                                      what the study is
@@ -19,6 +26,7 @@ namespace clearway::results {
 ///                                        /vehicles.csv
 ///                                        /timing.json    differs from machine to machine
 ///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
+///     damaged/SCENARIO/CONDITION/                        runs whose files did not fit their hash, kept
 ///     units/, logs/                                      orders for workers, and what they said
 ///     work/                                              SUMO's files of runs that did not end well
 ///     runs.csv, vehicles.csv, results.sqlite             all runs in one table each, written at the end
@@ -60,12 +68,19 @@ class Store {
     std::optional<FailureRecord> read_failure(const RunKey& key) const;
     /// Forgets a failure so that the run can be tried again.
     void forget_failure(const RunKey& key) const;
+    /// Checks the files of these runs against their hashes and moves what is damaged to `damaged`, so that
+    /// such a run counts as not yet made. Reads all of them. Only while nobody writes. Throws
+    /// core::EnvironmentError where it cannot be moved.
+    std::vector<SetAside> set_damaged_aside(const std::vector<RunKey>& keys) const;
     /// Removes what killed writers left behind. Only while nobody writes.
     void remove_leftovers() const;
 
   private:
     Store(std::filesystem::path folder, Manifest manifest);
     std::filesystem::path failure_file(const RunKey& key) const;
+    /// The record without its vehicles, and their text. Throws core::InputError unless both fit their hashes.
+    RunRecord read_checked(const RunKey& key, std::string& vehicles) const;
+    void check(const RunKey& key) const;
 
     std::filesystem::path folder_;
     Manifest manifest_;

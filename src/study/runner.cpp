@@ -57,6 +57,7 @@ class Runner {
         core::make_folder(store.unit_file("").parent_path());
         core::make_folder(store.log_file("").parent_path());
         attempts_.resize(plan.units.size(), 0);
+        set_damaged_aside();
         queue_units();
     }
 
@@ -88,6 +89,16 @@ class Runner {
             if (!failure || results::worth_retrying(failure->cause)) open.push_back(condition);
         }
         return open;
+    }
+
+    void set_damaged_aside() {
+        std::vector<RunKey> keys;
+        for (const PlannedUnit& planned : plan_.units)
+            for (const results::ConditionSpec& condition : planned.unit.conditions)
+                keys.push_back(key_of(planned.unit, condition));
+        for (const results::SetAside& damaged : store_.set_damaged_aside(keys)) {
+            if (options_.on_set_aside) options_.on_set_aside(damaged);
+        }
     }
 
     void queue_units() {

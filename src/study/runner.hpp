@@ -17,6 +17,8 @@ struct RunnerOptions {
     double unit_time_limit_s = 3600.0;  ///< Wall time of a unit; > 0. Assumed: far above any run met so far.
     int attempts = 3;                   ///< For signals and time limits: one try and two more.
     double termination_grace_s = 5.0;   ///< From SIGTERM to SIGKILL.
+    /// Called for each damaged record that was found before anything runs; may be empty.
+    std::function<void(const results::SetAside&)> on_set_aside = {};
 };
 
 /// How far a study is. Runs, not units.
@@ -43,6 +45,9 @@ struct StudyResult {
 /// - Any other end is a failure of the conditions that have neither: by signal, by time limit (SIGTERM, then
 ///   SIGKILL), by exit code 3 (bad input) or another.
 /// - Standard output and error go to the log file of the unit.
+///
+/// Records that do not fit their hashes are set aside first (results::Store::set_damaged_aside), and their
+/// runs are made again.
 ///
 /// Failures by signal and time limit are tried again; the others are not, neither now nor on resuming in the
 /// same folder, unless the worker's program or the environment was at fault (exit codes 4 and 127: then

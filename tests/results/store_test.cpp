@@ -78,6 +78,64 @@ TEST_F(StoreOfAStudy, NoticesARecordThatWasEdited) {
     EXPECT_THROW(store_.read(key), core::InputError);
 }
 
+/// Replaces the first `from` in a file.
+void edit(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+    std::string text = core::read_file(file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, from.size(), to);
+    core::write_atomically(file, text);
+}
+
+TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
+    store_.write(record(key), {});
+    edit(store_.run_folder(key) / "run.json", "600.25", "600.75");
+    try {
+        store_.read(key);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("run.json: hash"),
+                                                 testing::HasSubstr("sets it aside")));
+    }
+}
+
+TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
+    const std::vector<RunKey> keys = store_.manifest().runs();
+    for (const RunKey& each : keys)
+        store_.write(record(each), {});
+    EXPECT_TRUE(store_.set_damaged_aside(keys).empty());
+    const auto file = [&](std::size_t run, const char* name) { return store_.run_folder(keys[run]) / name; };
+    edit(file(0, "run.json"), "600.25", "600.75");
+    std::filesystem::resize_file(file(1, "run.json"), 100);
+    std::filesystem::resize_file(file(2, "vehicles.csv"), 60);
+    std::filesystem::remove(file(3, "run.json"));
+    std::filesystem::resize_file(file(4, "timing.json"), 5);
+    const std::string cut = core::read_file(file(1, "run.json"));
+
+    const std::vector<SetAside> moved = store_.set_damaged_aside(keys);
+    ASSERT_EQ(moved.size(), 5U);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        EXPECT_EQ(moved[i].key, keys[i]);
+        EXPECT_THAT(moved[i].why, testing::HasSubstr(store_.run_folder(keys[i]).string()));
+        EXPECT_FALSE(store_.complete(keys[i]));
+        EXPECT_EQ(store_.write(record(keys[i]), {}), Store::Written::first);
+    }
+    EXPECT_EQ(core::read_file(moved[1].place / "run" / "run.json"), cut);
+    EXPECT_TRUE(store_.set_damaged_aside(keys).empty());
+    edit(file(0, "run.json"), "600.25", "600.75");
+    EXPECT_NE(store_.set_damaged_aside(keys).at(0).place, moved[0].place) << "the first one is kept, too";
+}
+
+TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
+    store_.write(failure(key));
+    std::filesystem::resize_file(store_.folder() / "failures" / "alpha" / "baseline" / "00001.json", 9);
+    EXPECT_THROW(store_.read_failure(key), core::InputError);
+    const std::vector<SetAside> moved = store_.set_damaged_aside({key});
+    ASSERT_EQ(moved.size(), 1U);
+    EXPECT_FALSE(store_.read_failure(key));
+    EXPECT_TRUE(std::filesystem::exists(moved[0].place / "failure.json"));
+}
+
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
     store_.write(failure(key));
     EXPECT_EQ(*store_.read_failure(key), failure(key));

@@ -184,6 +184,22 @@ TEST_F(Study, GoesOnAfterKillNineToTheSameBytesAsUndisturbed) {
     EXPECT_EQ(tables_of("killed"), expected);
 }
 
+TEST_F(Study, MakesDamagedRunsAgainToTheSameBytesAndSaysSo) {
+    plan({"baseline", "treated"}, 2);
+    run_in("out");
+    const std::string expected = tables_of("out");
+    const results::Store store = store_in("out");
+    std::filesystem::resize_file(store.run_folder({"alpha", "treated", 1}) / "run.json", 40);
+    std::vector<RunKey> told;
+    options_.on_set_aside = [&](const results::SetAside& damaged) { told.push_back(damaged.key); };
+    const StudyResult result = run_in("out");
+    EXPECT_EQ(result.exit_code, ExitCode::ok);
+    EXPECT_EQ(result.progress.resumed, 7U);
+    EXPECT_THAT(told, testing::ElementsAre(RunKey{"alpha", "treated", 1}));
+    EXPECT_EQ(tables_of("out"), expected);
+    EXPECT_TRUE(std::filesystem::exists(store.folder() / "damaged/alpha/treated/00001/run/run.json"));
+}
+
 TEST_F(Study, EndsItsWorkersOnSignalsAndTellsWhich) {
     plan({"baseline", "hang"}, 4);
     for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {

@@ -22,6 +22,9 @@ void read_key(ObjectReader& reader, RunKey& key) {
     reader.read("replication", key.replication);
 }
 
+/// Of everything else in `run.json`.
+constexpr const char* hash_key = "hash";
+
 /// What follows the four words that stand first in a line.
 constexpr std::size_t first_number = 4;
 
@@ -55,14 +58,18 @@ std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv
     write_fields(object["provenance"], record.provenance);
     write_fields(object["metrics"], record.metrics);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
+    object[hash_key] = core::content_hash(to_text(object));
     return to_text(object);
 }
 
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where) {
-    const Json object = parse_object(text, where);
+    Json object = parse_object(text, where);
     RunRecord record;
+    std::string hash;
     std::string vehicles_hash;
     std::vector<core::Problem> problems;
+    ObjectReader(object, where, problems).read(hash_key, hash);
+    object.erase(hash_key);
     ObjectReader reader(object, where, problems);
     read_key(reader, record.key);
     record.condition = condition_from(reader.child("condition_spec", Json::value_t::object), where, problems);
@@ -71,6 +78,8 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
     ObjectReader(reader.child("metrics", Json::value_t::object), where + ": metrics", problems)
         .read_fields(record.metrics);
     reader.read("vehicles_hash", vehicles_hash);
+    if (problems.empty() && hash != core::content_hash(to_text(object)))
+        reader.problem(hash_key, "does not fit the rest");
     if (problems.empty() && vehicles_hash != core::content_hash(vehicles_csv))
         reader.problem("vehicles_hash", "does not fit vehicles.csv");
     if (!problems.empty()) throw core::InputError(problems);

@@ -9,7 +9,7 @@ namespace clearway::results::detail {
 
 // The files of one run, to and from text. The readers throw core::InputError, naming `where`.
 
-/// `run.json`: everything but the vehicles, of which it holds the hash.
+/// `run.json`: everything but the vehicles, of which it holds the hash, and a hash of itself.
 std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv);
 /// Record without vehicles. `vehicles_csv` must have the hash that the run was stored with.
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where);
