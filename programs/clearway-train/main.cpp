@@ -1,22 +1,19 @@
 // clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
 // MB at each launch; `clearway train` becomes this program.
-#include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <type_traits>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common.hpp"
 #include "core/error.hpp"
-#include "core/fields.hpp"
 #include "core/files.hpp"
 #include "prediction/dataset_files.hpp"
 #include "prediction/graph_sample.hpp"
@@ -28,7 +25,6 @@ namespace clearway::training {
 namespace {
 
 enum class Mode { as_published, corrected };
-enum class Printing { epochs, closing_only, json };
 
 struct Arguments {
     std::filesystem::path data;
@@ -39,31 +35,6 @@ struct Arguments {
     Printing printing = Printing::epochs;
     CorrectedConfig config;
 };
-
-volatile std::sig_atomic_t received_signal = 0;
-
-extern "C" void remember_signal(int signal) {
-    received_signal = signal;
-}
-
-/// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
-/// and default.
-template <class Config>
-std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const std::string& group) {
-    std::vector<CLI::Option*> options;
-    core::for_each_field<Config>([&](const auto& field) {
-        std::string option = std::string("--") + field.name;
-        std::ranges::replace(option, '_', '-');
-        auto& member = config.*field.member;
-        using Member = std::remove_reference_t<decltype(member)>;
-        options.push_back(
-            app.add_option(option, member, field.doc)
-                ->check(CLI::Range(static_cast<Member>(field.minimum), static_cast<Member>(field.maximum)))
-                ->option_text(fmt::format("NUMBER, {:g} to {:g} [{}]", field.minimum, field.maximum, member))
-                ->group(group));
-    });
-    return options;
-}
 
 void declare_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--data", arguments.data,
@@ -98,6 +69,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
     for (CLI::Option* option : add_field_options(app, arguments.config, "Only with --corrected"))
         option->needs(corrected);
     app.footer(
+        "`clearway train graphsage --help` explains how the improved net is trained.\n\n"
         "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
         "torch.load),\n"
         "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv.\n\n"
@@ -109,7 +81,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
 
 TrainingHooks hooks_for(Printing printing) {
     TrainingHooks hooks;
-    hooks.should_stop = [] { return received_signal != 0; };
+    hooks.should_stop = stop_requested;
     if (printing != Printing::epochs) return hooks;
     hooks.on_epoch = [](std::uint32_t epoch, const EpochLoss& loss) {
         // The dissertation's three lines. float, as Python's item() is printed there with the digits of the
@@ -117,16 +89,6 @@ TrainingHooks hooks_for(Printing printing) {
         fmt::print("epoch: {}\n=======\nloss: {} {}\n", epoch, loss.train, loss.held_out);
     };
     return hooks;
-}
-
-std::string figure(const std::optional<double>& value) {
-    return value ? fmt::format("{:.3f}", *value) : "undefined";
-}
-
-void print_quality(const std::string& label, const metrics::LinkQuality& quality) {
-    fmt::print("{}: {} pairs, {} linked; AUC {}, AP {}, F1 {} (from {:.3f}), log loss {} nat, ECE {}\n",
-               label, quality.pairs, quality.true_links, figure(quality.auc), figure(quality.ap),
-               figure(quality.f1), quality.threshold, figure(quality.log_loss), figure(quality.ece));
 }
 
 void print_closing(const AsPublishedResult& result) {
@@ -156,25 +118,6 @@ void print_closing(const CorrectedResult& result) {
                    figure(group.dead_reckoning.auc), figure(group.dead_reckoning.ap),
                    figure(group.dead_reckoning.f1));
     }
-}
-
-core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model) {
-    if (outcome == Outcome::diverged) {
-        fmt::print(stderr,
-                   "clearway-train: training diverged in epoch {}: a loss is not finite. {}. Try a smaller "
-                   "--learning-rate, or "
-                   "features of a smaller scale\n",
-                   losses.size() - 1,
-                   has_model ? "The parameters before it are kept"
-                             : "No epoch had finite losses, so no model was written");
-        return core::ExitCode::runs_failed;
-    }
-    if (outcome == Outcome::interrupted) {
-        fmt::print(stderr, "clearway-train: interrupted after {} epochs; {}\n", losses.size(),
-                   has_model ? "the model so far is written" : "no model was written");
-        return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
-    }
-    return core::ExitCode::ok;
 }
 
 template <class Result>
@@ -222,6 +165,9 @@ core::ExitCode run_corrected(const Arguments& arguments) {
 }
 
 int run(int argument_count, char** argument_values) {
+    if (argument_count > 1 && std::string_view(argument_values[1]) == "graphsage") {
+        return run_graphsage(argument_count - 1, argument_values + 1);
+    }
     CLI::App app("Trains the dissertation's GraphSAGENet for link prediction, as published or corrected.");
     app.name("clearway train");
     app.set_version_flag("--version", "clearway-train " CLEARWAY_VERSION);
@@ -232,8 +178,7 @@ int run(int argument_count, char** argument_values) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
     }
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
+    watch_signals();
     core::make_folder(arguments.out);
     const core::ExitCode code =
         arguments.mode == Mode::corrected ? run_corrected(arguments) : run_as_published(arguments);

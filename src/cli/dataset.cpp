@@ -79,7 +79,7 @@ void print_files(const std::vector<std::string>& lines, Printing printing) {
 }
 
 core::ExitCode record(Arguments arguments, const Invocation& invocation) {
-    const bool samples = arguments.order.kind == results::DatasetKind::samples;
+    const bool samples = arguments.order.kind != results::DatasetKind::published;
     if (samples && arguments.order.failures.empty()) arguments.order.failures = {"B10"};
     if (!samples && arguments.seeds > 1) {
         throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds),
@@ -115,13 +115,27 @@ void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Opt
 }
 
 CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
-    const char* const group = "Many snapshots (for train --corrected)";
+    const char* const group = "Many snapshots (for train --corrected and --graphsage)";
     results::DatasetOrder& order = arguments.order;
     CLI::Option* const samples =
         app.add_flag_callback(
                "--samples", [&order] { order.kind = results::DatasetKind::samples; },
                "What predictors are given at many moments, and the answers [one snapshot]")
             ->group(group);
+    static const std::map<std::string, results::DatasetKind> nets = {
+        {"corrected", results::DatasetKind::samples}, {"graphsage", results::DatasetKind::repair}};
+    app.add_option_function<std::string>(
+           "--net", [&order](const std::string& name) { order.kind = nets.at(name); },
+           "Whose inputs: graphsage_corrected's or graphsage's")
+        ->check(CLI::IsMember(nets))
+        ->option_text("corrected|graphsage [corrected]")
+        ->needs(samples)
+        ->group(group);
+    app.add_option("--exits", order.exits, "Whether it is known when a vehicle leaves the network")
+        ->check(CLI::IsMember({"known", "unknown"}))
+        ->option_text("known|unknown [known]")
+        ->needs(samples)
+        ->group(group);
     app.add_option("--failure", order.failures, "Sensor failures, one file each (clearway list)")
         ->option_text("NAME ... [B10]")
         ->needs(samples)

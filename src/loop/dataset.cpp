@@ -31,18 +31,18 @@ class WorkFolder {
     std::filesystem::path folder_;
 };
 
-/// Passes every step on to several recorders.
-class Recorders : public StepListener {
+/// Passes every step on to several listeners.
+class Listeners : public StepListener {
   public:
-    void add(SampleRecorder& recorder) { recorders_.push_back(&recorder); }
+    void add(StepListener& listener) { listeners_.push_back(&listener); }
     void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override {
-        for (SampleRecorder* const recorder : recorders_) {
-            recorder->on_step(snapshot, roster);
+        for (StepListener* const listener : listeners_) {
+            listener->on_step(snapshot, roster);
         }
     }
 
   private:
-    std::vector<SampleRecorder*> recorders_;
+    std::vector<StepListener*> listeners_;
 };
 
 /// Car-following alone: data sets show traffic that no policy has touched.
@@ -69,28 +69,34 @@ void record_published(const results::DatasetOrder& order, UnitRun& run, const gr
                dataset.pair_count(), recorder.time().value);
 }
 
-void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+/// One recorder of a kind for each failure, all watching one run.
+template <class SampleRecorder>
+void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
+                    const prediction::FeatureSchema& features) {
     const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    const bool exits_known = order.exits == "known";
     std::vector<std::unique_ptr<SampleRecorder>> recorders;
-    Recorders all;
+    Listeners all;
     for (const std::string& failure : order.failures) {
+        sensing::FailureConfig config = sensing::failure_from(failure);
+        config.exits = exits_known ? sensing::Exits::known : sensing::Exits::unknown;
         const prediction::GraphSampleOrigin origin{.scenario = order.scenario,
-                                                   .failure = failure,
-                                                   .features = prediction::corrected_schema(),
+                                                   .failure = failure + (exits_known ? "" : " exits unknown"),
+                                                   .features = features,
                                                    .study_seed = order.study_seed,
                                                    .replication = order.replication,
                                                    .link_radius_m = rules.radius_m};
-        recorders.push_back(
-            std::make_unique<SampleRecorder>(run.network(), rules, origin,
-                                             sensing::make_sensor(sensing::failure_from(failure), random,
-                                                                  {.network = run.network(), .rules = rules}),
-                                             core::Seconds(order.interval_s)));
+        recorders.push_back(std::make_unique<SampleRecorder>(
+            run.network(), rules, origin,
+            sensing::make_sensor(config, random, {.network = run.network(), .rules = rules}),
+            core::Seconds(order.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            order.output / fmt::format("{}-{}-{:04}{}", order.scenario, order.failures[i], order.replication,
+            order.output / fmt::format("{}-{}{}-{:04}{}", order.scenario, order.failures[i],
+                                       exits_known ? "" : "-exits-unknown", order.replication,
                                        prediction::graph_sample_extension);
         recorders[i]->writer().write(file);
         fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
@@ -112,8 +118,17 @@ core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     UnitRun run(unit, work.path(), work.path());
     graph::LinkRules rules;
     rules.radius_m = run.loop_config().link_radius_m;
-    order.kind == results::DatasetKind::published ? record_published(order, run, rules)
-                                                  : record_samples(order, run, rules);
+    switch (order.kind) {
+        case results::DatasetKind::published:
+            record_published(order, run, rules);
+            break;
+        case results::DatasetKind::samples:
+            record_samples<SampleRecorder>(order, run, rules, prediction::corrected_schema());
+            break;
+        case results::DatasetKind::repair:
+            record_samples<RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
+            break;
+    }
     return core::ExitCode::ok;
 }
 

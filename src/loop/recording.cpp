@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "roads/route.hpp"
+
 namespace clearway::loop {
 namespace {
 
@@ -59,6 +61,60 @@ prediction::GraphSample SampleRecorder::sample_of(const truth::Snapshot& snapsho
             {rows.left, rows.right, pairs.dead_reckoned_m[i], static_cast<std::uint8_t>(linked)});
     }
     return sample;
+}
+
+RepairSampleRecorder::RepairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                                           const prediction::GraphSampleOrigin& origin,
+                                           std::unique_ptr<sensing::SensorModel> sensor,
+                                           core::Seconds interval)
+    : network_(network),
+      rules_(rules),
+      sensor_(std::move(sensor)),
+      scenes_(network, rules),
+      inputs_(network, rules),
+      rule_(prediction::make_predictor("route_rule", {.network = network, .rules = rules, .model_file = ""})),
+      writer_(origin),
+      interval_s_(interval.value) {}
+
+void RepairSampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    sensor_->observe(snapshot, roster, observation_);
+    if (!observation_.is_report) return;
+    scenes_.build(observation_, scene_);
+    // Both remember, so they see every report.
+    rule_->predict(observation_, belief_);
+    if (observation_.time.value < next_s_) {
+        inputs_.remember(observation_, scene_);
+        return;
+    }
+    inputs_.build(observation_, scene_, sample_.inputs);
+    if (sample_.inputs.pairs.empty()) return;
+    label(snapshot);
+    writer_.add(sample_);
+    next_s_ = observation_.time.value + interval_s_;
+}
+
+void RepairSampleRecorder::label(const truth::Snapshot& snapshot) {
+    const prediction::Tracks& tracks = scene_.tracks;
+    sample_.time_s = observation_.time.value;
+    sample_.linked.clear();
+    for (const prediction::RowPair pair : sample_.inputs.pairs) {
+        const bool linked =
+            truly_linked(snapshot, tracks.key[pair.left], tracks.key[pair.right], rules_.radius_m);
+        sample_.linked.push_back(static_cast<std::uint8_t>(linked));
+    }
+    const std::span<const float> rule = rule_->scores().probability;
+    sample_.rule.assign(rule.begin(), rule.end());
+    for (prediction::Receiver& receiver : sample_.inputs.receivers) {
+        const auto row = snapshot.row_of(tracks.key[receiver.row]);
+        const traffic::VehicleInfo* const info = observation_.roster->find(tracks.key[receiver.row]);
+        const bool on_route =
+            row && info != nullptr && info->route.exists() && tracks.last[receiver.row].lane.exists();
+        if (!on_route) continue;
+        const auto displacement = roads::distance_ahead(network_, observation_.roster->route(info->route),
+                                                        tracks.last[receiver.row], snapshot.motion(*row),
+                                                        core::Metres(receiver.reach_m));
+        if (displacement) receiver.true_displacement_m = static_cast<float>(displacement->value);
+    }
 }
 
 PairDatasetRecorder::PairDatasetRecorder(const roads::Network& network, const graph::LinkRules& rules,

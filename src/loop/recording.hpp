@@ -10,6 +10,9 @@
 #include "prediction/dataset_files.hpp"
 #include "prediction/features.hpp"
 #include "prediction/graph_sample.hpp"
+#include "prediction/predictor.hpp"
+#include "prediction/repair_inputs.hpp"
+#include "prediction/repair_sample.hpp"
 #include "results/dataset_order.hpp"
 
 namespace clearway::loop {
@@ -39,6 +42,36 @@ class SampleRecorder : public StepListener {
     prediction::MessageGraph observed_;
     std::vector<float> features_;
     prediction::GraphSampleWriter writer_;
+    double interval_s_;
+    double next_s_ = 0.0;
+};
+
+/// Records what the improved net is given, with the true links and displacements, and what the route rule
+/// says of the same pairs.
+class RepairSampleRecorder : public StepListener {
+  public:
+    /// As SampleRecorder.
+    RepairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                         const prediction::GraphSampleOrigin& origin,
+                         std::unique_ptr<sensing::SensorModel> sensor, core::Seconds interval);
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
+    const prediction::RepairSampleWriter& writer() const { return writer_; }
+
+  private:
+    void label(const truth::Snapshot& snapshot);
+
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    std::unique_ptr<sensing::SensorModel> sensor_;
+    traffic::Observation observation_;
+    prediction::SceneBuilder scenes_;
+    prediction::Scene scene_;
+    prediction::RepairInputBuilder inputs_;
+    std::unique_ptr<prediction::Predictor> rule_;
+    traffic::BelievedGraph belief_;
+    prediction::RepairSample sample_;
+    prediction::RepairSampleWriter writer_;
     double interval_s_;
     double next_s_ = 0.0;
 };

@@ -17,4 +17,9 @@ std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& c
 /// candidates. Believed states are dead-reckoned; pairs out of the kernel's reach have probability 0.
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context);
 
+/// The improved net: messages over predicted-position neighbours of all classes in the receiver's route
+/// frame, a motion head, and a pair decoder on corrected distances (repair_net.hpp). Throws core::InputError
+/// for a link radius other than 50 m.
+std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context);
+
 }  // namespace clearway::prediction

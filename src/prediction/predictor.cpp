@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
+#include "prediction/route_rule.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -21,6 +22,8 @@ constexpr Registration registry[] = {
     {"none", "no repair: only vehicles whose newest report arrived", make_no_repair},
     {"last_seen", "vehicles stay where they were last seen", make_last_seen},
     {"dead_reckoning", "vehicles go on at their reported speed along their route", make_dead_reckoning},
+    {"route_rule", "dead reckoning held by red lights and leaders, drawn to where surviving links can be",
+     make_route_rule},
     {"graphsage_as_published", "the dissertation's net on raw coordinates", make_graphsage_as_published},
     {"graphsage_corrected", "the same architecture on inputs that carry distance and age",
      make_graphsage_corrected},

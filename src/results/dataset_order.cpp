@@ -12,11 +12,11 @@
 namespace clearway::results {
 namespace {
 
-constexpr std::array<std::string_view, 2> kind_names = {"published", "samples"};
+constexpr std::array<std::string_view, 3> kind_names = {"published", "samples", "repair"};
 constexpr std::array<std::string_view, 2> pair_names = {"true_links", "candidates"};
 
-template <class Enum>
-std::optional<Enum> find_name(const std::array<std::string_view, 2>& names, std::string_view name) {
+template <class Enum, std::size_t count>
+std::optional<Enum> find_name(const std::array<std::string_view, count>& names, std::string_view name) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) return std::nullopt;
     return static_cast<Enum>(found - names.begin());
@@ -35,6 +35,7 @@ DatasetOrder order_from(const nlohmann::json& json) {
     json.at("feature_count").get_to(order.feature_count);
     json.at("failures").get_to(order.failures);
     json.at("interval_s").get_to(order.interval_s);
+    json.at("exits").get_to(order.exits);
     return order;
 }
 
@@ -67,7 +68,8 @@ std::string to_json(const DatasetOrder& order) {
                                  {"pairs", name(order.pairs)},
                                  {"feature_count", order.feature_count},
                                  {"failures", order.failures},
-                                 {"interval_s", order.interval_s}};
+                                 {"interval_s", order.interval_s},
+                                 {"exits", order.exits}};
     return json.dump(2) + "\n";
 }
 
@@ -78,8 +80,8 @@ DatasetOrder read_dataset_order(const std::filesystem::path& file) {
         throw core::InputError(
             {file.string(), error.what(), "a data set order as clearway dataset writes it", ""});
     } catch (const std::bad_optional_access&) {
-        throw core::InputError(
-            {file.string(), "unknown kind or pairs", "published, samples; true_links, candidates", ""});
+        throw core::InputError({file.string(), "unknown kind or pairs",
+                                "published, samples, repair; true_links, candidates", ""});
     }
 }
 

@@ -13,6 +13,7 @@ namespace clearway::results {
 enum class DatasetKind : std::uint8_t {
     published,  ///< One snapshot as chapter 5.4 of the dissertation stores it: three CSV files.
     samples,    ///< What predictors were given at many moments, with the answers: one file per failure model.
+    repair,     ///< The same for the improved net, `graphsage`.
 };
 /// Which pairs a published data set lists; the dissertation does not say.
 enum class ListedPairs : std::uint8_t {
@@ -36,8 +37,9 @@ struct DatasetOrder {
     DatasetKind kind = DatasetKind::published;
     ListedPairs pairs = ListedPairs::candidates;  ///< Of kind published.
     std::uint32_t feature_count = 5;              ///< Of kind published: 2 or 5.
-    std::vector<std::string> failures;            ///< Of kind samples: presets of sensing.
-    double interval_s = 5.0;  ///< Of kind samples: simulation time between two of them, > 0.
+    std::vector<std::string> failures;            ///< Of samples: presets of sensing.
+    double interval_s = 5.0;                      ///< Of samples: simulation time between two of them, > 0.
+    std::string exits = "known";  ///< Of samples: whether it is known who left (sensing's spelling).
 
     bool operator==(const DatasetOrder&) const = default;
 };

@@ -95,6 +95,25 @@ Advanced advance(const Network& network, Route route, const traffic::MotionState
     return {place_on(network, walk, distance.value - walk.start_m(), state.speed_mps)};
 }
 
+bool lanes_ahead(const Network& network, Route route, const traffic::MotionState& state, core::Metres horizon,
+                 std::vector<RouteStep>& steps) {
+    steps.clear();
+    Walk walk(network, route, state);
+    for (;;) {
+        RouteStep& step = steps.emplace_back();
+        step.lane = walk.lane();
+        step.start_m = static_cast<float>(walk.start_m());
+        step.end_m = static_cast<float>(walk.end_m());
+        step.route_edge = walk.route_edge();
+        const Connection* const onward = walk.onward();
+        if (onward == nullptr) return false;
+        step.signal = onward->signal;
+        step.signal_link = onward->signal_link;
+        if (walk.end_m() > horizon.value) return true;
+        if (!walk.next()) return false;
+    }
+}
+
 core::Metres distance_to_end(const Network& network, Route route, const traffic::MotionState& state) {
     Walk walk(network, route, state);
     while (walk.next()) {

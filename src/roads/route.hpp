@@ -41,6 +41,21 @@ struct Advanced {
 Advanced advance(const Network& network, Route route, const traffic::MotionState& state,
                  core::Metres distance);
 
+/// One lane of the way ahead.
+struct RouteStep {
+    core::LaneIndex lane;
+    float start_m = 0.0F;  ///< From the vehicle's place to the start of the lane; negative on the first one.
+    float end_m = 0.0F;
+    std::uint32_t route_edge = 0;
+    /// Of the connection taken at the end of the lane: none where it has no signal or the way ends.
+    core::SignalIndex signal;
+    std::uint16_t signal_link = 0;
+};
+/// The lanes that `advance` would pass on the first `horizon` metres, in order; `steps` is reused. True when
+/// the route goes on behind the last of them.
+bool lanes_ahead(const Network& network, Route route, const traffic::MotionState& state, core::Metres horizon,
+                 std::vector<RouteStep>& steps);
+
 /// Distance along the route from `state` to the end of the route.
 core::Metres distance_to_end(const Network& network, Route route, const traffic::MotionState& state);
 

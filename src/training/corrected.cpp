@@ -189,41 +189,13 @@ void require_pairs(const std::vector<const GraphSample*>& samples, const char* p
 
 }  // namespace
 
-SeedSplit split_seeds(std::vector<DataSeed> seeds, const CorrectedConfig& config) {
-    std::ranges::sort(seeds);
-    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-    if (seeds.size() < 3) {
-        throw core::InputError(
-            {"--data", fmt::format("runs of {} seeds", seeds.size()), "3 seeds or more",
-             "Training, validation and test each need seeds of their own: record more replications"});
-    }
-    const core::KeyedRandom random(core::StudySeed{config.training.seed}, core::Replication{0});
-    const auto draw = [&](const DataSeed& seed) {
-        return random.bits(core::Purpose::training, core::mix64(seed.study_seed) ^ seed.replication, 1);
-    };
-    std::ranges::stable_sort(seeds, {}, draw);
-    const auto part = [&](double share) {
-        return std::max<std::size_t>(
-            1, static_cast<std::size_t>(std::lround(share * static_cast<double>(seeds.size()))));
-    };
-    const std::size_t test = std::min(part(config.test_share), seeds.size() - 2);
-    const std::size_t validation = std::min(part(config.validation_share), seeds.size() - test - 1);
-    const auto first_validation = seeds.begin() + static_cast<std::ptrdiff_t>(test);
-    const auto first_train = first_validation + static_cast<std::ptrdiff_t>(validation);
-    SeedSplit split{
-        {first_train, seeds.end()}, {first_validation, first_train}, {seeds.begin(), first_validation}};
-    for (auto* seeds_of_part : {&split.train, &split.validation, &split.test})
-        std::ranges::sort(*seeds_of_part);
-    return split;
-}
-
 CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const CorrectedConfig& config,
                                 const TrainingHooks& hooks) {
     check_origins(files);
     CorrectedResult result;
     std::vector<DataSeed> seeds;
     std::ranges::transform(files, std::back_inserter(seeds), seed_of);
-    result.seeds = split_seeds(seeds, config);
+    result.seeds = split_seeds(seeds, {config.training.seed, config.validation_share, config.test_share});
 
     std::vector<const GraphSample*> train = samples_of(files, result.seeds.train);
     const std::vector<const GraphSample*> held_out = samples_of(files, result.seeds.validation);

@@ -8,6 +8,7 @@
 
 #include "metrics/link_quality.hpp"
 #include "prediction/graph_sample.hpp"
+#include "training/seeds.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -32,21 +33,6 @@ struct CorrectedConfig {
                         "assumed"});
     }
 };
-
-/// A seed of the data: all runs of it, of every scenario and failure, are in one part of the split.
-struct DataSeed {
-    std::uint64_t study_seed = 0;
-    std::uint32_t replication = 0;
-    auto operator<=>(const DataSeed&) const = default;
-};
-
-struct SeedSplit {
-    std::vector<DataSeed> train, validation, test;  ///< Sorted; no seed in two of them.
-};
-
-/// Deals the seeds by a draw keyed with the training seed: at least one to each part. Throws core::InputError
-/// for fewer than three seeds.
-SeedSplit split_seeds(std::vector<DataSeed> seeds, const CorrectedConfig& config);
 
 /// Quality on the test seeds, for all pairs or for those of one scenario and failure.
 struct GroupQuality {

@@ -1,13 +1,10 @@
 #include "training/outputs.hpp"
 
-#include <cmath>
-#include <optional>
-#include <type_traits>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
+#include "training/detail/figures.hpp"
 #include "training/loss_curve.hpp"
 #include "training/state_dict.hpp"
 
@@ -16,40 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Value>
-Json json_value(const Value& value) {
-    return value;
-}
-template <class Value>
-Json json_value(const std::optional<Value>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-std::string field_name(const char* name, const char* unit) {
-    return std::string(unit) == "1" ? name : fmt::format("{}_{}", name, unit);
-}
-
-/// A struct with a field table as an object; the unit is part of the key.
-template <class Struct>
-Json json_from(const Struct& value) {
-    Json json = Json::object();
-    core::for_each_field<Struct>([&](const auto& field) {
-        json[field_name(field.name, field.unit)] = json_value(value.*field.member);
-    });
-    return json;
-}
-
-template <class Value>
-std::string csv_value(const Value& value) {
-    return fmt::format("{}", value);
-}
-template <class Value>
-std::string csv_value(const std::optional<Value>& value) {
-    return value ? fmt::format("{}", *value) : std::string();
-}
-std::string csv_value(double value) {
-    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
-}
+using detail::csv_value;
+using detail::field_name;
+using detail::json_from;
+using detail::json_from_seeds;
+using detail::json_value;
 
 Json base_summary(const char* mode, Outcome outcome, const RunDescription& run,
                   const std::vector<EpochLoss>& losses) {
@@ -67,14 +35,6 @@ Json base_summary(const char* mode, Outcome outcome, const RunDescription& run,
 Json last_loss(const std::vector<EpochLoss>& losses, double EpochLoss::*member) {
     // Not finite becomes null, as JSON has no other word for it.
     return losses.empty() ? Json(nullptr) : Json(losses.back().*member);
-}
-
-Json json_from_seeds(const std::vector<DataSeed>& seeds) {
-    Json list = Json::array();
-    for (const DataSeed& seed : seeds) {
-        list.push_back({{"study_seed", seed.study_seed}, {"replication", seed.replication}});
-    }
-    return list;
 }
 
 std::string note_of(const Json& summary) {

@@ -1,42 +1,26 @@
-// The only file of the module that includes torch: its headers take most of a minute to compile in full, so
-// only those needed stand here.
+// Few files of the module include torch: its headers take most of a minute to compile in full, so only those
+// needed stand here.
 #include "training/torch_net.hpp"
 
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
 
-#include <ATen/ATen.h>
-#include <ATen/CPUGeneratorImpl.h>
-#include <ATen/Context.h>
-#include <ATen/Parallel.h>
-#include <fmt/format.h>
 #include <torch/csrc/jit/serialization/pickle.h>
 #include <torch/optim/adam.h>
-#include <torch/types.h>
 #include <torch/utils.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "training/detail/torch_parts.hpp"
 
 namespace clearway::training {
 namespace {
 
-torch::Tensor index_tensor(const std::vector<std::int64_t>& values) {
-    // from_blob takes a non-const pointer; nothing below writes through it.
-    return torch::from_blob(const_cast<std::int64_t*>(values.data()),
-                            {static_cast<std::int64_t>(values.size())}, torch::kInt64);
-}
-
-torch::Tensor float_tensor(const std::vector<float>& values, at::IntArrayRef shape) {
-    return torch::from_blob(const_cast<float*>(values.data()), shape, torch::kFloat32);
-}
-
-/// Rows of `x` by number. Gather and its gradient scatter_add run over elements; index_select's gradient
-/// calls torch for each row and is many times slower on one core.
-torch::Tensor rows_of(const torch::Tensor& x, const torch::Tensor& index) {
-    return x.gather(0, index.unsqueeze(1).expand({-1, x.size(1)}));
-}
+using detail::float_tensor;
+using detail::index_tensor;
+using detail::Linear;
+using detail::rows_of;
+using detail::uniform_parameter;
 
 /// Refers to the memory of a GraphBatch.
 struct Inputs {
@@ -56,19 +40,6 @@ struct Inputs {
     torch::Tensor share;  ///< One over the number of messages that a row receives.
 };
 
-torch::Tensor uniform_parameter(at::IntArrayRef shape, std::int64_t inputs, at::Generator& generator) {
-    const double bound = 1.0 / std::sqrt(static_cast<double>(inputs));
-    return torch::empty(shape).uniform_(-bound, bound, generator).requires_grad_(true);
-}
-
-struct Linear {
-    Linear(std::int64_t inputs, std::int64_t outputs, at::Generator& generator)
-        : weight(uniform_parameter({outputs, inputs}, inputs, generator)),
-          bias(uniform_parameter({outputs}, inputs, generator)) {}
-    torch::Tensor operator()(const torch::Tensor& x) const { return at::linear(x, weight, bias); }
-    torch::Tensor weight, bias;
-};
-
 /// SAGEConv of PyTorch Geometric with its defaults: lin_l (with bias) on the mean of the neighbours, lin_r
 /// (without) on the row itself.
 struct Convolution {
@@ -85,34 +56,19 @@ struct Convolution {
     torch::Tensor own;
 };
 
-prediction::Tensor to_named(const std::string& name, const torch::Tensor& tensor) {
-    const torch::Tensor flat = tensor.detach().contiguous();
-    prediction::Tensor named{name, {}, {}};
-    for (const std::int64_t size : flat.sizes())
-        named.shape.push_back(static_cast<std::uint32_t>(size));
-    named.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
-    return named;
-}
-
-at::Generator prepared_generator(std::uint64_t seed) {
-    at::set_num_threads(1);
-    at::globalContext().setDeterministicAlgorithms(true, false);
-    return at::detail::createCPUGenerator(seed);
-}
-
 }  // namespace
 
 struct TorchNet::Parts {
-    explicit Parts(const TorchNetConfig& config) : Parts(config, prepared_generator(config.seed)) {}
+    explicit Parts(const TorchNetConfig& config) : Parts(config, detail::prepared_generator(config.seed)) {}
 
     Parts(const TorchNetConfig& config, at::Generator generator)
         : conv1(config.dimensions.input, config.dimensions.hidden, generator),
           conv2(config.dimensions.hidden, config.dimensions.output, generator),
           fc1(config.dimensions.output, config.dimensions.hidden, generator),
           fc2(config.dimensions.hidden, 1, generator),
-          optimizer(tensors(), torch::optim::AdamOptions(config.learning_rate)) {}
+          optimizer(detail::tensors_of(named()), torch::optim::AdamOptions(config.learning_rate)) {}
 
-    std::vector<std::pair<std::string, torch::Tensor>> named() const {
+    detail::NamedTensors named() const {
         return {{"graphsage.conv1.lin_l.weight", conv1.neighbour.weight},
                 {"graphsage.conv1.lin_l.bias", conv1.neighbour.bias},
                 {"graphsage.conv1.lin_r.weight", conv1.own},
@@ -124,13 +80,6 @@ struct TorchNet::Parts {
                 {"nn.fc2.weight", fc2.weight},
                 {"nn.fc2.bias", fc2.bias}};
     }
-    std::vector<torch::Tensor> tensors() const {
-        std::vector<torch::Tensor> all;
-        for (const auto& [name, tensor] : named())
-            all.push_back(tensor);
-        return all;
-    }
-
     torch::Tensor forward(const Inputs& inputs) const {
         const torch::Tensor z = conv2(conv1(inputs.x, inputs), inputs);
         const torch::Tensor product = rows_of(z, inputs.left) * rows_of(z, inputs.right);
@@ -171,24 +120,11 @@ double TorchNet::train_step(const GraphBatch& batch) {
 }
 
 StateDict TorchNet::state() const {
-    StateDict state;
-    for (const auto& [name, tensor] : parts_->named())
-        state.push_back(to_named(name, tensor));
-    return state;
+    return detail::state_of(parts_->named());
 }
 
 void TorchNet::load(const StateDict& state) {
-    const torch::NoGradGuard no_gradient;
-    const auto named = parts_->named();
-    if (named.size() != state.size()) throw std::logic_error("a state of another net");
-    for (std::size_t at = 0; at < state.size(); ++at) {
-        auto [name, tensor] = named[at];
-        if (name != state[at].name || to_named(name, tensor).shape != state[at].shape) {
-            throw std::logic_error(
-                fmt::format("a state of another net: {} where {} belongs", state[at].name, name));
-        }
-        tensor.copy_(float_tensor(state[at].values, tensor.sizes()));
-    }
+    detail::copy_state(state, parts_->named());
 }
 
 StateDict read_pth(const std::string& file) {
@@ -197,7 +133,7 @@ StateDict read_pth(const std::string& file) {
     try {
         const c10::IValue value = torch::jit::pickle_load(std::vector<char>(bytes.begin(), bytes.end()));
         for (const auto& entry : value.toGenericDict()) {
-            state.push_back(to_named(entry.key().toStringRef(), entry.value().toTensor()));
+            state.push_back(detail::to_named(entry.key().toStringRef(), entry.value().toTensor()));
         }
     } catch (const std::exception& error) {  // c10::Error, and what the archive reader lets through.
         const std::string message = error.what();

@@ -110,15 +110,15 @@ TEST(SplitSeeds, neither_order_nor_repetition_of_the_files_matters) {
 }
 
 TEST(SplitSeeds, the_training_seed_deals_them) {
-    CorrectedConfig other;
-    other.training.seed = 2;
+    SplitShares other;
+    other.seed = 2;
     EXPECT_NE(split_seeds(seeds_upto(40), {}).test, split_seeds(seeds_upto(40), other).test);
 }
 
 TEST(SplitSeeds, no_part_is_empty) {
-    CorrectedConfig greedy;
-    greedy.test_share = 0.8;
-    greedy.validation_share = 0.8;
+    SplitShares greedy;
+    greedy.test = 0.8;
+    greedy.validation = 0.8;
     const SeedSplit split = split_seeds(seeds_upto(3), greedy);
     EXPECT_EQ(split.train.size(), 1U);
     EXPECT_EQ(split.validation.size(), 1U);

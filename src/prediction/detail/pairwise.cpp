@@ -20,6 +20,7 @@ PairwisePredictor::PairwisePredictor(const PredictorContext& context)
 
 void PairwisePredictor::predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) {
     builder_.build(observation, scene_);
+    observation_ = &observation;
     beliefs_.assign(scene_.tracks.size(), RowBelief{});
     believe(scene_, beliefs_);
     probabilities_.assign(scene_.candidates.size(), 0.0F);

@@ -30,6 +30,8 @@ class PairwisePredictor : public Predictor {
   protected:
     const roads::Network& network() const { return network_; }
     const graph::LinkRules& rules() const { return rules_; }
+    /// What the scene was built from; only within `believe` and `score`.
+    const traffic::Observation& observation() const { return *observation_; }
 
   private:
     /// Writes one belief a row; `beliefs` has the right size and default values.
@@ -53,6 +55,7 @@ class PairwisePredictor : public Predictor {
 
     const roads::Network& network_;
     graph::LinkRules rules_;
+    const traffic::Observation* observation_ = nullptr;
     float threshold_;
     SceneBuilder builder_;
     Scene scene_;

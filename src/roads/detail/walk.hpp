@@ -22,12 +22,12 @@ class Walk {
     /// Distance from the vehicle's place to the start of the present lane, m; negative on the first one.
     double start_m() const { return start_m_; }
     double end_m() const { return start_m_ + network_.lane(lane_).length_m; }
+    /// The connection that `next` takes; null at the end of the route.
+    const Connection* onward() const;
     /// Goes on to the next lane. False, and no move, at the end of the route.
     bool next();
 
   private:
-    const Connection* onward() const;
-
     const Network& network_;
     Route route_;
     core::LaneIndex lane_;

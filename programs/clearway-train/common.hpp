@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "metrics/link_quality.hpp"
+#include "training/trainer.hpp"
+
+namespace clearway::training {
+
+// What the ways of training share on the command line.
+
+enum class Printing { epochs, closing_only, json };
+
+/// SIGINT and SIGTERM end the training after the present epoch, with what it has.
+void watch_signals();
+bool stop_requested();
+
+/// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
+/// and default.
+template <class Config>
+std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const std::string& group) {
+    std::vector<CLI::Option*> options;
+    core::for_each_field<Config>([&](const auto& field) {
+        std::string name = std::string("--") + field.name;
+        std::ranges::replace(name, '_', '-');
+        auto& member = config.*field.member;
+        using Member = std::remove_reference_t<decltype(member)>;
+        CLI::Option* option = nullptr;
+        if constexpr (std::is_enum_v<Member>) {
+            std::map<std::string, Member> choices;
+            std::string words, chosen;
+            for (const auto& [value, word] : spellings(Member{})) {
+                choices.emplace(word, value);
+                words += (words.empty() ? "" : "|") + std::string(word);
+                if (value == member) chosen = word;
+            }
+            option = app.add_option_function<std::string>(
+                            name, [&member, choices](const std::string& word) { member = choices.at(word); },
+                            field.doc)
+                         ->check(CLI::IsMember(choices))
+                         ->option_text(fmt::format("{} [{}]", words, chosen));
+        } else if constexpr (std::is_same_v<Member, bool>) {
+            option =
+                app.add_option(name, member, field.doc)->option_text(fmt::format("true|false [{}]", member));
+        } else {
+            option = app.add_option(name, member, field.doc)
+                         ->check(CLI::Range(static_cast<Member>(field.minimum),
+                                            static_cast<Member>(field.maximum)))
+                         ->option_text(
+                             fmt::format("NUMBER, {:g} to {:g} [{}]", field.minimum, field.maximum, member));
+        }
+        options.push_back(option->group(group));
+    });
+    return options;
+}
+
+/// Three decimals, or `undefined`.
+std::string figure(const std::optional<double>& value);
+void print_quality(const std::string& label, const metrics::LinkQuality& quality);
+
+/// The exit code of a training, after saying on standard error how it ended before its time.
+core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model);
+
+/// `clearway train graphsage`.
+int run_graphsage(int argument_count, char** argument_values);
+
+}  // namespace clearway::training

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "graph/proximity.hpp"
+#include "prediction/candidates.hpp"
+#include "prediction/road_ahead.hpp"
+#include "prediction/weights.hpp"
+
+namespace clearway::prediction {
+
+// Inputs of the improved net, `graphsage`. Training and inference call the same functions; a change of any
+// number below is a new version of the schema. All lengths in units that keep the numbers near 1; no
+// coordinates of the map, no truth, nothing of the future.
+
+/// Numbers of a vehicle, of an edge that carries a message, and of a pair.
+inline constexpr std::uint32_t node_width = 40;
+inline constexpr std::uint32_t edge_width = 18;
+inline constexpr std::uint32_t pair_width = 12;
+/// Name and version of all of this; its width is `node_width`.
+FeatureSchema repair_schema();
+
+/// Messages come from at most this many vehicles nearest to the believed place, within the distance; leader,
+/// follower and detecting vehicles come on top.
+inline constexpr std::size_t most_near_sources = 10;
+inline constexpr double message_radius_m = 80.0;
+
+/// Place, direction and uncertainty of one end of a pair before the net has a say, and the way on which the
+/// net may move it. Only vehicles that are not known (receivers) have one.
+struct Receiver {
+    std::uint32_t row = 0;
+    float displacement_m = 0.0F;  ///< By the rule.
+    float reach_m = 0.0F;
+    float true_displacement_m = -1.0F;  ///< For training; negative where there is no label.
+    Path path;
+};
+
+/// What the net is given of one scene.
+struct RepairInputs {
+    std::uint32_t rows = 0;
+    std::vector<float> nodes;           ///< rows x node_width.
+    std::vector<float> x_m, y_m;        ///< Of each row, dead-reckoned: the place of those that are known.
+    std::vector<float> sensor_sigma_m;  ///< Of each row.
+    std::vector<Receiver> receivers;    ///< By row.
+    std::vector<std::uint32_t> first_edge = {0};  ///< CSR by receiver.
+    std::vector<std::uint32_t> source;            ///< Rows.
+    std::vector<float> edges;                     ///< source.size() x edge_width.
+    std::vector<RowPair> pairs;                   ///< The candidates.
+    std::vector<float> pair_features;             ///< pairs.size() x pair_width.
+
+    void clear();
+};
+
+/// Makes inputs of scenes. One builder, one thread; no allocation once buffers have grown.
+class RepairInputBuilder {
+  public:
+    /// `network` outlives the builder.
+    RepairInputBuilder(const roads::Network& network, const graph::LinkRules& rules);
+
+    /// Call it with every observation, in order: it remembers (see RoadAheadBuilder).
+    void build(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
+    /// In place of `build` where only what it remembers is wanted.
+    void remember(const traffic::Observation& observation, const Scene& scene) {
+        roads_.build(observation, scene, ahead_);
+    }
+    /// Of the last call.
+    const std::vector<RoadAhead>& ahead() const { return ahead_; }
+
+  private:
+    void write_nodes(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
+    void write_receiver_features(const traffic::Observation& observation, const Scene& scene,
+                                 const RoadAhead& ahead, std::span<float> row);
+    void write_edges(const Scene& scene, RepairInputs& inputs);
+    void add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source, float range_m,
+                  RepairInputs& inputs);
+    void write_pairs(const Scene& scene, RepairInputs& inputs);
+    void list_detections(const Scene& scene);
+
+    const roads::Network& network_;
+    RoadAheadBuilder roads_;
+    graph::ProximityBuilder proximity_;
+    graph::ProximityGraph near_;
+    std::vector<RoadAhead> ahead_;
+    std::vector<std::uint32_t> ahead_of_row_;
+    std::vector<float> x_m_, y_m_;  ///< Believed by the rule.
+    struct Detector {
+        std::uint32_t row = 0;
+        std::uint32_t from = 0;
+        float range_m = -1.0F;
+        auto operator<=>(const Detector&) const = default;
+    };
+    std::vector<Detector> detectors_;
+    struct Near {
+        float distance_m = 0.0F;
+        std::uint32_t row = 0;
+        auto operator<=>(const Near&) const = default;
+    };
+    std::vector<Near> nearest_;
+};
+
+}  // namespace clearway::prediction

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "prediction/graphsage.hpp"
+#include "prediction/repair_inputs.hpp"
+#include "prediction/weights.hpp"
+
+namespace clearway::prediction {
+
+/// Sizes of the improved net.
+struct RepairDimensions {
+    std::uint32_t hidden = 32;     ///< Of a vehicle's row through the rounds of messages.
+    std::uint32_t layers = 2;      ///< Rounds of messages.
+    std::uint32_t motion = 16;     ///< Hidden width of the motion head.
+    std::uint32_t embedding = 16;  ///< Of a vehicle, for the decoder.
+    std::uint32_t decoder = 32;
+    std::uint32_t last = 16;
+    auto operator<=>(const RepairDimensions&) const = default;
+};
+
+inline constexpr const char* repair_architecture = "graphsage_repair";
+
+// Constants of the net; training and inference share them.
+inline constexpr double repair_link_radius_m = 50.0;  ///< The radius that the net was trained for.
+inline constexpr float motion_step_m = 3.0F;  ///< A vehicle is moved by (this + share x reach) x output.
+inline constexpr float motion_share = 0.2F;
+inline constexpr float least_sigma_m = 0.5F;
+inline constexpr float side_share = 0.02F;  ///< Part of the variance along the road that acts across it.
+inline constexpr std::uint32_t distance_width = 4;
+/// Inputs of the decoder: product and distance of the embeddings, `pair_width` features, and distance, score,
+/// P(d < r) and spread of the believed places.
+constexpr std::uint32_t decoder_width(const RepairDimensions& dimensions) {
+    return 2 * dimensions.embedding + pair_width + distance_width;
+}
+
+/// Where the net believes a receiver to be.
+struct BelievedMotion {
+    float displacement_m = 0.0F;  ///< Within [0, reach].
+    float sigma_m = 0.0F;         ///< Mean absolute error that it expects.
+};
+
+/// The improved net, `graphsage`, for inference without torch. With x the numbers of a vehicle, e those of an
+/// edge, N(i) the sources of receiver i, and g(a) = 0.5 + 0.5 a / (1 + |a|):
+///
+///     h_i   = relu(W x_i + b)
+///     m_i   = mean over j in N(i) of g(A h_j + B h_i + C e_ij + b) (D h_j + E e_ij + b)   (GraphSAGE's mean
+///     h_i'  = relu(F m_i + b + G h_i)                 aggregation, Hamilton et al. 2017, with gates),
+///     receivers (o, p) = W relu(W h_i + b) + b                  alone; known vehicles keep h. `layers`
+///     times. s_i   = rule + (3 m + 0.2 reach) o              displacement along the path, held within the
+///     reach sigma_i = 0.5 m + (3 m + 0.2 reach) ln(1 + e^p) z_i   = W h_i + b logit = MLP([z_i * z_j, |z_i -
+///     z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
+///
+/// with d the distance of the believed places, v^2 = 1 + the variances of both along the line between them (a
+/// fiftieth of the variance acts across), and c = (50 m - d) / v within +-6. The logit does not depend on the
+/// order of a pair. Held to libtorch by a test of the training module. Single precision; both kernels give
+/// the same bits; no allocation once buffers have grown; one object, one thread.
+class RepairNet {
+  public:
+    /// Throws core::InputError when the weights are not such a net for `repair_schema()`.
+    explicit RepairNet(const Weights& weights, Kernel kernel = best_kernel());
+
+    const RepairDimensions& dimensions() const { return dimensions_; }
+    /// One logit a pair, one motion a receiver.
+    void run(const RepairInputs& inputs, std::vector<float>& logits, std::vector<BelievedMotion>& motions);
+
+  private:
+    /// A matrix as [inputs][padded outputs], and a bias that may be absent.
+    struct Linear {
+        std::vector<float> weight, bias;
+        std::uint32_t inputs = 0;
+        std::uint32_t outputs = 0;
+        std::size_t stride() const;
+    };
+    struct Layer {
+        Linear gate_own, gate_source, gate_edge, value_source, value_edge, out_message, out_own;
+    };
+    enum class Bias : std::uint8_t { without, with };
+    static Linear linear_from(const Weights& weights, const std::string& name, std::uint32_t inputs,
+                              std::uint32_t outputs, Bias bias);
+    /// Rows of `input` through a matrix into `result`; `rows` null for all `row_count`.
+    struct Rows {
+        const std::uint32_t* numbers = nullptr;
+        std::size_t count = 0;
+    };
+    enum class Activation : std::uint8_t { none, rectified };
+    void apply(const Linear& linear, const float* input, std::size_t input_stride, Rows rows,
+               Activation activation, std::vector<float>& result) const;
+    void sort_rows(const RepairInputs& inputs);
+    void encode(const RepairInputs& inputs);
+    void exchange(const Layer& layer, const RepairInputs& inputs);
+    void move(const RepairInputs& inputs, std::vector<BelievedMotion>& motions);
+    void decode(const RepairInputs& inputs, std::vector<float>& logits);
+    float distance_facts(const RowPair& pair, float* facts) const;
+
+    RepairDimensions dimensions_;
+    Kernel kernel_;
+    Linear encoder_, motion1_, motion2_, embedding_, decoder1_, decoder2_, decoder3_;
+    std::vector<Layer> layers_;
+    float skip_ = 0.0F;
+
+    std::vector<std::uint32_t> receiver_rows_, known_rows_, source_rows_, pair_rows_;
+    std::vector<std::uint8_t> marked_;
+    std::vector<float> hidden_, own_hidden_, source_gate_, source_value_, own_gate_, message_, renewed_;
+    std::vector<float> motion_hidden_, motion_out_, embeddings_;
+    std::vector<float> place_x_m_, place_y_m_, direction_x_, direction_y_, sigma_m_;
+    std::vector<float> block_, block1_, block2_, block3_;
+};
+
+}  // namespace clearway::prediction

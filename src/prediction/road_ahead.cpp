@@ -1,0 +1,422 @@
+#include "prediction/road_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "traffic/signal.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+/// A vehicle keeps its speed factor over the limit (at most 1.25 in the scenarios) and reports late by a
+/// step.
+constexpr float over_limit = 1.25F;
+constexpr float least_reach_m = 10.0F;
+/// Leaders further ahead say nothing for an outage of a minute.
+constexpr float leader_horizon_m = 80.0F;
+constexpr float newest_weight = 0.3F;
+constexpr float speed_change_mps = 2.5F;
+constexpr float miss_scale_m = 5.0F;
+/// Places tried for a detected vehicle: every 1/64 of its reach.
+constexpr int detection_places = 64;
+constexpr double new_report_s = 1e-3;
+
+float square(float value) {
+    return value * value;
+}
+
+/// Where a displacement lies among the points of a path: number of the segment and share of it.
+struct OnPath {
+    std::size_t segment = 0;
+    float share = 0.0F;
+};
+
+OnPath on_path(float displacement_m, float reach_m) {
+    constexpr auto segments = static_cast<float>(path_points - 1);
+    const float place = std::clamp(displacement_m / reach_m, 0.0F, 1.0F) * segments;
+    const float segment = std::min(std::floor(place), segments - 1.0F);
+    return {static_cast<std::size_t>(segment), place - segment};
+}
+
+const traffic::VehicleInfo* info_of(const traffic::Observation& observation, core::VehicleKey key) {
+    return observation.roster == nullptr ? nullptr : observation.roster->find(key);
+}
+
+bool on_route(const traffic::VehicleInfo* info, const traffic::MotionState& state) {
+    return info != nullptr && info->route.exists() && state.lane.exists();
+}
+
+}  // namespace
+
+roads::Point Path::place_at(float displacement_m, float reach_m) const {
+    const OnPath at = on_path(displacement_m, reach_m);
+    const roads::Point& from = points[at.segment];
+    const roads::Point& to = points[at.segment + 1];
+    return {from.x_m + at.share * (to.x_m - from.x_m), from.y_m + at.share * (to.y_m - from.y_m)};
+}
+
+roads::Point Path::direction_at(float displacement_m, float reach_m) const {
+    const OnPath at = on_path(displacement_m, reach_m);
+    const float x_m = points[at.segment + 1].x_m - points[at.segment].x_m;
+    const float y_m = points[at.segment + 1].y_m - points[at.segment].y_m;
+    const float length_m = std::sqrt(x_m * x_m + y_m * y_m) + 1e-6F;
+    return {x_m / length_m, y_m / length_m};
+}
+
+RoadAheadBuilder::RoadAheadBuilder(const roads::Network& network, const graph::LinkRules& rules)
+    : network_(network), rules_(rules) {}
+
+void RoadAheadBuilder::build(const traffic::Observation& observation, const Scene& scene,
+                             std::vector<RoadAhead>& ahead) {
+    const Tracks& tracks = scene.tracks;
+    remember(observation, tracks);
+    watch_signals(observation);
+    ahead.clear();
+    steps_.clear();
+    steps_of_.clear();
+    ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(tracks.size()));
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        if (tracks.known[row] != 0) continue;
+        ahead_of_row_[row] = static_cast<std::uint32_t>(ahead.size());
+        RoadAhead& entry = ahead.emplace_back();
+        entry.row = row;
+        look_ahead(observation, tracks, entry);
+    }
+    list_places(tracks, ahead);
+    if (!ahead.empty()) {
+        note_neighbours(observation, tracks);
+        sort_places();
+        measure_lane_speeds(tracks);
+        find_neighbours(observation, tracks, ahead);
+        // The second time behind leaders that were themselves held behind theirs.
+        for (int round = 0; round < 2; ++round) {
+            hold_behind_leaders(ahead);
+            list_places(tracks, ahead);
+            find_neighbours(observation, tracks, ahead);
+        }
+        follow_detections(scene, ahead);
+    }
+    std::swap(places_before_, place_of_row_);
+    places_before_sorted_ = false;
+}
+
+std::uint32_t RoadAheadBuilder::row_of(const Tracks& tracks, core::VehicleKey key) const {
+    const auto found = std::ranges::lower_bound(tracks.key, key);
+    return found != tracks.key.end() && *found == key ? static_cast<std::uint32_t>(found - tracks.key.begin())
+                                                      : static_cast<std::uint32_t>(tracks.size());
+}
+
+/// Both lists are ordered by key.
+void RoadAheadBuilder::remember(const traffic::Observation& observation, const Tracks& tracks) {
+    std::swap(memories_, old_memories_);
+    memories_.clear();
+    auto old = old_memories_.begin();
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        while (old != old_memories_.end() && old->key < tracks.key[row]) {
+            ++old;
+        }
+        const float speed_mps = tracks.last[row].speed_mps;
+        const double report_s = observation.time.value - tracks.age_s[row];
+        const bool is_new = old == old_memories_.end() || old->key != tracks.key[row];
+        Memory& memory = is_new ? memories_.emplace_back() : memories_.emplace_back(*old);
+        memory.key = tracks.key[row];
+        if (report_s <= memory.report_s + new_report_s) continue;
+        const float kept_mps = is_new ? speed_mps : memory.smoothed_speed_mps;
+        memory.smoothed_speed_mps = kept_mps + newest_weight * (speed_mps - kept_mps);
+        memory.report_s = report_s;
+        memory.neighbours_noted = false;
+    }
+}
+
+void RoadAheadBuilder::watch_signals(const traffic::Observation& observation) {
+    const std::vector<std::string>& states = observation.signals.state;
+    letters_.resize(states.size());
+    letter_since_s_.resize(states.size());
+    for (std::size_t signal = 0; signal < states.size(); ++signal) {
+        if (letters_[signal] == states[signal]) continue;
+        letter_since_s_[signal].resize(states[signal].size(), observation.time.value);
+        for (std::size_t link = 0; link < states[signal].size(); ++link) {
+            const bool same =
+                link < letters_[signal].size() && letters_[signal][link] == states[signal][link];
+            if (!same) letter_since_s_[signal][link] = observation.time.value;
+        }
+        letters_[signal] = states[signal];
+    }
+}
+
+void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const Tracks& tracks,
+                                  RoadAhead& ahead) {
+    const std::uint32_t row = ahead.row;
+    const traffic::MotionState& last = tracks.last[row];
+    const float age_s = tracks.age_s[row];
+    const traffic::VehicleInfo* const info = info_of(observation, tracks.key[row]);
+    Steps& steps = steps_of_.emplace_back();
+    steps.first = static_cast<std::uint32_t>(steps_.size());
+    ahead.smoothed_speed_mps = memories_[row].smoothed_speed_mps;
+    ahead.reach_m = std::max(least_reach_m, last.speed_mps * age_s);
+    ahead.route_left_m = ahead.reach_m + route_horizon_m;
+    if (on_route(info, last)) {
+        const float limit_mps = network_.lane(last.lane).speed_limit_mps;
+        ahead.reach_m = std::max(ahead.reach_m, over_limit * limit_mps * age_s);
+        const bool goes_on = roads::lanes_ahead(network_, observation.roster->route(info->route), last,
+                                                core::Metres(ahead.reach_m + route_horizon_m), walked_);
+        ahead.route_left_m = ahead.reach_m + route_horizon_m;
+        if (!goes_on) ahead.route_left_m = std::min(ahead.route_left_m, walked_.back().end_m);
+        ahead.reach_m = std::clamp(ahead.route_left_m, 1.0F, ahead.reach_m);
+        steps_.insert(steps_.end(), walked_.begin(), walked_.end());
+        for (const roads::RouteStep& step : walked_) {
+            if (!step.signal.exists() || step.end_m < 0.0F) continue;
+            const std::string& letters = observation.signals.state[step.signal.value];
+            if (step.signal_link >= letters.size()) continue;
+            ahead.line_m = step.end_m;
+            ahead.letter = letters[step.signal_link];
+            ahead.letter_age_s = static_cast<float>(observation.time.value -
+                                                    letter_since_s_[step.signal.value][step.signal_link]);
+            break;
+        }
+    }
+    steps.count = static_cast<std::uint32_t>(steps_.size()) - steps.first;
+    lay_path(tracks, ahead);
+    ahead.travelled_m = std::min(last.speed_mps * age_s, ahead.reach_m);
+    ahead.displacement_m = ahead.travelled_m;
+    ahead.held_by_signal =
+        ahead.line_m >= 0.0F && !traffic::is_green(ahead.letter) && ahead.line_m < ahead.displacement_m;
+    if (ahead.held_by_signal) ahead.displacement_m = ahead.line_m;
+}
+
+void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
+    const traffic::MotionState& last = tracks.last[ahead.row];
+    const float spacing_m = ahead.reach_m / static_cast<float>(path_points - 1);
+    const Steps& steps = steps_of_.back();
+    if (steps.count == 0) {
+        for (std::size_t i = 0; i < path_points; ++i) {
+            const float along_m = spacing_m * static_cast<float>(i);
+            ahead.path.points[i] = {last.x_m + along_m * std::cos(last.heading_rad),
+                                    last.y_m + along_m * std::sin(last.heading_rad)};
+        }
+        return;
+    }
+    // A vehicle keeps its offset from the middle of the lane, which noise or a lane change may have given it.
+    const roads::Point middle = network_.point_at(last.lane, core::Metres(last.lane_position_m));
+    std::uint32_t at = steps.first;
+    for (std::size_t i = 0; i < path_points; ++i) {
+        const float along_m = spacing_m * static_cast<float>(i);
+        while (at + 1 < steps.first + steps.count && steps_[at].end_m < along_m) {
+            ++at;
+        }
+        const roads::Point point =
+            network_.point_at(steps_[at].lane, core::Metres(along_m - steps_[at].start_m));
+        ahead.path.points[i] = {point.x_m + last.x_m - middle.x_m, point.y_m + last.y_m - middle.y_m};
+    }
+}
+
+void RoadAheadBuilder::list_places(const Tracks& tracks, const std::vector<RoadAhead>& ahead) {
+    place_of_row_.resize(tracks.size());
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        LanePlace& place = place_of_row_[row];
+        place = {tracks.last[row].lane, tracks.last[row].lane_position_m, tracks.key[row], row};
+        if (tracks.known[row] != 0) continue;
+        const std::uint32_t entry = ahead_of_row_[row];
+        const float displacement_m = ahead[entry].displacement_m;
+        const Steps& steps = steps_of_[entry];
+        for (std::uint32_t at = steps.first; at < steps.first + steps.count; ++at) {
+            if (steps_[at].end_m < displacement_m && at + 1 < steps.first + steps.count) continue;
+            place.lane = steps_[at].lane;
+            place.position_m = displacement_m - steps_[at].start_m;
+            break;
+        }
+    }
+}
+
+void RoadAheadBuilder::sort_places() {
+    lane_places_.clear();
+    std::ranges::copy_if(place_of_row_, std::back_inserter(lane_places_),
+                         [](const LanePlace& place) { return place.lane.exists(); });
+    std::ranges::sort(lane_places_);
+}
+
+void RoadAheadBuilder::measure_lane_speeds(const Tracks& tracks) {
+    lane_speed_mps_.assign(tracks.size(), -1.0F);
+    for (auto begin = lane_places_.begin(); begin != lane_places_.end();) {
+        auto end = begin;
+        float sum_mps = 0.0F;
+        int known = 0;
+        for (; end != lane_places_.end() && end->lane == begin->lane; ++end) {
+            if (tracks.known[end->row] == 0) continue;
+            sum_mps += tracks.last[end->row].speed_mps;
+            ++known;
+        }
+        for (; begin != end; ++begin) {
+            if (known > 0) lane_speed_mps_[begin->row] = sum_mps / static_cast<float>(known);
+        }
+    }
+}
+
+/// Who was next ahead in the same lane at the call before, or on the lanes that the route takes behind it.
+core::VehicleKey RoadAheadBuilder::leader_before(const traffic::Observation& observation,
+                                                 const Tracks& tracks, const LanePlace& place) {
+    auto next = std::ranges::upper_bound(places_before_, place);
+    if (next != places_before_.end() && next->key == place.key) ++next;
+    if (next != places_before_.end() && next->lane == place.lane) return next->key;
+    const traffic::VehicleInfo* const info = info_of(observation, place.key);
+    if (!on_route(info, tracks.last[place.row])) return {};
+    roads::lanes_ahead(network_, observation.roster->route(info->route), tracks.last[place.row],
+                       core::Metres(leader_horizon_m), walked_);
+    for (std::size_t at = 1; at < walked_.size(); ++at) {
+        const auto first =
+            std::ranges::lower_bound(places_before_, LanePlace{walked_[at].lane, -1e9F, {}, 0});
+        if (first == places_before_.end() || first->lane != walked_[at].lane) continue;
+        return walked_[at].start_m + first->position_m < leader_horizon_m ? first->key : core::VehicleKey{};
+    }
+    return {};
+}
+
+/// For those that fell silent now: who was before and behind them when they were last heard.
+void RoadAheadBuilder::note_neighbours(const traffic::Observation& observation, const Tracks& tracks) {
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        Memory& memory = memories_[row];
+        if (tracks.known[row] != 0 || memory.neighbours_noted) continue;
+        if (!places_before_sorted_) std::ranges::sort(places_before_);
+        places_before_sorted_ = true;
+        memory.neighbours_noted = true;
+        memory.leader = {};
+        memory.follower = {};
+        const LanePlace place{tracks.last[row].lane, tracks.last[row].lane_position_m, memory.key, row};
+        if (!place.lane.exists()) continue;
+        memory.leader = leader_before(observation, tracks, place);
+        auto behind = std::ranges::lower_bound(
+            places_before_, LanePlace{place.lane, place.position_m, core::VehicleKey{0}, 0});
+        while (behind != places_before_.begin()) {
+            --behind;
+            if (behind->lane != place.lane) break;
+            if (behind->key == memory.key) continue;
+            if (place.position_m - behind->position_m < leader_horizon_m) memory.follower = behind->key;
+            break;
+        }
+    }
+}
+
+VehicleOnWay RoadAheadBuilder::on_way(const traffic::Observation& observation, const Tracks& tracks,
+                                      core::VehicleKey key, std::span<const roads::RouteStep> steps) {
+    if (key.value == 0) return {};
+    const std::uint32_t row = row_of(tracks, key);
+    if (row == tracks.size() || !place_of_row_[row].lane.exists()) return {};
+    const LanePlace& place = place_of_row_[row];
+    const core::EdgeIndex edge = network_.lane(place.lane).edge;
+    for (const roads::RouteStep& step : steps) {
+        if (network_.lane(step.lane).edge != edge) continue;
+        const traffic::VehicleInfo* const info = info_of(observation, key);
+        return {true,
+                tracks.known[row] != 0,
+                row,
+                step.start_m + place.position_m,
+                info == nullptr ? 5.0F : info->length_m,
+                tracks.last[row].speed_mps};
+    }
+    return {};
+}
+
+void RoadAheadBuilder::find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
+                                       std::vector<RoadAhead>& ahead) {
+    for (std::size_t entry = 0; entry < ahead.size(); ++entry) {
+        const std::span steps = std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
+        const Memory& memory = memories_[ahead[entry].row];
+        ahead[entry].leader = on_way(observation, tracks, memory.leader, steps);
+        ahead[entry].follower = on_way(observation, tracks, memory.follower, steps);
+    }
+}
+
+void RoadAheadBuilder::hold_behind_leaders(std::vector<RoadAhead>& ahead) const {
+    constexpr float minimum_gap_m = 2.5F;
+    for (RoadAhead& entry : ahead) {
+        if (!entry.leader.exists) continue;
+        const float room_m = entry.leader.distance_m - entry.leader.length_m - minimum_gap_m;
+        const float free_m = entry.held_by_signal ? entry.line_m : entry.travelled_m;
+        entry.held_by_leader = room_m < free_m;
+        entry.displacement_m = std::clamp(std::min(free_m, room_m), 0.0F, entry.reach_m);
+    }
+}
+
+void RoadAheadBuilder::follow_detections(const Scene& scene, std::vector<RoadAhead>& ahead) {
+    const Tracks& tracks = scene.tracks;
+    detections_.clear();
+    for (std::size_t at = 0; at < scene.detected.size(); ++at) {
+        const RowPair pair = scene.detected.rows[at];
+        const float range_m = scene.detected_range_m[at];
+        const auto add = [&](std::uint32_t row, std::uint32_t from) {
+            if (tracks.known[row] == 0 && tracks.known[from] != 0) {
+                detections_.push_back({row, from, {tracks.x_m[from], tracks.y_m[from]}, range_m});
+            }
+        };
+        add(pair.left, pair.right);
+        add(pair.right, pair.left);
+    }
+    std::ranges::sort(detections_, {}, [](const Detection& detection) {
+        return std::pair(detection.row, detection.from_row);
+    });
+    const auto radius_m = static_cast<float>(rules_.radius_m);
+    const auto miss_m = [&](const Detection& detection, roads::Point place) {
+        const float distance_m =
+            std::sqrt(square(place.x_m - detection.from.x_m) + square(place.y_m - detection.from.y_m));
+        return detection.range_m >= 0.0F ? distance_m - detection.range_m
+                                         : std::max(0.0F, distance_m - radius_m);
+    };
+    for (auto begin = detections_.begin(); begin != detections_.end();) {
+        const auto end = std::find_if(begin, detections_.end(), [&](const Detection& detection) {
+            return detection.row != begin->row;
+        });
+        RoadAhead& entry = ahead[ahead_of_row_[begin->row]];
+        entry.detections = static_cast<std::uint32_t>(end - begin);
+        const float scale_m = 1.0F + speed_change_mps * tracks.age_s[entry.row];
+        const auto cost = [&](float displacement_m) {
+            float sum = square((displacement_m - entry.displacement_m) / scale_m);
+            const roads::Point place = entry.place_at(displacement_m);
+            std::for_each(begin, end, [&](const Detection& detection) {
+                sum += square(miss_m(detection, place) / miss_scale_m);
+            });
+            return sum;
+        };
+        float best_m = entry.displacement_m;
+        float least = cost(best_m);
+        for (int at = 0; at <= detection_places; ++at) {
+            const float displacement_m =
+                entry.reach_m * static_cast<float>(at) / static_cast<float>(detection_places);
+            const float here = cost(displacement_m);
+            if (here >= least) continue;
+            least = here;
+            best_m = displacement_m;
+        }
+        entry.displacement_m = best_m;
+        begin = end;
+    }
+}
+
+namespace detail {
+
+traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
+                                 const Tracks& tracks, const RoadAhead& ahead, float displacement_m) {
+    traffic::MotionState state = tracks.last[ahead.row];
+    const traffic::VehicleInfo* const info = info_of(observation, tracks.key[ahead.row]);
+    if (on_route(info, state)) {
+        state = roads::advance(network, observation.roster->route(info->route), state,
+                               core::Metres(displacement_m))
+                    .state;
+    } else if (displacement_m > 0.0F) {
+        state.lane = core::LaneIndex::none();
+    }
+    const roads::Point place = ahead.place_at(displacement_m);
+    state.x_m = place.x_m;
+    state.y_m = place.y_m;
+    return state;
+}
+
+bool has_left(const traffic::Observation& observation, const Tracks& tracks, const RoadAhead& ahead) {
+    return !observation.exits_known && tracks.past_end_m[ahead.row] > 0.0F &&
+           ahead.displacement_m >= ahead.route_left_m - 1.0F;
+}
+
+}  // namespace detail
+
+}  // namespace clearway::prediction

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "prediction/candidates.hpp"
+#include "roads/network.hpp"
+#include "roads/route.hpp"
+#include "traffic/observation.hpp"
+
+namespace clearway::prediction {
+
+/// Points of the way ahead of a vehicle that was not heard, from where it was last seen.
+inline constexpr std::size_t path_points = 16;
+
+/// Where a displacement takes a vehicle: points at displacements 0 ... reach, evenly spaced.
+struct Path {
+    std::array<roads::Point, path_points> points;
+
+    /// Place at a displacement (clamped to the reach, which is > 0), and the direction of travel there (a
+    /// unit vector).
+    roads::Point place_at(float displacement_m, float reach_m) const;
+    roads::Point direction_at(float displacement_m, float reach_m) const;
+};
+
+/// Another vehicle on the way ahead, as it is believed now.
+struct VehicleOnWay {
+    bool exists = false;
+    bool known = false;  ///< It was heard just now.
+    std::uint32_t row = 0;
+    float distance_m = 0.0F;  ///< Of its front from the place where the vehicle itself was last seen.
+    float length_m = 0.0F;
+    float speed_mps = 0.0F;
+};
+
+/// What route, map, signals and other reports say of a vehicle that was not heard just now. Displacements
+/// count along its route from where it was last seen.
+struct RoadAhead {
+    std::uint32_t row = 0;      ///< Of the scene's tracks.
+    float reach_m = 0.0F;       ///< It cannot have come further. > 0.
+    float route_left_m = 0.0F;  ///< To the end of its route; at most `route_horizon_m` beyond the reach.
+    Path path;
+
+    float line_m = -1.0F;             ///< To the next stop line with a signal; negative without one in reach.
+    char letter = 0;                  ///< What its link shows there (SUMO's letter).
+    float letter_age_s = 0.0F;        ///< Since when, as far as was seen.
+    VehicleOnWay leader;              ///< Who was ahead of it in its lane when it was last heard.
+    VehicleOnWay follower;            ///< Whose leader it was then.
+    float smoothed_speed_mps = 0.0F;  ///< Of its reports, newest weighted by 0.3.
+
+    float travelled_m = 0.0F;     ///< Reported speed x age, at most `reach_m`.
+    float displacement_m = 0.0F;  ///< By the rule: see `RoadAheadBuilder`.
+    bool held_by_signal = false;
+    bool held_by_leader = false;
+    std::uint32_t detections = 0;  ///< Neighbours with known places that still detect it.
+
+    roads::Point place_at(float displacement) const { return path.place_at(displacement, reach_m); }
+    roads::Point direction_at(float displacement) const { return path.direction_at(displacement, reach_m); }
+};
+
+inline constexpr float route_horizon_m = 200.0F;
+
+/// Finds the `RoadAhead` of all vehicles that are not known, and says where the rule puts them:
+///
+///   1. it went on at its reported speed along its route (dead reckoning),
+///   2. not beyond the first stop line that shows red or yellow,
+///   3. not into the vehicle that was ahead of it in its lane (its rear, less the minimum gap), as far as
+///   that
+///      one is believed to have come,
+///   4. and, of the places within reach, rather where the neighbours that still detect it can do so: the
+///      displacement s that makes ((s - s3) / (1 m + 2.5 m/s age))^2 + sum (miss / 5 m)^2 least, where a miss
+///      is the distance beyond the link radius, or the error of a measured range.
+///
+/// Keeps what reports do not repeat: who followed whom, mean speeds, since when a signal shows its letter.
+/// Call it with every observation, in order. One builder, one thread; no allocation once buffers have grown.
+class RoadAheadBuilder {
+  public:
+    /// `network` outlives the builder.
+    RoadAheadBuilder(const roads::Network& network, const graph::LinkRules& rules);
+
+    /// `scene` was built from `observation`. `ahead` gets one entry a row that is not known, by row.
+    void build(const traffic::Observation& observation, const Scene& scene, std::vector<RoadAhead>& ahead);
+
+    /// Mean speed of the known vehicles in the lane of each row's last report, m/s; negative without any.
+    const std::vector<float>& lane_speed_mps() const { return lane_speed_mps_; }
+    /// Smoothed reported speed of each row, m/s.
+    float smoothed_speed_mps(std::uint32_t row) const { return memories_[row].smoothed_speed_mps; }
+
+  private:
+    struct Memory {
+        core::VehicleKey key;
+        double report_s = -1.0;
+        float smoothed_speed_mps = 0.0F;
+        core::VehicleKey leader, follower;  ///< When it was last heard; value 0: nobody.
+        bool neighbours_noted = false;
+    };
+    struct LanePlace {
+        core::LaneIndex lane;
+        float position_m = 0.0F;
+        core::VehicleKey key;
+        std::uint32_t row = 0;
+        auto operator<=>(const LanePlace&) const = default;
+    };
+    struct Detection {
+        std::uint32_t row = 0;  ///< Of the vehicle that is not known.
+        std::uint32_t from_row = 0;
+        roads::Point from;
+        float range_m = -1.0F;
+    };
+    /// Steps of one entry of `ahead` in `steps_`.
+    struct Steps {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    void remember(const traffic::Observation& observation, const Tracks& tracks);
+    void watch_signals(const traffic::Observation& observation);
+    void look_ahead(const traffic::Observation& observation, const Tracks& tracks, RoadAhead& ahead);
+    void lay_path(const Tracks& tracks, RoadAhead& ahead) const;
+    void list_places(const Tracks& tracks, const std::vector<RoadAhead>& ahead);
+    void sort_places();
+    void note_neighbours(const traffic::Observation& observation, const Tracks& tracks);
+    core::VehicleKey leader_before(const traffic::Observation& observation, const Tracks& tracks,
+                                   const LanePlace& place);
+    void find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
+                         std::vector<RoadAhead>& ahead);
+    void hold_behind_leaders(std::vector<RoadAhead>& ahead) const;
+    void follow_detections(const Scene& scene, std::vector<RoadAhead>& ahead);
+    void measure_lane_speeds(const Tracks& tracks);
+    VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks, core::VehicleKey key,
+                        std::span<const roads::RouteStep> steps);
+    std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) const;
+
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    std::vector<Memory> memories_, old_memories_;  ///< One a row, by key.
+    std::vector<std::string> letters_;
+    std::vector<std::vector<double>> letter_since_s_;
+    std::vector<roads::RouteStep> steps_, walked_;
+    std::vector<Steps> steps_of_;
+    std::vector<std::uint32_t> ahead_of_row_;  ///< Entry of `ahead`, or the number of rows.
+    std::vector<LanePlace> place_of_row_;      ///< Where everyone is believed to be.
+    std::vector<LanePlace> lane_places_;       ///< The same on lanes, sorted.
+    std::vector<LanePlace> places_before_;     ///< Of the call before; sorted when they are first asked.
+    bool places_before_sorted_ = false;
+    std::vector<Detection> detections_;
+    std::vector<float> lane_speed_mps_;
+};
+
+namespace detail {
+
+/// The state of a vehicle after a displacement: on its lane along its route, at the place of the path.
+traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
+                                 const Tracks& tracks, const RoadAhead& ahead, float displacement_m);
+
+/// Whether the rule takes it past the end of its route, where no detector tells of exits.
+bool has_left(const traffic::Observation& observation, const Tracks& tracks, const RoadAhead& ahead);
+
+}  // namespace detail
+
+}  // namespace clearway::prediction

@@ -1,0 +1,79 @@
+#include "prediction/route_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "prediction/detail/pairwise.hpp"
+#include "prediction/kinematic.hpp"
+#include "prediction/road_ahead.hpp"
+#include "roads/route.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using detail::PairwisePredictor;
+using detail::RowBelief;
+
+constexpr float first_sigma_m = 0.5F;
+constexpr float growth_m = 1.2F;
+constexpr float growth_power = 1.25F;
+constexpr float most_sigma_m = 80.0F;
+
+class RouteRule final : public PairwisePredictor {
+  public:
+    explicit RouteRule(const PredictorContext& context)
+        : PairwisePredictor(context), roads_(context.network, context.rules) {}
+    std::string_view name() const override { return "route_rule"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        roads_.build(observation(), scene, ahead_);
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            beliefs[row] = {tracks.state[row], tracks.sensor_sigma_m[row], true};
+        }
+        for (const RoadAhead& ahead : ahead_) {
+            beliefs[ahead.row] = belief_of(scene.tracks, ahead);
+        }
+    }
+
+    RowBelief belief_of(const Tracks& tracks, const RoadAhead& ahead) const {
+        const std::uint32_t row = ahead.row;
+        const float sigma_m = route_rule_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row]);
+        return {detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m), sigma_m,
+                !detail::has_left(observation(), tracks, ahead)};
+    }
+
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        const auto radius_m = static_cast<float>(rules().radius_m);
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const RowBelief& left = beliefs[scene.candidates.rows[at].left];
+            const RowBelief& right = beliefs[scene.candidates.rows[at].right];
+            if (!left.present || !right.present) continue;
+            const float distance_m =
+                std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
+            probabilities[at] =
+                probability_within(radius_m, distance_m, std::hypot(left.sigma_m, right.sigma_m));
+        }
+    }
+
+    RoadAheadBuilder roads_;
+    std::vector<RoadAhead> ahead_;
+};
+
+}  // namespace
+
+float route_rule_sigma_m(float sensor_sigma_m, float age_s) {
+    if (age_s <= 0.0F) return sensor_sigma_m;
+    const float grown_m = std::min(most_sigma_m, first_sigma_m + growth_m * std::pow(age_s, growth_power));
+    return std::hypot(sensor_sigma_m, grown_m);
+}
+
+std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context) {
+    return std::make_unique<RouteRule>(context);
+}
+
+}  // namespace clearway::prediction
