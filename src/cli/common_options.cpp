@@ -12,6 +12,14 @@ void add_json_option(CLI::App& app, Printing& printing, const std::string& what)
         fmt::format("Print {} as JSON, units in the names of fields [text]", what));
 }
 
+void add_record_option(CLI::App& app, results::StepRecording& recording) {
+    app.add_flag_callback(
+        "--record", [&recording] { recording = results::StepRecording::on; },
+        "Keep every step of every run below recordings/, for clearway replay. Changes no result; runs that "
+        "are "
+        "complete but not recorded are made again [off]");
+}
+
 void add_jobs_option(CLI::App& app, unsigned& jobs) {
     app.add_option("--jobs", jobs, "Worker processes at one time; 0: one per core. Changes no result")
         ->check(CLI::Range(0U, 4096U))

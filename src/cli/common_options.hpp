@@ -7,6 +7,8 @@
 
 #include <CLI/App.hpp>
 
+#include "results/unit.hpp"
+
 namespace clearway::cli {
 
 /// How results are printed on standard output.
@@ -17,6 +19,8 @@ inline constexpr std::uint32_t most_replications = 100000;
 
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
+/// Declares `--record`: every step of every run is kept in a file.
+void add_record_option(CLI::App& app, results::StepRecording& recording);
 /// Declares `--jobs`: worker processes at one time, 0 for one per core.
 void add_jobs_option(CLI::App& app, unsigned& jobs);
 /// Declares `--seed`: the study seed, from which every random number of every replication follows.

@@ -34,6 +34,7 @@ struct Arguments {
     std::uint64_t seed = 1;
     std::string folder;
     unsigned jobs = 0;
+    results::StepRecording recording = results::StepRecording::off;
     Printing printing = Printing::text;
     scenario::Options options;
 };
@@ -98,7 +99,8 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     config.name = config.scenarios.front().name;
     config.conditions = conditions_of(arguments);
-    RunPlanOptions options{arguments.folder, arguments.jobs, arguments.printing, invocation.command};
+    RunPlanOptions options{arguments.folder, arguments.jobs, arguments.printing, invocation.command,
+                           arguments.recording};
     const study::Plan plan = plan_for(config, options);
     return run_and_print(plan, options);
 }
@@ -152,6 +154,7 @@ Action configure_run(CLI::App& app) {
     app.add_option("--out", arguments->folder, "Run folder; what was interrupted there continues")
         ->option_text("DIR [runs/SCENARIO-xxxxxx, digits by what is run]");
     add_jobs_option(app, arguments->jobs);
+    add_record_option(app, arguments->recording);
     add_json_option(app, arguments->printing, "the tables");
     add_own_condition_options(app, arguments);
     add_scenario_options(app, arguments->options);

@@ -159,7 +159,11 @@ study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) 
         options.folder = std::filesystem::path("runs") /
                          fmt::format("{}-{}", config.name, results::manifest_hash(manifest).substr(0, 6));
     }
-    return study::make_plan(config, versions, options.folder);
+    study::Plan plan = study::make_plan(config, versions, options.folder);
+    for (study::PlannedUnit& planned : plan.units) {
+        planned.unit.recording = options.recording;
+    }
+    return plan;
 }
 
 core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {

@@ -17,6 +17,7 @@ struct RunPlanOptions {
     unsigned workers = 0;          ///< 0: one per core.
     Printing printing = Printing::text;
     std::string command;  ///< What the user typed, for the report and for resuming.
+    results::StepRecording recording = results::StepRecording::off;
 };
 
 /// Checks names, makes the plan with the versions installed and settles an empty `options.folder`:

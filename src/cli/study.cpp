@@ -18,13 +18,15 @@ struct Arguments {
     std::string folder;
     Mode mode = Mode::run;
     unsigned jobs = 0;
+    results::StepRecording recording = results::StepRecording::off;
     Printing printing = Printing::text;
 };
 
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
     const study::StudyConfig config = study::read_study(arguments.file);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
-    RunPlanOptions options{folder, arguments.jobs, arguments.printing, invocation.command};
+    RunPlanOptions options{folder, arguments.jobs, arguments.printing, invocation.command,
+                           arguments.recording};
     const study::Plan plan = plan_for(config, options);
     if (arguments.mode == Mode::run) return run_and_print(plan, options);
     fmt::print("{}", arguments.printing == Printing::json ? plan_json(plan, options.folder, options.workers)
@@ -45,6 +47,7 @@ Action configure_study(CLI::App& app) {
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
         "Print cells, runs and estimated time, and run nothing [off]");
     add_jobs_option(app, arguments->jobs);
+    add_record_option(app, arguments->recording);
     add_json_option(app, arguments->printing, "tables or plan");
     return [arguments](const Invocation& invocation) { return run_study(*arguments, invocation); };
 }

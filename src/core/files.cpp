@@ -5,56 +5,29 @@
 #include <fstream>
 #include <sstream>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 namespace clearway::core {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* action) {
-    const int reason = errno;
-    const bool full = reason == ENOSPC || reason == EDQUOT;
-    throw EnvironmentError(fmt::format("{}: cannot {}: {}. {}", file.string(), action, std::strerror(reason),
-                                       full ? "Free some space there and give the same command again"
-                                            : "Choose another place, or correct its rights"));
-}
-
-void write_all(int descriptor, std::string_view content, const std::filesystem::path& file) {
-    while (!content.empty()) {
-        const ssize_t written = ::write(descriptor, content.data(), content.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(file, "write");
-        content.remove_prefix(static_cast<std::size_t>(written));
-    }
+    throw EnvironmentError(fmt::format("{}: cannot {}: {}. Choose another place, or correct its rights",
+                                       file.string(), action, std::strerror(errno)));
 }
 
 }  // namespace
 
 void write_atomically(const std::filesystem::path& file, std::string_view content) {
-    const std::filesystem::path aside = file.string() + fmt::format(".{}.part", ::getpid());
-    const int descriptor = ::open(aside.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor < 0) fail(file, "write");
-    try {
-        write_all(descriptor, content, file);
-        if (::fsync(descriptor) != 0) fail(file, "write");
-    } catch (...) {
-        ::close(descriptor);
-        ::unlink(aside.c_str());
-        throw;
-    }
-    ::close(descriptor);
-    if (::rename(aside.c_str(), file.c_str()) != 0) {
-        const int reason = errno;
-        ::unlink(aside.c_str());
-        errno = reason;
-        fail(file, "write");
-    }
+    AtomicFile target(file);
+    target.write(content);
+    target.commit();
 }
 
 std::string read_file(const std::filesystem::path& file) {

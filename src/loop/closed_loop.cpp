@@ -1,6 +1,5 @@
 #include "loop/closed_loop.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace clearway::loop {
@@ -20,11 +19,7 @@ constexpr double time_tolerance_s = 0.0005;
 
 ClosedLoop::ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
                        metrics::Recorder& recorder, StepListener* listener)
-    : session_(session),
-      machinery_(std::move(machinery)),
-      config_(config),
-      recorder_(recorder),
-      listener_(listener) {
+    : session_(session), machinery_(std::move(machinery)), recorder_(recorder), listener_(listener) {
     rules_.radius_m = config.link_radius_m;
 }
 
@@ -41,16 +36,21 @@ void ClosedLoop::step() {
     const auto started = Clock::now();
     session_.step();
     const truth::Snapshot& snapshot = session_.snapshot();
-    machinery_.sensor->observe(snapshot, session_.roster(), observation_);
+    replay::DecisionChain& chain = *machinery_.chain;
+    chain.observe(snapshot, session_.roster());
     if (listener_ != nullptr) listener_->on_step(snapshot, session_.roster());
 
-    leases_.clear();
-    if (!machinery_.parts.empty() && decision_is_due(snapshot.time)) decide(snapshot);
+    const bool decides = chain.has_policy() && chain.decision_is_due();
+    if (decides) {
+        chain.decide();
+        if (chain.observation().is_report) score(snapshot);
+    }
     commands_.clear();
-    machinery_.actuator->accept(leases_, snapshot.time);
+    machinery_.actuator->accept(chain.leases(), snapshot.time);
     machinery_.actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
-    recorder_.step(snapshot, session_.events(), leases_);
+    recorder_.step(snapshot, session_.events(), chain.leases());
+    if (listener_ != nullptr) tell_listener(snapshot, decides);
 
     ++timing_.steps;
     timing_.vehicle_steps += snapshot.size();
@@ -59,24 +59,18 @@ void ClosedLoop::step() {
     timing_.coupling_s += seconds_since(started) - step_s;
 }
 
-bool ClosedLoop::decision_is_due(core::Seconds now) const {
-    return now.value + time_tolerance_s >= static_cast<double>(decisions_) * config_.policy_period_s;
-}
-
-void ClosedLoop::decide(const truth::Snapshot& snapshot) {
-    decisions_ = static_cast<std::uint64_t>(
-                     std::floor((snapshot.time.value + time_tolerance_s) / config_.policy_period_s)) +
-                 1;
-    machinery_.predictor->predict(observation_, belief_);
-    for (const auto& part : machinery_.parts) {
-        part->act(belief_, leases_);
-    }
-    if (observation_.is_report) score(snapshot);
-}
-
 void ClosedLoop::score(const truth::Snapshot& snapshot) {
     builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
-    recorder_.links(snapshot, true_graph_, belief_);
+    recorder_.links(snapshot, true_graph_, machinery_.chain->belief());
+}
+
+void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {
+    const replay::DecisionChain& chain = *machinery_.chain;
+    results::RecordedStep step{&snapshot, &session_.roster(), &session_.events(), nullptr, nullptr, {}};
+    if (decided || chain.observation().is_report) step.observation = &chain.observation();
+    if (decided) step.belief = &chain.belief();
+    step.leases = chain.leases();
+    listener_->on_step_end(step);
 }
 
 }  // namespace clearway::loop

@@ -11,11 +11,9 @@
 #include "core/units.hpp"
 #include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
-#include "policy/part.hpp"
-#include "prediction/predictor.hpp"
-#include "sensing/sensor.hpp"
+#include "replay/decision_chain.hpp"
+#include "results/recording.hpp"
 #include "sumo/session.hpp"
-#include "traffic/belief.hpp"
 
 namespace clearway::loop {
 
@@ -36,9 +34,7 @@ struct LoopConfig {
 
 /// What a condition is made of, ready to run.
 struct Machinery {
-    std::unique_ptr<sensing::SensorModel> sensor;
-    std::unique_ptr<prediction::Predictor> predictor;
-    std::vector<std::unique_ptr<policy::Part>> parts;
+    std::unique_ptr<replay::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
 };
 
@@ -59,7 +55,10 @@ class StepListener {
     StepListener(const StepListener&) = delete;
     StepListener& operator=(const StepListener&) = delete;
     virtual ~StepListener() = default;
+    /// After sensing, before any decision.
     virtual void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) = 0;
+    /// At the end of the step, with what was reported and decided in it; valid for the call.
+    virtual void on_step_end(const results::RecordedStep& /*step*/) {}
 };
 
 /// The only place that knows the order of the design: truth -> sensing -> prediction -> policy -> actuation
@@ -79,24 +78,18 @@ class ClosedLoop {
 
   private:
     void step();
-    void decide(const truth::Snapshot& snapshot);
     void score(const truth::Snapshot& snapshot);
-    bool decision_is_due(core::Seconds now) const;
+    void tell_listener(const truth::Snapshot& snapshot, bool decided);
 
     sumo::Session& session_;
     Machinery machinery_;
-    LoopConfig config_;
     metrics::Recorder& recorder_;
     StepListener* listener_;
 
     graph::LinkRules rules_;
     graph::ProximityBuilder builder_;
     graph::ProximityGraph true_graph_;
-    traffic::Observation observation_;
-    traffic::BelievedGraph belief_;
-    std::vector<traffic::Lease> leases_;
     std::vector<traffic::Command> commands_;
-    std::uint64_t decisions_ = 0;
     LoopTiming timing_;
 };
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
 #include <sys/resource.h>
+
+#include "core/files.hpp"
+#include "results/recording.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -60,6 +64,23 @@ long peak_kib() {
     return usage.ru_maxrss;
 }
 
+/// Writes every step into the file of the run.
+class FileRecording : public StepListener {
+  public:
+    FileRecording(const std::filesystem::path& file, const results::RecordingInfo& info)
+        : writer_(prepared(file), info) {}
+    void on_step(const truth::Snapshot&, const traffic::Roster&) override {}
+    void on_step_end(const results::RecordedStep& step) override { writer_.write(step); }
+    void finish() { writer_.finish(); }
+
+  private:
+    static const std::filesystem::path& prepared(const std::filesystem::path& file) {
+        core::make_folder(file.parent_path());
+        return file;
+    }
+    results::RecordingWriter writer_;
+};
+
 }  // namespace
 
 UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
@@ -100,7 +121,14 @@ results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition,
         run_solo();
         end.planned = metrics::read_planned({}, prepared_.emergency);
     } else {
-        spent = run_condition(condition, nullptr, end.leases);
+        std::unique_ptr<FileRecording> recording;
+        if (unit_.recording == results::StepRecording::on) {
+            const results::RecordingInfo info = recording_info(condition);
+            recording =
+                std::make_unique<FileRecording>(results::recording_file(unit_.output, info.key), info);
+        }
+        spent = run_condition(condition, recording.get(), end.leases);
+        if (recording) recording->finish();
         std::vector<std::filesystem::path> files = prepared_.additional_files;
         files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
         end.planned = metrics::read_planned(files, prepared_.emergency);
@@ -167,6 +195,16 @@ void UnitRun::open_all_signals() {
         commands.emplace_back(traffic::SetSignalState{core::SignalIndex{signal}, std::string(links, 'G')});
     }
     session_->apply(commands);
+}
+
+results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& condition) const {
+    return {.key = {unit_.scenario, condition.name, unit_.replication},
+            .condition = condition,
+            .provenance = provenance(""),
+            .settings = {.step_length_s = prepared_.time.step_length_s,
+                         .policy_period_s = loop_.policy_period_s,
+                         .link_radius_m = loop_.link_radius_m,
+                         .network_hash = core::content_hash(core::read_file(network_.file))}};
 }
 
 results::Provenance UnitRun::provenance(const std::string& trace_hash) const {

@@ -46,6 +46,7 @@ class UnitRun {
     void open_all_signals();
     LoopTiming run_condition(const results::ConditionSpec& condition, StepListener* listener,
                              metrics::LeaseTotals& leases);
+    results::RecordingInfo recording_info(const results::ConditionSpec& condition) const;
     results::Provenance provenance(const std::string& trace_hash) const;
 
     results::UnitSpec unit_;

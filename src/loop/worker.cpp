@@ -124,7 +124,7 @@ core::ExitCode run_unit(const std::filesystem::path& unit_file) {
     int signal = 0;
     for (const results::ConditionSpec& condition : unit.conditions) {
         const results::RunKey key = key_of(unit, condition);
-        if (store.complete(key)) continue;
+        if (store.done(unit, condition)) continue;
         const int status = fork_condition(*run, store, key, condition, places.work / condition.name);
         if (WIFSIGNALED(status)) signal = WTERMSIG(status);
         if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(core::ExitCode::environment)) {

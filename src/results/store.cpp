@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "results/detail/record_files.hpp"
+#include "results/recording.hpp"
 
 namespace clearway::results {
 namespace {
@@ -185,6 +186,13 @@ void Store::write(const FailureRecord& failure) const {
 
 bool Store::complete(const RunKey& key) const {
     return fs::exists(run_folder(key) / "run.json");
+}
+
+bool Store::done(const UnitSpec& unit, const ConditionSpec& condition) const {
+    const RunKey key{unit.scenario, condition.name, unit.replication};
+    if (!complete(key)) return false;
+    return unit.recording == StepRecording::off || condition.engine == Engine::solo ||
+           fs::exists(recording_file(folder_, key));
 }
 
 RunRecord Store::read_checked(const RunKey& key, std::string& vehicles) const {

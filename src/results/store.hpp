@@ -26,6 +26,7 @@ struct SetAside {
 ///                                        /vehicles.csv
 ///                                        /timing.json    differs from machine to machine
 ///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
+///     recordings/SCENARIO/CONDITION/REPLICATION.recording  every step of a run, where asked for
 ///     damaged/SCENARIO/CONDITION/                        runs whose files did not fit their hash, kept
 ///     units/, logs/                                      orders for workers, and what they said
 ///     work/                                              SUMO's files of runs that did not end well
@@ -62,6 +63,9 @@ class Store {
     void write(const FailureRecord& failure) const;
 
     bool complete(const RunKey& key) const;
+    /// Whether nothing is left to do for a condition of a unit: complete, and recorded where that is asked
+    /// for.
+    bool done(const UnitSpec& unit, const ConditionSpec& condition) const;
     /// Nothing unless the run is complete. Throws core::InputError for a damaged record.
     std::optional<RunRecord> read(const RunKey& key) const;
     std::optional<RunTiming> read_timing(const RunKey& key) const;

@@ -7,6 +7,16 @@
 namespace clearway::results {
 namespace {
 
+std::string_view text_of(StepRecording recording) {
+    return recording == StepRecording::on ? "on" : "off";
+}
+
+std::optional<StepRecording> recording_from(std::string_view word) {
+    if (word == "on") return StepRecording::on;
+    if (word == "off") return StepRecording::off;
+    return std::nullopt;
+}
+
 std::string_view text_of(traffic::SafetyChecks checks) {
     return checks == traffic::SafetyChecks::on ? "on" : "off";
 }
@@ -74,6 +84,7 @@ std::string to_json(const UnitSpec& unit) {
     object["study_seed"] = unit.study_seed;
     object["replication"] = unit.replication;
     object["engine"] = name(unit.engine);
+    object["recording"] = text_of(unit.recording);
     object["conditions"] = detail::Json::array();
     for (const ConditionSpec& condition : unit.conditions)
         object["conditions"].push_back(detail::to_json(condition));
@@ -96,6 +107,7 @@ UnitSpec read_unit(const std::filesystem::path& file) {
     reader.read("study_seed", unit.study_seed);
     reader.read("replication", unit.replication);
     reader.read_name("engine", unit.engine, engine_from);
+    reader.read_name("recording", unit.recording, recording_from);
     for (const detail::Json& condition : reader.child("conditions", detail::Json::value_t::array))
         unit.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
     reader.read("output", output);

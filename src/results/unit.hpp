@@ -23,6 +23,9 @@ enum class Engine : std::uint8_t {
 std::string_view name(Engine engine);
 std::optional<Engine> engine_from(std::string_view word);
 
+/// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
+enum class StepRecording : std::uint8_t { off, on };
+
 /// A named combination of failure, predictor and policy parts.
 struct ConditionSpec {
     std::string name;
@@ -44,6 +47,7 @@ struct UnitSpec {
     std::uint64_t study_seed = 1;
     std::uint32_t replication = 0;
     Engine engine = Engine::standard;
+    StepRecording recording = StepRecording::off;  ///< Of all conditions but those of engine `solo`.
     std::vector<ConditionSpec> conditions;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
 

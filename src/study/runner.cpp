@@ -84,7 +84,7 @@ class Runner {
         std::vector<results::ConditionSpec> open;
         for (const results::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
-            if (store_.complete(key)) continue;
+            if (store_.done(unit, condition)) continue;
             const auto failure = store_.read_failure(key);
             if (!failure || results::worth_retrying(failure->cause)) open.push_back(condition);
         }

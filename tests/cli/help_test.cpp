@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::vector<std::string> every_verb = {"reproduce", "run",  "study", "report", "dataset",
-                                             "train",     "list", "init",  "doctor"};
+const std::vector<std::string> every_verb = {"reproduce", "run",  "study",  "report", "dataset", "train",
+                                             "list",      "init", "doctor", "replay", "verify"};
 
 class HelpTest : public UserTest {};
 

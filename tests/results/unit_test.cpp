@@ -16,6 +16,7 @@ UnitSpec example() {
     unit.study_seed = 18446744073709551615U;
     unit.replication = 7;
     unit.engine = Engine::sublane;
+    unit.recording = StepRecording::on;
     ConditionSpec condition;
     condition.name = "b10";
     condition.failure = "B10";

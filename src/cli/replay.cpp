@@ -1,0 +1,284 @@
+#include "replay/replay.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/common_options.hpp"
+#include "cli/names.hpp"
+#include "cli/verb.hpp"
+#include "core/files.hpp"
+#include "results/recording_tables.hpp"
+
+namespace clearway::cli {
+namespace {
+
+const char* const open_loop =
+    "Nothing is simulated: sensing, prediction and policy run again over the recorded traffic, which does "
+    "not\n"
+    "react (open loop). It shows what would have been believed and how right that would have been; what a\n"
+    "policy gains is for `clearway run`. Without --predictor, --failure and --policy the recorded beliefs "
+    "and\n"
+    "leases must come out to the bit; exit code 6 if they do not.";
+
+struct Arguments {
+    std::string file;
+    std::string network;
+    std::optional<std::string> failure;
+    std::optional<std::string> predictor;
+    std::optional<std::vector<std::string>> parts;
+    std::string table;
+    std::optional<double> from_s;
+    std::optional<double> to_s;
+    Printing printing = Printing::text;
+};
+
+/// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
+/// core::InputError when it is another one.
+roads::Network network_of(const results::RecordingInfo& info, const Arguments& arguments) {
+    std::filesystem::path file = arguments.network;
+    if (file.empty()) {
+        const std::filesystem::path recording = std::filesystem::absolute(arguments.file).lexically_normal();
+        const std::filesystem::path run_folder =
+            recording.parent_path().parent_path().parent_path().parent_path();
+        file = run_folder / "scenarios" / info.key.scenario / "network" / "network.net.xml";
+    }
+    const std::string where = arguments.network.empty() ? file.string() : "--network " + file.string();
+    if (!std::filesystem::exists(file))
+        throw core::InputError({where, "is not there", "the network on which the recording was made",
+                                "Name it with --network, or leave the recording in its run folder"});
+    if (core::content_hash(core::read_file(file)) != info.settings.network_hash)
+        throw core::InputError({where, "is not the network on which the recording was made",
+                                "content hash " + info.settings.network_hash, "Name it with --network"});
+    return roads::Network::read(file);
+}
+
+results::ConditionSpec condition_of(const results::RecordingInfo& info, const Arguments& arguments) {
+    results::ConditionSpec condition = info.condition;
+    if (arguments.failure) condition.failure = *arguments.failure;
+    if (arguments.predictor) condition.predictor = *arguments.predictor;
+    if (arguments.parts) condition.parts = *arguments.parts;
+    check_names({condition});
+    return condition;
+}
+
+results::RoadNames names_of(const roads::Network& network) {
+    results::RoadNames names;
+    for (const roads::Lane& lane : network.lanes())
+        names.lanes.push_back(lane.id);
+    for (const roads::Signal& signal : network.signals())
+        names.signals.push_back(signal.id);
+    return names;
+}
+
+core::ExitCode print_csv(results::RecordingReader& recording, const Arguments& arguments) {
+    const results::RecordingTable table = results::recording_table_from(arguments.table).value();
+    const results::RoadNames names = names_of(network_of(recording.info(), arguments));
+    if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s)
+        throw core::InputError({"--from",
+                                fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s),
+                                "", "Swap them"});
+    fmt::print("{}", results::csv_header(table));
+    std::optional<double> begin_s;
+    double end_s = 0.0;
+    bool any = false;
+    while (const auto step = recording.next()) {
+        end_s = step->snapshot->time.value;
+        if (!begin_s) begin_s = end_s;
+        if (arguments.from_s && end_s < *arguments.from_s) continue;
+        if (arguments.to_s && end_s > *arguments.to_s) continue;
+        any = true;
+        fmt::print("{}", results::csv_lines(table, *step, names));
+    }
+    if (!any)
+        throw core::InputError({"--from, --to", "no recorded step lies between them",
+                                begin_s ? fmt::format("{} to {} s", *begin_s, end_s) : "", ""});
+    return core::ExitCode::ok;
+}
+
+std::string number(const std::optional<double>& value) {
+    return value ? fmt::format("{:.4f}", *value) : "-";
+}
+
+nlohmann::ordered_json counts_json(const metrics::LinkCounts& counts) {
+    nlohmann::ordered_json json{{"true_positive", counts.true_positive},
+                                {"false_positive", counts.false_positive},
+                                {"false_negative", counts.false_negative}};
+    const auto put = [&](const char* name, const std::optional<double>& value) {
+        json[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+    };
+    put("precision", counts.precision());
+    put("recall", counts.recall());
+    put("f1", counts.f1());
+    return json;
+}
+
+nlohmann::ordered_json score_json(const replay::LinkScore& score, const results::ConditionSpec& condition) {
+    return {{"failure", condition.failure},
+            {"predictor", condition.predictor},
+            {"policy", condition.parts},
+            {"decisions", score.decisions},
+            {"decisions_scored", score.scored},
+            {"links", counts_json(score.links)},
+            {"dark_links", counts_json(score.dark)},
+            {"leases", score.leases}};
+}
+
+nlohmann::ordered_json agreement_json(const replay::Agreement& agreement) {
+    nlohmann::ordered_json json{{"compared", agreement.compared}, {"same", agreement.same}};
+    json["first_difference"] = agreement.first_difference.empty()
+                                   ? nlohmann::ordered_json(nullptr)
+                                   : nlohmann::ordered_json(agreement.first_difference);
+    return json;
+}
+
+void print_json(const results::RecordingInfo& info, const results::ConditionSpec& condition,
+                const replay::ReplayResult& result) {
+    nlohmann::ordered_json json;
+    json["run"] = results::to_text(info.key);
+    json["clearway_version"] = info.provenance.clearway_version;
+    json["sumo_version"] = info.provenance.sumo_version;
+    json["begin_s"] = result.begin_s;
+    json["end_s"] = result.end_s;
+    json["steps"] = result.steps;
+    json["vehicle_steps"] = result.vehicle_steps;
+    json["traffic_reacts"] = false;
+    json["recorded"] = score_json(result.recorded, info.condition);
+    json["replayed"] = score_json(result.replayed, condition);
+    nlohmann::ordered_json& candidates = json["replayed"]["candidates"];
+    core::for_each_field<metrics::LinkQuality>([&](const auto& field) {
+        const auto& value = result.candidates.*field.member;
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+            candidates[field.name] = value;
+        } else {
+            candidates[field.name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+        }
+    });
+    json["same_to_the_bit"] = {{"observations", agreement_json(result.observations)},
+                               {"beliefs", agreement_json(result.beliefs)},
+                               {"leases", agreement_json(result.leases)}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_row(const std::string& label, const std::string& recorded, const std::string& replayed) {
+    fmt::print("{:<26}  {:>20}  {:>20}\n", label, recorded, replayed);
+}
+
+void print_counts(const std::string& label, const metrics::LinkCounts& recorded,
+                  const metrics::LinkCounts& replayed) {
+    print_row(label + ": precision", number(recorded.precision()), number(replayed.precision()));
+    print_row(label + ": recall", number(recorded.recall()), number(replayed.recall()));
+    print_row(label + ": F1", number(recorded.f1()), number(replayed.f1()));
+}
+
+void print_agreement(const std::string& what, const replay::Agreement& agreement) {
+    fmt::print("{}: {} of {} the same to the bit{}\n", what, agreement.same, agreement.compared,
+               agreement.first_difference.empty() ? "" : "; first difference " + agreement.first_difference);
+}
+
+void print_text(const results::RecordingInfo& info, const results::ConditionSpec& condition,
+                const replay::ReplayResult& result) {
+    fmt::print("{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n",
+               results::to_text(info.key), result.begin_s, result.end_s, result.steps, result.vehicle_steps,
+               info.provenance.clearway_version, info.provenance.sumo_version);
+    fmt::print("The traffic is as recorded: it does not react to what is believed in the replay.\n\n");
+    print_row("", "recorded", "replayed");
+    print_row("failure", info.condition.failure, condition.failure);
+    print_row("predictor", info.condition.predictor, condition.predictor);
+    print_row("policy", joined(info.condition.parts, "+"), joined(condition.parts, "+"));
+    print_row("decisions", std::to_string(result.recorded.decisions),
+              std::to_string(result.replayed.decisions));
+    print_row("  at report rounds", std::to_string(result.recorded.scored),
+              std::to_string(result.replayed.scored));
+    print_counts("links", result.recorded.links, result.replayed.links);
+    print_counts("dark links", result.recorded.dark, result.replayed.dark);
+    print_row("candidates: pairs", "", std::to_string(result.candidates.pairs));
+    print_row("candidates: AUC", "", number(result.candidates.auc));
+    print_row("candidates: AP", "", number(result.candidates.ap));
+    print_row("candidates: log loss, nat", "", number(result.candidates.log_loss));
+    print_row("leases", std::to_string(result.recorded.leases), std::to_string(result.replayed.leases));
+    fmt::print("\n");
+    print_agreement("observations", result.observations);
+    print_agreement("beliefs", result.beliefs);
+    print_agreement("leases of decisions", result.leases);
+}
+
+bool is_same(const replay::ReplayResult& result) {
+    return result.observations.same == result.observations.compared &&
+           result.beliefs.same == result.beliefs.compared && result.leases.same == result.leases.compared;
+}
+
+core::ExitCode replay_file(const Arguments& arguments) {
+    results::RecordingReader recording(arguments.file);
+    if (!arguments.table.empty()) return print_csv(recording, arguments);
+    if (arguments.from_s || arguments.to_s)
+        throw core::InputError(
+            {"--from, --to", "go with --csv alone", "", "A replay needs the recording from its beginning"});
+    const results::RecordingInfo& info = recording.info();
+    const results::ConditionSpec condition = condition_of(info, arguments);
+    const roads::Network network = network_of(info, arguments);
+    const replay::ReplayResult result = replay::replay(recording, condition, network);
+    arguments.printing == Printing::json ? print_json(info, condition, result)
+                                         : print_text(info, condition, result);
+    if (condition != info.condition || is_same(result)) return core::ExitCode::ok;
+    fmt::print(
+        stderr,
+        "clearway: the recorded condition does not come out again. The recording is of version {}, this "
+        "is {}; a model file or the code changed\n",
+        info.provenance.clearway_version, CLEARWAY_VERSION);
+    return core::ExitCode::fell_short;
+}
+
+void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
+                     const std::vector<CLI::Option*>& others) {
+    const char* const group = "Export for people, in place of a replay";
+    CLI::Option* const csv = app.add_option("--csv", arguments->table,
+                                            "Print a table of the recording as CSV, units in its header: " +
+                                                joined(results::recording_table_names()))
+                                 ->check(CLI::IsMember(results::recording_table_names()))
+                                 ->option_text("TABLE [none: replay]")
+                                 ->group(group);
+    for (CLI::Option* const other : others)
+        csv->excludes(other);
+    app.add_option("--from", arguments->from_s, "First simulation time of the table, s")
+        ->option_text("SECONDS [beginning]")
+        ->group(group);
+    app.add_option("--to", arguments->to_s, "Last simulation time of the table, s")
+        ->option_text("SECONDS [end]")
+        ->group(group);
+}
+
+}  // namespace
+
+Action configure_replay(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.footer(app.get_footer() + "\n  clearway replay FILE --csv belief --from 60 --to 90 > belief.csv\n\n" +
+               open_loop);
+    app.add_option(
+           "file", arguments->file,
+           "Recording: recordings/SCENARIO/CONDITION/REPLICATION.recording in a run folder (run --record)")
+        ->required()
+        ->option_text("FILE (required)");
+    std::vector<CLI::Option*> thinking;
+    thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
+                           ->option_text("NAME [as recorded]"));
+    thinking.push_back(app.add_option("--failure", arguments->failure,
+                                      "How sensors fail, with the draws of the recorded run")
+                           ->option_text("NAME [as recorded]"));
+    thinking.push_back(app.add_option("--policy", arguments->parts, "Policy parts, in this order")
+                           ->option_text("PART ... [as recorded]"));
+    app.add_option("--network", arguments->network, "Network file on which the recording was made")
+        ->option_text("FILE [that of its run folder]");
+    thinking.push_back(app.add_flag_callback(
+        "--json", [arguments] { arguments->printing = Printing::json; },
+        "Print the figures as JSON, units in the names of fields [text]"));
+    add_csv_options(app, arguments, thinking);
+    return [arguments](const Invocation&) { return replay_file(*arguments); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,374 @@
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/common_options.hpp"
+#include "cli/names.hpp"
+#include "cli/programs.hpp"
+#include "cli/verb.hpp"
+#include "core/files.hpp"
+#include "core/progress.hpp"
+#include "replay/difference.hpp"
+#include "results/record_difference.hpp"
+#include "results/recording.hpp"
+#include "results/store.hpp"
+#include "study/runner.hpp"
+
+namespace clearway::cli {
+namespace {
+
+/// Cells of a table that are shown when a run differs.
+constexpr std::size_t shown_cells = 3;
+
+struct Arguments {
+    std::string folder;
+    std::string run;
+    bool all = false;
+    std::size_t sample = 0;
+    std::string out;
+    unsigned jobs = 0;
+    Printing printing = Printing::text;
+};
+
+enum class Verdict : std::uint8_t { same, different, damaged, failed };
+
+struct Verification {
+    results::RunKey key;
+    Verdict verdict = Verdict::same;
+    std::string hash;  ///< Of the stored record's trace; empty when it cannot be read.
+    std::string cause;
+    std::vector<results::CellDifference> cells;
+    std::string first_step;  ///< Where two recordings part; empty without recordings.
+};
+
+const char* text_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::same:
+            return "same";
+        case Verdict::different:
+            return "different";
+        case Verdict::damaged:
+            return "damaged";
+        case Verdict::failed:
+            return "failed";
+    }
+    return "";
+}
+
+/// A new folder that goes when this object does.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "clearway-verify-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr)
+            throw core::EnvironmentError(
+                fmt::format("{}: cannot make a folder there. Set TMPDIR to a folder that can be written",
+                            std::filesystem::temp_directory_path().string()));
+        path_ = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// Another version may rightly give other numbers: nothing would be learned from comparing.
+void require_same_versions(const results::Manifest& manifest) {
+    const study::Versions here = installed_versions();
+    std::string differing;
+    if (manifest.sumo_version != here.sumo)
+        differing += fmt::format("SUMO {} in the study, {} here", manifest.sumo_version, here.sumo);
+    if (manifest.clearway_version != here.clearway)
+        differing += fmt::format("{}Clearway {} in the study, {} here", differing.empty() ? "" : "; ",
+                                 manifest.clearway_version, here.clearway);
+    if (!differing.empty())
+        throw core::EnvironmentError(
+            fmt::format("this study was made with other versions ({}): a run made here need not be the same. "
+                        "Verify with the versions of the study",
+                        differing));
+}
+
+template <class Entry>
+std::vector<std::string> names_in(const std::vector<Entry>& entries) {
+    std::vector<std::string> names;
+    for (const Entry& entry : entries)
+        names.push_back(entry.name);
+    return names;
+}
+
+/// `city/baseline/7` as a run of the study. Throws core::InputError naming what is unknown in it.
+results::RunKey key_from(const std::string& word, const results::Manifest& manifest) {
+    const std::size_t first = word.find('/');
+    const std::size_t last = word.rfind('/');
+    if (first == std::string::npos || first == last)
+        throw core::InputError({"RUN", fmt::format("`{}` is no run", word), "SCENARIO/CONDITION/REPLICATION",
+                                "for example " + results::to_text(manifest.runs().front())});
+    results::RunKey key{word.substr(0, first), word.substr(first + 1, last - first - 1), 0};
+    std::vector<core::Problem> problems;
+    const auto check = [&](const std::string& what, const std::string& name,
+                           const std::vector<std::string>& known) {
+        if (std::ranges::find(known, name) != known.end()) return;
+        const std::string near = core::nearest(name, known);
+        problems.push_back({"RUN: " + what, fmt::format("`{}` is not in this study", name), joined(known),
+                            near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
+    };
+    check("scenario", key.scenario, names_in(manifest.scenarios));
+    check("condition", key.condition, names_in(manifest.conditions));
+    const std::string number = word.substr(last + 1);
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), key.replication);
+    if (error != std::errc() || end != number.data() + number.size() ||
+        key.replication >= manifest.replications)
+        problems.push_back({"RUN: replication", fmt::format("`{}` is not in this study", number),
+                            fmt::format("0 to {}", manifest.replications - 1), ""});
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return key;
+}
+
+/// The runs to verify. Throws core::Error with code incomplete where there is nothing to compare with.
+std::vector<results::RunKey> chosen_runs(const results::Store& store, const Arguments& arguments) {
+    if (!arguments.run.empty()) {
+        const results::RunKey key = key_from(arguments.run, store.manifest());
+        if (store.complete(key)) return {key};
+        const auto failure = store.read_failure(key);
+        throw core::Error(
+            core::ExitCode::incomplete,
+            fmt::format("{}: run {} {}; there is nothing to compare with", store.folder().string(),
+                        arguments.run, failure ? "failed: " + failure->message : "has not been made yet"));
+    }
+    std::vector<results::RunKey> complete = store.manifest().runs();
+    std::erase_if(complete, [&](const results::RunKey& key) { return !store.complete(key); });
+    if (complete.empty())
+        throw core::Error(
+            core::ExitCode::incomplete,
+            fmt::format("{}: no run is complete; there is nothing to compare with", store.folder().string()));
+    if (arguments.all || arguments.sample >= complete.size()) return complete;
+    std::vector<results::RunKey> sample;
+    for (std::size_t i = 0; i < arguments.sample; ++i)
+        sample.push_back(complete[i * complete.size() / arguments.sample]);
+    return sample;
+}
+
+/// Units that make these runs again, from the scenarios and networks of the folder.
+study::Plan plan_of(const results::Store& store, const std::vector<results::RunKey>& keys,
+                    const std::filesystem::path& out) {
+    study::Plan plan;
+    plan.manifest = store.manifest();
+    std::map<std::string, std::size_t> unit_of;
+    const std::filesystem::path folder = std::filesystem::absolute(store.folder());
+    for (const results::RunKey& key : keys) {
+        const auto condition =
+            std::ranges::find(plan.manifest.conditions, key.condition, &results::ConditionSpec::name);
+        const std::string name =
+            fmt::format("{}-{:05}-{}", key.scenario, key.replication, results::name(condition->engine));
+        const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
+        if (is_new) {
+            results::UnitSpec spec;
+            spec.scenario = key.scenario;
+            spec.scenario_file = folder / "scenarios" / key.scenario / "scenario.toml";
+            spec.network_folder = folder / "scenarios" / key.scenario / "network";
+            spec.study_seed = plan.manifest.study_seed;
+            spec.replication = key.replication;
+            spec.engine = condition->engine;
+            spec.output = std::filesystem::absolute(out);
+            plan.units.push_back({name, std::move(spec)});
+        }
+        results::UnitSpec& spec = plan.units[unit->second].unit;
+        spec.conditions.push_back(*condition);
+        if (std::filesystem::exists(results::recording_file(folder, key)))
+            spec.recording = results::StepRecording::on;
+    }
+    return plan;
+}
+
+/// Where two recordings of a run part; empty when that cannot be said.
+std::string first_differing_step(const std::filesystem::path& one, const std::filesystem::path& other) {
+    if (!std::filesystem::exists(one) || !std::filesystem::exists(other)) return "";
+    try {
+        results::RecordingReader left(one);
+        results::RecordingReader right(other);
+        while (true) {
+            const auto before = left.next();
+            const auto now = right.next();
+            if (!before && !now) return "";
+            if (!before || !now) return "one recording ends earlier";
+            const double time_s = before->snapshot->time.value;
+            if (const auto found = replay::difference(*before->snapshot, *now->snapshot))
+                return fmt::format("at {} s, snapshot: {}", time_s, *found);
+            if (before->observation != nullptr && now->observation != nullptr)
+                if (const auto found = replay::difference(*before->observation, *now->observation))
+                    return fmt::format("at {} s, observation: {}", time_s, *found);
+            if (before->belief != nullptr && now->belief != nullptr)
+                if (const auto found = replay::difference(*before->belief, *now->belief))
+                    return fmt::format("at {} s, belief: {}", time_s, *found);
+            if (const auto found = replay::difference(before->leases, now->leases))
+                return fmt::format("at {} s, {}", time_s, *found);
+        }
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+}
+
+Verification verify(const results::Store& stored, const results::Store& again, const results::RunKey& key) {
+    Verification verification;
+    verification.key = key;
+    std::optional<results::RunRecord> record;
+    try {
+        record = stored.read(key);
+    } catch (const core::InputError& error) {
+        verification.verdict = Verdict::damaged;
+        verification.cause = error.what();
+        return verification;
+    }
+    verification.hash = record->provenance.trace_hash;
+    const auto made = again.read(key);
+    if (!made) {
+        const auto failure = again.read_failure(key);
+        verification.verdict = Verdict::failed;
+        verification.cause = failure ? failure->message : "was not made";
+        return verification;
+    }
+    verification.cells = results::differences(*record, *made);
+    if (verification.cells.empty()) return verification;
+    verification.verdict = Verdict::different;
+    verification.first_step = first_differing_step(results::recording_file(stored.folder(), key),
+                                                   results::recording_file(again.folder(), key));
+    return verification;
+}
+
+void print_verification(const Verification& each) {
+    fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), results::to_text(each.key),
+               each.hash.empty() ? "" : "  trace " + each.hash, each.cause.empty() ? "" : "  " + each.cause);
+    if (!each.first_step.empty()) fmt::print("  recordings part {}\n", each.first_step);
+    for (const char* const table : {"provenance", "metrics", "vehicles"}) {
+        std::size_t count = 0;
+        for (const results::CellDifference& cell : each.cells) {
+            if (cell.table != table || ++count > shown_cells) continue;
+            fmt::print("  {}{}: {}: stored {}, now {}\n", table, cell.row.empty() ? "" : " row " + cell.row,
+                       cell.column, cell.one, cell.other);
+        }
+        if (count > shown_cells) fmt::print("  {}: {} cells differ in all\n", table, count);
+    }
+}
+
+nlohmann::ordered_json json_of(const Verification& each) {
+    nlohmann::ordered_json json{{"run", results::to_text(each.key)}, {"verdict", text_of(each.verdict)}};
+    json["trace_hash"] =
+        each.hash.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(each.hash);
+    if (!each.cause.empty()) json["cause"] = each.cause;
+    if (!each.first_step.empty()) json["first_differing_step"] = each.first_step;
+    json["differences"] = nlohmann::ordered_json::array();
+    for (const results::CellDifference& cell : each.cells)
+        json["differences"].push_back({{"table", cell.table},
+                                       {"row", cell.row},
+                                       {"column", cell.column},
+                                       {"stored", cell.one},
+                                       {"now", cell.other}});
+    return json;
+}
+
+/// The worst of all verdicts.
+core::ExitCode code_of(const std::vector<Verification>& verifications) {
+    const auto any = [&](Verdict verdict) {
+        return std::ranges::find(verifications, verdict, &Verification::verdict) != verifications.end();
+    };
+    if (any(Verdict::different)) return core::ExitCode::conflict;
+    if (any(Verdict::damaged)) return core::ExitCode::bad_input;
+    return any(Verdict::failed) ? core::ExitCode::runs_failed : core::ExitCode::ok;
+}
+
+void print_all(const std::vector<Verification>& verifications, Printing printing) {
+    std::map<Verdict, std::size_t> counts;
+    for (const Verification& each : verifications)
+        ++counts[each.verdict];
+    if (printing == Printing::json) {
+        nlohmann::ordered_json json;
+        json["verified"] = verifications.size();
+        for (const Verdict verdict : {Verdict::same, Verdict::different, Verdict::damaged, Verdict::failed})
+            json[text_of(verdict)] = counts[verdict];
+        json["runs"] = nlohmann::ordered_json::array();
+        for (const Verification& each : verifications)
+            json["runs"].push_back(json_of(each));
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return;
+    }
+    for (const Verification& each : verifications)
+        print_verification(each);
+    if (verifications.size() > 1)
+        fmt::print("{} verified: {} same, {} different, {} damaged, {} failed\n", verifications.size(),
+                   counts[Verdict::same], counts[Verdict::different], counts[Verdict::damaged],
+                   counts[Verdict::failed]);
+}
+
+core::ExitCode verify_runs(const Arguments& arguments) {
+    if (arguments.run.empty() != (arguments.all || arguments.sample > 0))
+        throw core::InputError({"RUN",
+                                arguments.run.empty() ? "is missing" : "goes without --all and --sample",
+                                "SCENARIO/CONDITION/REPLICATION, --all or --sample N", ""});
+    const results::Store stored = results::Store::open(arguments.folder);
+    const std::vector<results::RunKey> keys = chosen_runs(stored, arguments);
+    require_same_versions(stored.manifest());
+    std::optional<TemporaryFolder> temporary;
+    if (arguments.out.empty()) temporary.emplace();
+    const std::filesystem::path out = temporary ? temporary->path() : std::filesystem::path(arguments.out);
+    const study::Plan plan = plan_of(stored, keys, out);
+    const results::Store again = results::Store::create(out, plan.manifest);
+    core::Progress progress("runs", keys.size(), core::Progress::style_for_stderr());
+    study::RunnerOptions options;
+    options.workers = arguments.jobs;
+    const study::StudyResult result = study::run(plan, again, options, [&](const study::StudyProgress& now) {
+        progress.update(now.done + now.failed, now.failed);
+    });
+    progress.finish();
+    if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated)
+        return result.exit_code;
+    std::vector<Verification> verifications;
+    for (const results::RunKey& key : keys)
+        verifications.push_back(verify(stored, again, key));
+    print_all(verifications, arguments.printing);
+    return code_of(verifications);
+}
+
+}  // namespace
+
+Action configure_verify(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("run", arguments->run, "Run to make again: SCENARIO/CONDITION/REPLICATION")
+        ->option_text("RUN (required unless --all or --sample)");
+    CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
+    app.add_option("--sample", arguments->sample, "So many complete runs, evenly spread over the sorted list")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
+        ->option_text("N, 1 or more [off]")
+        ->excludes(all);
+    app.add_option("--out", arguments->out, "New run folder that keeps the runs made again")
+        ->option_text("DIR [a temporary one, removed at the end]");
+    add_jobs_option(app, arguments->jobs);
+    add_json_option(app, arguments->printing, "the verdicts");
+    app.footer(
+        app.get_footer() +
+        "\n  clearway verify runs/city --sample 20\n\n"
+        "The runs are made again from the configurations and networks in the folder, elsewhere, and every\n"
+        "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
+        "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
+        "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.");
+    return [arguments](const Invocation&) { return verify_runs(*arguments); };
+}
+
+}  // namespace clearway::cli

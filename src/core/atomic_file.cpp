@@ -1,0 +1,51 @@
+#include "core/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+namespace clearway::core {
+
+AtomicFile::AtomicFile(std::filesystem::path file)
+    : file_(std::move(file)),
+      aside_(file_.string() + fmt::format(".{}.part", ::getpid())),
+      descriptor_(::open(aside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644)) {
+    if (descriptor_ < 0) fail();
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    ::unlink(aside_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail();
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::commit() {
+    if (::fsync(descriptor_) != 0) fail();
+    if (::rename(aside_.c_str(), file_.c_str()) != 0) fail();
+    ::close(std::exchange(descriptor_, -1));
+}
+
+void AtomicFile::fail() {
+    const int reason = errno;
+    const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+    throw EnvironmentError(fmt::format("{}: cannot write: {}. {}", file_.string(), std::strerror(reason),
+                                       full ? "Free some space there and give the same command again"
+                                            : "Choose another place, or correct its rights"));
+}
+
+}  // namespace clearway::core

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace clearway::core {
+
+/// A file that is written piece by piece and is there as a whole or not at all: written aside, and after
+/// `commit` flushed to the disk and renamed. Without it, nothing is left. All functions throw
+/// EnvironmentError naming the file (folder not writable, disk full).
+class AtomicFile {
+  public:
+    explicit AtomicFile(std::filesystem::path file);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(std::string_view bytes);
+    /// Replaces an earlier file of the name. Nothing can be written afterwards.
+    void commit();
+
+  private:
+    [[noreturn]] void fail();
+
+    std::filesystem::path file_;
+    std::filesystem::path aside_;
+    int descriptor_ = -1;
+};
+
+}  // namespace clearway::core

@@ -1,0 +1,187 @@
+// Recordings and runs made again, as a user meets them.
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+const std::string recording = "out/recordings/line/mine/00000.recording";
+
+class ReplayTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario();
+    }
+    Ended run(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {
+            "run",          "line",      "--seeds", "1",           "--out", "out",    "--no-solo", "--policy",
+            "dissertation", "--failure", "B10",     "--predictor", "none",  "--name", "mine"};
+        words.insert(words.end(), more.begin(), more.end());
+        return clearway(words);
+    }
+    void damage(const std::string& file, const std::string& from, const std::string& to) const {
+        std::string text = read(file);
+        const std::size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << file;
+        text.replace(at, from.size(), to);
+        core::write_atomically(folder() / file, text);
+    }
+};
+
+TEST_F(ReplayTest, a_recorded_run_comes_out_again_and_another_predictor_can_be_asked) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const Ended same = clearway({"replay", recording, "--json"});
+    ASSERT_EQ(same.code, 0) << same.err;
+    const auto exact = nlohmann::json::parse(same.out);
+    for (const char* const what : {"observations", "beliefs", "leases"}) {
+        const auto& agreement = exact.at("same_to_the_bit").at(what);
+        EXPECT_EQ(agreement.at("same"), agreement.at("compared")) << what;
+        EXPECT_GT(agreement.at("compared"), 20) << what;
+    }
+    EXPECT_EQ(exact.at("recorded").at("links"), exact.at("replayed").at("links"));
+    EXPECT_GT(exact.at("replayed").at("leases"), 0);
+
+    const Ended other = clearway({"replay", recording, "--predictor", "dead_reckoning"});
+    EXPECT_EQ(other.code, 0) << other.err;
+    EXPECT_THAT(other.out, AllOf(HasSubstr("does not react"), HasSubstr("dead_reckoning"),
+                                 HasSubstr("dark links: recall"), HasSubstr("first difference at ")));
+}
+
+TEST_F(ReplayTest, recording_changes_no_result_and_adds_what_a_complete_folder_lacks) {
+    ASSERT_EQ(run().code, 0);
+    const std::string before = read("out/runs/line/mine/00000/run.json");
+    EXPECT_FALSE(std::filesystem::exists(folder() / recording));
+    ASSERT_EQ(run({"--record"}).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder() / recording));
+    EXPECT_EQ(read("out/runs/line/mine/00000/run.json"), before);
+    const std::string bytes = read(recording);
+    ASSERT_EQ(run({"--record"}).code, 0);
+    EXPECT_EQ(read(recording), bytes);
+}
+
+TEST_F(ReplayTest, tables_of_a_window_are_csv) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    for (const char* const table : {"snapshot", "signals", "events", "observation", "belief", "leases"}) {
+        const Ended ended = clearway({"replay", recording, "--csv", table});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_THAT(ended.out, StartsWith("time_s,"));
+    }
+    const Ended window = clearway({"replay", recording, "--csv", "snapshot", "--from", "20", "--to", "21"});
+    ASSERT_EQ(window.code, 0) << window.err;
+    std::istringstream lines(window.out);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr("speed_mps,lane,lane_position_m"));
+    int count = 0;
+    for (; std::getline(lines, line); ++count)
+        EXPECT_THAT(std::stod(line), AllOf(testing::Ge(20.0), testing::Le(21.0)));
+    EXPECT_GT(count, 2);
+}
+
+TEST_F(ReplayTest, bad_input_of_replay_is_told) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const Ended none = clearway({"replay", "none.recording"});
+    EXPECT_EQ(none.code, 3);
+    EXPECT_THAT(none.err, HasSubstr("none.recording"));
+    const Ended name = clearway({"replay", recording, "--predictor", "dead_reckonin"});
+    EXPECT_EQ(name.code, 3);
+    EXPECT_THAT(name.err, HasSubstr("Did you mean `dead_reckoning`?"));
+    const Ended window = clearway({"replay", recording, "--csv", "belief", "--from", "9000"});
+    EXPECT_EQ(window.code, 3);
+    EXPECT_THAT(window.err, HasSubstr("allowed: "));
+    EXPECT_EQ(clearway({"replay", recording, "--csv", "belief", "--from", "9", "--to", "8"}).code, 3);
+    EXPECT_EQ(clearway({"replay", recording, "--from", "9"}).code, 3);
+    EXPECT_EQ(clearway({"replay", recording, "--csv", "belifs"}).code, 2);
+    EXPECT_EQ(clearway({"replay", recording, "--csv", "belief", "--predictor", "none"}).code, 2);
+    std::filesystem::copy_file(folder() / recording, folder() / "moved.recording");
+    const Ended moved = clearway({"replay", "moved.recording"});
+    EXPECT_EQ(moved.code, 3);
+    EXPECT_THAT(moved.err, HasSubstr("--network"));
+    EXPECT_EQ(
+        clearway({"replay", "moved.recording", "--network", "out/scenarios/line/network/network.net.xml"})
+            .code,
+        0);
+    const std::string network = "out/scenarios/line/network/network.net.xml";
+    core::write_atomically(folder() / network, read(network) + "\n");
+    const Ended other = clearway({"replay", recording});
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err, HasSubstr("is not the network"));
+    std::filesystem::resize_file(folder() / recording, 300);
+    const Ended cut = clearway({"replay", recording, "--network", network});
+    EXPECT_EQ(cut.code, 3);
+    EXPECT_THAT(cut.err, AllOf(HasSubstr("00000.recording"), HasSubstr("cut short")));
+}
+
+TEST_F(ReplayTest, verify_finds_runs_the_same) {
+    ASSERT_EQ(run().code, 0);
+    const Ended one = clearway({"verify", "out", "line/mine/0"});
+    EXPECT_EQ(one.code, 0) << one.err;
+    EXPECT_THAT(one.out, StartsWith("same       line/mine/0  trace "));
+    const Ended all = clearway({"verify", "out", "--all", "--json"});
+    EXPECT_EQ(all.code, 0) << all.err;
+    const auto json = nlohmann::json::parse(all.out);
+    EXPECT_EQ(json.at("same"), 2);
+    EXPECT_EQ(json.at("runs").size(), 2U);
+    EXPECT_EQ(
+        nlohmann::json::parse(clearway({"verify", "out", "--sample", "1", "--json"}).out).at("verified"), 1);
+}
+
+TEST_F(ReplayTest, verify_tells_where_a_run_differs) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    // A network that someone changed: the same run is another one now.
+    damage("out/scenarios/line/network/network.net.xml", "speed=\"20.00\"", "speed=\"12.00\"");
+    const Ended ended = clearway({"verify", "out", "line/baseline/0"});
+    EXPECT_EQ(ended.code, 7) << ended.err << ended.out;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("different  line/baseline/0"),
+                                 HasSubstr("provenance: trace_hash: stored "), HasSubstr("vehicles row 1 ("),
+                                 HasSubstr("recordings part at "), HasSubstr(" s, snapshot: ")));
+}
+
+TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {
+    ASSERT_EQ(run().code, 0);
+    const Ended unknown = clearway({"verify", "out", "lin/basline/4"});
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `baseline`?"),
+                                   HasSubstr("`4` is not in this study")));
+    EXPECT_EQ(clearway({"verify", "out", "line"}).code, 3);
+    EXPECT_EQ(clearway({"verify", "out"}).code, 3);
+    EXPECT_EQ(clearway({"verify", "out", "line/mine/0", "--all"}).code, 3);
+    EXPECT_EQ(clearway({"verify", "nowhere", "--all"}).code, 3);
+    damage("out/runs/line/mine/00000/run.json", "\"arrived\": ", "\"arrived\": 1");
+    const Ended damaged = clearway({"verify", "out", "line/mine/0"});
+    EXPECT_EQ(damaged.code, 3) << damaged.out;
+    EXPECT_THAT(damaged.out, AllOf(StartsWith("damaged"), HasSubstr("run.json: hash")));
+    std::filesystem::remove_all(folder() / "out/runs/line/mine");
+    const Ended missing = clearway({"verify", "out", "line/mine/0"});
+    EXPECT_EQ(missing.code, 5);
+    EXPECT_THAT(missing.err, HasSubstr("has not been made yet"));
+    EXPECT_THAT(missing.out, IsEmpty());
+}
+
+TEST_F(ReplayTest, verify_refuses_another_version_of_sumo) {
+    ASSERT_EQ(run().code, 0);
+    // A manifest as another SUMO would have left it; its hash is that of the changed text.
+    auto manifest = nlohmann::ordered_json::parse(read("out/manifest.json"));
+    manifest["sumo_version"] = "1.99.0";
+    manifest.erase("hash");
+    manifest["hash"] = core::content_hash(manifest.dump(2) + "\n");
+    write("out/manifest.json", manifest.dump(2) + "\n");
+    const Ended ended = clearway({"verify", "out", "line/mine/0"});
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("SUMO 1.99.0 in the study"));
+}
+
+}  // namespace
+}  // namespace clearway::cli
