@@ -38,7 +38,7 @@ class GraphSage final : public PairwisePredictor {
             const BelievedMotion& motion = motions_[i];
             beliefs[ahead.row] = {
                 detail::state_after(network(), observation(), tracks, ahead, motion.displacement_m),
-                root_two * motion.sigma_m, !detail::has_left(observation(), tracks, ahead)};
+                root_two * motion.sigma_m, !ahead.has_left};
         }
     }
 

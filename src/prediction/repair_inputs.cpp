@@ -37,6 +37,17 @@ class RowWriter {
     std::size_t at_ = 0;
 };
 
+void put_line_on_way(RowWriter& out, const LineOnWay& line) {
+    out.put(line.exists());
+    if (!line.exists()) {
+        out.skip(3);
+        return;
+    }
+    out.put(within(line.distance_m / 100.0F, 4.0F));
+    out.put(traffic::is_green(line.letter));
+    out.put(std::min(line.letter_age_s, 60.0F) / 20.0F);
+}
+
 void put_vehicle_on_way(RowWriter& out, const VehicleOnWay& vehicle, float displacement_m) {
     out.put(vehicle.exists);
     if (!vehicle.exists) {
@@ -143,22 +154,18 @@ void RepairInputBuilder::write_receiver_features(const traffic::Observation& obs
     out.put(within(ahead.travelled_m / 100.0F, 4.0F));
     out.put(within(ahead.displacement_m / 100.0F, 4.0F));
     out.put(within(ahead.reach_m / 200.0F, 4.0F));
-    out.put(ahead.line_m >= 0.0F);
-    if (ahead.line_m >= 0.0F) {
-        out.put(within(ahead.line_m / 100.0F, 4.0F));
-        out.put(traffic::is_green(ahead.letter));
-        out.put(std::min(ahead.letter_age_s, 60.0F) / 20.0F);
-        out.put(within((age_s - ahead.letter_age_s) / 10.0F, 3.0F));
-        out.put(within((ahead.travelled_m - ahead.line_m) / 100.0F, 3.0F));
-    } else {
-        out.skip(5);
-    }
+    out.put(within(ahead.free_flow_m / 100.0F, 4.0F));
+    put_line_on_way(out, ahead.line);
+    put_line_on_way(out, ahead.next_line);
+    out.put(ahead.line.exists() ? within((age_s - ahead.line.letter_age_s) / 10.0F, 3.0F) : 0.0F);
+    out.put(ahead.line.exists() ? within((ahead.travelled_m - ahead.line.distance_m) / 100.0F, 3.0F) : 0.0F);
     put_vehicle_on_way(out, ahead.leader, ahead.displacement_m);
     put_vehicle_on_way(out, ahead.follower, ahead.displacement_m);
     out.put(within((ahead.route_left_m - ahead.displacement_m) / 100.0F, 4.0F));
     out.put(tracks.past_end_m[row] > 0.0F);
+    out.put(ahead.has_left);
     out.put(observation.exits_known);
-    out.put(within(tracks.sensor_sigma_m[row] / 5.0F, 4.0F));
+    out.put(within(ahead.sigma_m / 5.0F, 4.0F));
     out.put(std::min(static_cast<float>(ahead.detections) / 4.0F, 3.0F));
     out.put(ahead.held_by_signal);
     out.put(ahead.held_by_leader);

@@ -16,7 +16,7 @@ namespace clearway::prediction {
 // coordinates of the map, no truth, nothing of the future.
 
 /// Numbers of a vehicle, of an edge that carries a message, and of a pair.
-inline constexpr std::uint32_t node_width = 40;
+inline constexpr std::uint32_t node_width = 45;
 inline constexpr std::uint32_t edge_width = 18;
 inline constexpr std::uint32_t pair_width = 12;
 /// Name and version of all of this; its width is `node_width`.

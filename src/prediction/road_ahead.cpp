@@ -22,6 +22,10 @@ constexpr float miss_scale_m = 5.0F;
 /// Places tried for a detected vehicle: every 1/64 of its reach.
 constexpr int detection_places = 64;
 constexpr double new_report_s = 1e-3;
+constexpr float place_noise_m2ps = 0.5F;
+/// After a longer silence the last place says nothing of the new one.
+constexpr float longest_filtered_gap_s = 3.0F;
+constexpr float slowest_limit_mps = 1.0F;
 
 float square(float value) {
     return value * value;
@@ -42,6 +46,20 @@ OnPath on_path(float displacement_m, float reach_m) {
 
 const traffic::VehicleInfo* info_of(const traffic::Observation& observation, core::VehicleKey key) {
     return observation.roster == nullptr ? nullptr : observation.roster->find(key);
+}
+
+/// How far a vehicle gets in `time_s` at the speed limits of the lanes on its way.
+float free_flow_m(const roads::Network& network, std::span<const roads::RouteStep> steps, float time_s) {
+    float reached_m = 0.0F;
+    for (const roads::RouteStep& step : steps) {
+        const float limit_mps = std::max(slowest_limit_mps, network.lane(step.lane).speed_limit_mps);
+        const float lane_s = (step.end_m - reached_m) / limit_mps;
+        if (lane_s >= time_s) return reached_m + time_s * limit_mps;
+        if (lane_s <= 0.0F) continue;
+        time_s -= lane_s;
+        reached_m = step.end_m;
+    }
+    return reached_m;
 }
 
 bool on_route(const traffic::VehicleInfo* info, const traffic::MotionState& state) {
@@ -123,11 +141,36 @@ void RoadAheadBuilder::remember(const traffic::Observation& observation, const T
         Memory& memory = is_new ? memories_.emplace_back() : memories_.emplace_back(*old);
         memory.key = tracks.key[row];
         if (report_s <= memory.report_s + new_report_s) continue;
+        filter_place(tracks.last[row], tracks.sensor_sigma_m[row], report_s, is_new, memory);
         const float kept_mps = is_new ? speed_mps : memory.smoothed_speed_mps;
         memory.smoothed_speed_mps = kept_mps + newest_weight * (speed_mps - kept_mps);
         memory.report_s = report_s;
         memory.neighbours_noted = false;
     }
+}
+
+/// A Kalman filter of the place with the reported velocity as input.
+void RoadAheadBuilder::filter_place(const traffic::MotionState& seen, float sigma_m, double report_s,
+                                    bool is_new, Memory& memory) {
+    const float velocity_x_mps = seen.speed_mps * std::cos(seen.heading_rad);
+    const float velocity_y_mps = seen.speed_mps * std::sin(seen.heading_rad);
+    const auto passed_s = static_cast<float>(report_s - memory.report_s);
+    const float measured_m2 = square(sigma_m);
+    if (is_new || sigma_m == 0.0F || passed_s > longest_filtered_gap_s) {
+        memory.x_m = seen.x_m;
+        memory.y_m = seen.y_m;
+        memory.variance_m2 = measured_m2;
+    } else {
+        memory.x_m += 0.5F * (memory.velocity_x_mps + velocity_x_mps) * passed_s;
+        memory.y_m += 0.5F * (memory.velocity_y_mps + velocity_y_mps) * passed_s;
+        const float grown_m2 = memory.variance_m2 + place_noise_m2ps * passed_s;
+        const float gain = grown_m2 / (grown_m2 + measured_m2);
+        memory.x_m += gain * (seen.x_m - memory.x_m);
+        memory.y_m += gain * (seen.y_m - memory.y_m);
+        memory.variance_m2 = (1.0F - gain) * grown_m2;
+    }
+    memory.velocity_x_mps = velocity_x_mps;
+    memory.velocity_y_mps = velocity_y_mps;
 }
 
 void RoadAheadBuilder::watch_signals(const traffic::Observation& observation) {
@@ -155,6 +198,7 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
     Steps& steps = steps_of_.emplace_back();
     steps.first = static_cast<std::uint32_t>(steps_.size());
     ahead.smoothed_speed_mps = memories_[row].smoothed_speed_mps;
+    ahead.sigma_m = std::sqrt(memories_[row].variance_m2);
     ahead.reach_m = std::max(least_reach_m, last.speed_mps * age_s);
     ahead.route_left_m = ahead.reach_m + route_horizon_m;
     if (on_route(info, last)) {
@@ -166,35 +210,49 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
         if (!goes_on) ahead.route_left_m = std::min(ahead.route_left_m, walked_.back().end_m);
         ahead.reach_m = std::clamp(ahead.route_left_m, 1.0F, ahead.reach_m);
         steps_.insert(steps_.end(), walked_.begin(), walked_.end());
-        for (const roads::RouteStep& step : walked_) {
-            if (!step.signal.exists() || step.end_m < 0.0F) continue;
-            const std::string& letters = observation.signals.state[step.signal.value];
-            if (step.signal_link >= letters.size()) continue;
-            ahead.line_m = step.end_m;
-            ahead.letter = letters[step.signal_link];
-            ahead.letter_age_s = static_cast<float>(observation.time.value -
-                                                    letter_since_s_[step.signal.value][step.signal_link]);
-            break;
-        }
+        find_lines(observation, ahead);
+        ahead.free_flow_m = std::min(free_flow_m(network_, walked_, age_s), ahead.reach_m);
+        ahead.has_left = !observation.exits_known && tracks.past_end_m[row] > 0.0F;
     }
     steps.count = static_cast<std::uint32_t>(steps_.size()) - steps.first;
     lay_path(tracks, ahead);
     ahead.travelled_m = std::min(last.speed_mps * age_s, ahead.reach_m);
     ahead.displacement_m = ahead.travelled_m;
-    ahead.held_by_signal =
-        ahead.line_m >= 0.0F && !traffic::is_green(ahead.letter) && ahead.line_m < ahead.displacement_m;
-    if (ahead.held_by_signal) ahead.displacement_m = ahead.line_m;
+    ahead.held_by_signal = ahead.line.exists() && !traffic::is_green(ahead.line.letter) &&
+                           ahead.line.distance_m < ahead.displacement_m;
+    if (ahead.held_by_signal) {
+        ahead.displacement_m = ahead.line.distance_m;
+        ahead.has_left = false;
+    }
+}
+
+/// On the lanes of `walked_`.
+void RoadAheadBuilder::find_lines(const traffic::Observation& observation, RoadAhead& ahead) const {
+    for (const roads::RouteStep& step : walked_) {
+        if (!step.signal.exists() || step.end_m < 0.0F) continue;
+        const std::string& letters = observation.signals.state[step.signal.value];
+        if (step.signal_link >= letters.size()) continue;
+        const double since_s = letter_since_s_[step.signal.value][step.signal_link];
+        const LineOnWay line{step.end_m, letters[step.signal_link],
+                             static_cast<float>(observation.time.value - since_s)};
+        if (ahead.line.exists()) {
+            ahead.next_line = line;
+            return;
+        }
+        ahead.line = line;
+    }
 }
 
 void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
     const traffic::MotionState& last = tracks.last[ahead.row];
+    const Memory& memory = memories_[ahead.row];
     const float spacing_m = ahead.reach_m / static_cast<float>(path_points - 1);
     const Steps& steps = steps_of_.back();
     if (steps.count == 0) {
         for (std::size_t i = 0; i < path_points; ++i) {
             const float along_m = spacing_m * static_cast<float>(i);
-            ahead.path.points[i] = {last.x_m + along_m * std::cos(last.heading_rad),
-                                    last.y_m + along_m * std::sin(last.heading_rad)};
+            ahead.path.points[i] = {memory.x_m + along_m * std::cos(last.heading_rad),
+                                    memory.y_m + along_m * std::sin(last.heading_rad)};
         }
         return;
     }
@@ -208,7 +266,7 @@ void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
         }
         const roads::Point point =
             network_.point_at(steps_[at].lane, core::Metres(along_m - steps_[at].start_m));
-        ahead.path.points[i] = {point.x_m + last.x_m - middle.x_m, point.y_m + last.y_m - middle.y_m};
+        ahead.path.points[i] = {point.x_m + memory.x_m - middle.x_m, point.y_m + memory.y_m - middle.y_m};
     }
 }
 
@@ -298,11 +356,15 @@ void RoadAheadBuilder::note_neighbours(const traffic::Observation& observation, 
     }
 }
 
+// NOLINTNEXTLINE(readability-function-size): whose way, who on it, and what is believed of all
 VehicleOnWay RoadAheadBuilder::on_way(const traffic::Observation& observation, const Tracks& tracks,
-                                      core::VehicleKey key, std::span<const roads::RouteStep> steps) {
+                                      const std::vector<RoadAhead>& ahead, core::VehicleKey key,
+                                      std::span<const roads::RouteStep> steps) const {
     if (key.value == 0) return {};
     const std::uint32_t row = row_of(tracks, key);
     if (row == tracks.size() || !place_of_row_[row].lane.exists()) return {};
+    const std::uint32_t entry = ahead_of_row_[row];
+    if (entry < ahead.size() && ahead[entry].has_left) return {};
     const LanePlace& place = place_of_row_[row];
     const core::EdgeIndex edge = network_.lane(place.lane).edge;
     for (const roads::RouteStep& step : steps) {
@@ -323,8 +385,8 @@ void RoadAheadBuilder::find_neighbours(const traffic::Observation& observation, 
     for (std::size_t entry = 0; entry < ahead.size(); ++entry) {
         const std::span steps = std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
         const Memory& memory = memories_[ahead[entry].row];
-        ahead[entry].leader = on_way(observation, tracks, memory.leader, steps);
-        ahead[entry].follower = on_way(observation, tracks, memory.follower, steps);
+        ahead[entry].leader = on_way(observation, tracks, ahead, memory.leader, steps);
+        ahead[entry].follower = on_way(observation, tracks, ahead, memory.follower, steps);
     }
 }
 
@@ -333,7 +395,7 @@ void RoadAheadBuilder::hold_behind_leaders(std::vector<RoadAhead>& ahead) const 
     for (RoadAhead& entry : ahead) {
         if (!entry.leader.exists) continue;
         const float room_m = entry.leader.distance_m - entry.leader.length_m - minimum_gap_m;
-        const float free_m = entry.held_by_signal ? entry.line_m : entry.travelled_m;
+        const float free_m = entry.held_by_signal ? entry.line.distance_m : entry.travelled_m;
         entry.held_by_leader = room_m < free_m;
         entry.displacement_m = std::clamp(std::min(free_m, room_m), 0.0F, entry.reach_m);
     }
@@ -410,11 +472,6 @@ traffic::MotionState state_after(const roads::Network& network, const traffic::O
     state.x_m = place.x_m;
     state.y_m = place.y_m;
     return state;
-}
-
-bool has_left(const traffic::Observation& observation, const Tracks& tracks, const RoadAhead& ahead) {
-    return !observation.exits_known && tracks.past_end_m[ahead.row] > 0.0F &&
-           ahead.displacement_m >= ahead.route_left_m - 1.0F;
 }
 
 }  // namespace detail

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "prediction/candidates.hpp"
@@ -34,6 +36,15 @@ struct VehicleOnWay {
     float speed_mps = 0.0F;
 };
 
+/// A stop line with a signal on the way.
+struct LineOnWay {
+    float distance_m = -1.0F;   ///< Negative: there is none.
+    char letter = 0;            ///< What the vehicle's link shows there (SUMO's letter).
+    float letter_age_s = 0.0F;  ///< Since when, as far as was seen.
+
+    bool exists() const { return distance_m >= 0.0F; }
+};
+
 /// What route, map, signals and other reports say of a vehicle that was not heard just now. Displacements
 /// count along its route from where it was last seen.
 struct RoadAhead {
@@ -42,14 +53,15 @@ struct RoadAhead {
     float route_left_m = 0.0F;  ///< To the end of its route; at most `route_horizon_m` beyond the reach.
     Path path;
 
-    float line_m = -1.0F;             ///< To the next stop line with a signal; negative without one in reach.
-    char letter = 0;                  ///< What its link shows there (SUMO's letter).
-    float letter_age_s = 0.0F;        ///< Since when, as far as was seen.
+    LineOnWay line, next_line;        ///< The first two within the reach and `route_horizon_m`.
     VehicleOnWay leader;              ///< Who was ahead of it in its lane when it was last heard.
     VehicleOnWay follower;            ///< Whose leader it was then.
     float smoothed_speed_mps = 0.0F;  ///< Of its reports, newest weighted by 0.3.
 
     float travelled_m = 0.0F;     ///< Reported speed x age, at most `reach_m`.
+    float free_flow_m = 0.0F;     ///< At the speed limits of the lanes on its way, at most `reach_m`.
+    float sigma_m = 0.0F;         ///< Standard deviation of the place where it was last seen, filtered.
+    bool has_left = false;        ///< Past the end of its route, where no detector tells of exits.
     float displacement_m = 0.0F;  ///< By the rule: see `RoadAheadBuilder`.
     bool held_by_signal = false;
     bool held_by_leader = false;
@@ -63,7 +75,9 @@ inline constexpr float route_horizon_m = 200.0F;
 
 /// Finds the `RoadAhead` of all vehicles that are not known, and says where the rule puts them:
 ///
-///   1. it went on at its reported speed along its route (dead reckoning),
+///   1. it went on at its reported speed along its route (dead reckoning) from where it was last seen; noisy
+///      places are filtered first: x <- x + v dt, P <- P + (0.7 m)^2 dt / s, then by the Kalman gain P / (P +
+///      sigma^2),
 ///   2. not beyond the first stop line that shows red or yellow,
 ///   3. not into the vehicle that was ahead of it in its lane (its rear, less the minimum gap), as far as
 ///   that
@@ -92,6 +106,9 @@ class RoadAheadBuilder {
         core::VehicleKey key;
         double report_s = -1.0;
         float smoothed_speed_mps = 0.0F;
+        float x_m = 0.0F, y_m = 0.0F;  ///< Where it was last seen, filtered.
+        float variance_m2 = 0.0F;
+        float velocity_x_mps = 0.0F, velocity_y_mps = 0.0F;
         core::VehicleKey leader, follower;  ///< When it was last heard; value 0: nobody.
         bool neighbours_noted = false;
     };
@@ -115,6 +132,9 @@ class RoadAheadBuilder {
     };
 
     void remember(const traffic::Observation& observation, const Tracks& tracks);
+    static void filter_place(const traffic::MotionState& seen, float sigma_m, double report_s, bool is_new,
+                             Memory& memory);
+    void find_lines(const traffic::Observation& observation, RoadAhead& ahead) const;
     void watch_signals(const traffic::Observation& observation);
     void look_ahead(const traffic::Observation& observation, const Tracks& tracks, RoadAhead& ahead);
     void lay_path(const Tracks& tracks, RoadAhead& ahead) const;
@@ -128,8 +148,9 @@ class RoadAheadBuilder {
     void hold_behind_leaders(std::vector<RoadAhead>& ahead) const;
     void follow_detections(const Scene& scene, std::vector<RoadAhead>& ahead);
     void measure_lane_speeds(const Tracks& tracks);
-    VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks, core::VehicleKey key,
-                        std::span<const roads::RouteStep> steps);
+    VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks,
+                        const std::vector<RoadAhead>& ahead, core::VehicleKey key,
+                        std::span<const roads::RouteStep> steps) const;
     std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) const;
 
     const roads::Network& network_;
@@ -153,9 +174,6 @@ namespace detail {
 /// The state of a vehicle after a displacement: on its lane along its route, at the place of the path.
 traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
                                  const Tracks& tracks, const RoadAhead& ahead, float displacement_m);
-
-/// Whether the rule takes it past the end of its route, where no detector tells of exits.
-bool has_left(const traffic::Observation& observation, const Tracks& tracks, const RoadAhead& ahead);
 
 }  // namespace detail
 

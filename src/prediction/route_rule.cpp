@@ -41,9 +41,9 @@ class RouteRule final : public PairwisePredictor {
 
     RowBelief belief_of(const Tracks& tracks, const RoadAhead& ahead) const {
         const std::uint32_t row = ahead.row;
-        const float sigma_m = route_rule_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row]);
+        const float sigma_m = route_rule_sigma_m(ahead.sigma_m, tracks.age_s[row]);
         return {detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m), sigma_m,
-                !detail::has_left(observation(), tracks, ahead)};
+                !ahead.has_left};
     }
 
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,

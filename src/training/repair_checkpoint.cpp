@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What must be the same for a training to go on. More epochs are welcome... as long as the learning rate's
-/// course is the same, so their number is part of it.
+/// What must be the same for a training to go on: all of the configuration, the number of epochs included,
+/// because the learning rate's course depends on it.
 Json identity_of(const Checkpoint& checkpoint, const RepairConfig& config) {
     Json json = {{"format", "clearway training checkpoint 1"}, {"data_hash", checkpoint.data_hash}};
     core::for_each_field<RepairConfig>([&](const auto& field) {

@@ -16,25 +16,25 @@ using detail::Json;
 using detail::json_from;
 using detail::json_from_seeds;
 
-prediction::Weights weights_of(const RepairResult& result, const RepairConfig& config,
-                               const std::string& data_hash) {
-    const prediction::RepairDimensions sizes = config.net().dimensions;
-    prediction::Weights weights;
-    weights.architecture = prediction::repair_architecture;
-    weights.features = prediction::repair_schema();
-    weights.dimensions = {{"hidden", sizes.hidden},         {"layers", sizes.layers},
-                          {"motion", sizes.motion},         {"embedding", sizes.embedding},
-                          {"decoder", sizes.decoder},       {"last", sizes.last},
-                          {"edge", prediction::edge_width}, {"pair", prediction::pair_width}};
-    weights.tensors = result.state;
-    weights.notes.push_back(
-        fmt::format("trained by clearway train graphsage, seed {}, data {}", config.seed, data_hash));
-    weights.notes.push_back(
-        fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold));
-    return weights;
+std::vector<std::string> notes_of(const RepairResult& result, const RepairConfig& config,
+                                  const std::string& data_hash) {
+    return {fmt::format("trained by clearway train graphsage, seed {}, data {}", config.seed, data_hash),
+            fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold)};
 }
 
 }  // namespace
+
+prediction::Weights repair_weights(const StateDict& state, const prediction::RepairDimensions& dimensions) {
+    prediction::Weights weights;
+    weights.architecture = prediction::repair_architecture;
+    weights.features = prediction::repair_schema();
+    weights.dimensions = {{"hidden", dimensions.hidden},    {"layers", dimensions.layers},
+                          {"motion", dimensions.motion},    {"embedding", dimensions.embedding},
+                          {"decoder", dimensions.decoder},  {"last", dimensions.last},
+                          {"edge", prediction::edge_width}, {"pair", prediction::pair_width}};
+    weights.tensors = state;
+    return weights;
+}
 
 Json summary_of(const RepairResult& result, const RepairConfig& config, const std::filesystem::path& data,
                 const std::string& data_hash) {
@@ -99,8 +99,9 @@ void write_outputs(const std::filesystem::path& folder, const RepairResult& resu
     if (result.state.empty()) return;
     core::write_atomically(folder / "metrics.csv", metrics_csv(result));
     if (!config.is_whole()) return;
-    prediction::write_weights(folder / "graphsage.weights",
-                              weights_of(result, config, summary["data_hash"].get<std::string>()));
+    prediction::Weights weights = repair_weights(result.state, config.net().dimensions);
+    weights.notes = notes_of(result, config, summary["data_hash"].get<std::string>());
+    prediction::write_weights(folder / "graphsage.weights", weights);
 }
 
 }  // namespace clearway::training

@@ -9,6 +9,10 @@
 
 namespace clearway::training {
 
+/// A trained net as a model file for prediction::RepairNet. `state` is one of a whole net
+/// (RepairConfig::is_whole).
+prediction::Weights repair_weights(const StateDict& state, const prediction::RepairDimensions& dimensions);
+
 /// What `--json` prints and `summary.json` holds: configuration, seeds, counts, losses, quality. Numbers that
 /// are not defined are null.
 nlohmann::ordered_json summary_of(const RepairResult& result, const RepairConfig& config,

@@ -148,7 +148,8 @@ Motion place_on_path(const Tensor& displacement, const Tensor& sigma, const Inpu
     const Tensor at_path = (displacement / inputs.reach).clamp(0.0, 1.0) * segments;
     const Tensor segment = at_path.detach().floor().clamp_max(segments - 1.0);
     const Tensor share = at_path - segment;
-    const Tensor index = segment.to(torch::kInt64).unsqueeze(2).expand({-1, 1, 2});
+    // A training that diverges has places that are no number: any segment will do, the loss tells.
+    const Tensor index = segment.nan_to_num(0.0).to(torch::kInt64).unsqueeze(2).expand({-1, 1, 2});
     const Tensor from = inputs.path.gather(1, index).squeeze(1);
     const Tensor along = inputs.path.gather(1, index + 1).squeeze(1) - from;
     const Tensor length = (along * along).sum(1, true).sqrt() + 1e-6;

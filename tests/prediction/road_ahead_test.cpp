@@ -47,8 +47,8 @@ TEST(RoadAhead, HoldsAVehicleAtARedLightAndNotAtAGreenOne) {
         e.......|r..........
     )");
     const RoadAhead held = red.after(5.0, "a1");
-    EXPECT_NEAR(held.line_m, 75.0F, 0.01F);
-    EXPECT_EQ(held.letter, 'r');
+    EXPECT_NEAR(held.line.distance_m, 75.0F, 0.01F);
+    EXPECT_EQ(held.line.letter, 'r');
     EXPECT_TRUE(held.held_by_signal);
     EXPECT_NEAR(held.travelled_m, 100.0F, 0.01F);
     EXPECT_NEAR(held.displacement_m, 75.0F, 0.01F);
@@ -70,7 +70,7 @@ TEST(RoadAhead, TellsSinceWhenASignalShowsItsLetter) {
         10 m per cell, limit 20 m/s, speed 20 m/s
         a.......|r..........
     )");
-    EXPECT_FLOAT_EQ(outage.after(5.0, "a1").letter_age_s, 5.0F);
+    EXPECT_FLOAT_EQ(outage.after(5.0, "a1").line.letter_age_s, 5.0F);
 }
 
 TEST(RoadAhead, HoldsAVehicleBehindTheOneThatWasAheadOfIt) {

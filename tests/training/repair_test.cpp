@@ -1,0 +1,268 @@
+#include "training/repair.hpp"
+
+#include <filesystem>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "support/temporary_folder.hpp"
+#include "synthetic_repair.hpp"
+#include "training/repair_outputs.hpp"
+
+namespace clearway::training {
+namespace {
+
+using prediction::RepairSampleFile;
+using ::testing::HasSubstr;
+
+std::vector<RepairSampleFile> runs(std::uint32_t count, int samples = 12) {
+    SyntheticRepair world(3);
+    std::vector<RepairSampleFile> files;
+    for (std::uint32_t replication = 0; replication < count; ++replication)
+        files.push_back(world.file(replication, samples, replication % 2 == 0 ? "B10" : "A.5"));
+    return files;
+}
+
+RepairConfig short_training() {
+    RepairConfig config;
+    config.epochs = 6;
+    config.batch_snapshots = 4;
+    config.easy_share = 1.0;
+    config.hidden = 16;
+    return config;
+}
+
+template <class Call>
+std::string message_of(const Call& call) {
+    try {
+        call();
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool same_state(const StateDict& one, const StateDict& other) {
+    return std::ranges::equal(one, other, [](const auto& left, const auto& right) {
+        return left.name == right.name && left.values == right.values;
+    });
+}
+
+TEST(TrainRepair, beats_the_rule_where_there_is_something_to_learn) {
+    RepairConfig config = short_training();
+    config.epochs = 25;
+    const RepairResult result = train_repair(runs(10, 30), config, {});
+    ASSERT_FALSE(result.groups.empty());
+    const RepairGroup& all = result.groups.front();
+    EXPECT_GT(all.net.ap.value(), all.rule.ap.value());
+    EXPECT_LT(all.displacement_error_m, 0.7 * all.rule_displacement_error_m);
+    EXPECT_EQ(result.groups.size(), 1u + 2u + 2u) << "all, by failure, by scenario and failure";
+}
+
+TEST(TrainRepair, goes_on_from_its_checkpoint_as_if_never_interrupted) {
+    const support::TemporaryFolder folder;
+    const std::vector<RepairSampleFile> files = runs(6);
+    const RepairConfig config = short_training();
+    const RepairResult whole = train_repair(files, config, {});
+    const Checkpoint checkpoint{folder.path() / "training", "hash"};
+    int epochs = 0;
+    TrainingHooks hooks;
+    hooks.on_epoch = [&](std::uint32_t, const EpochLoss&) { ++epochs; };
+    hooks.should_stop = [&] { return epochs == 3; };
+    const RepairResult first = train_repair(files, config, checkpoint, hooks);
+    EXPECT_EQ(first.outcome, Outcome::interrupted);
+    EXPECT_EQ(first.losses.size(), 3u);
+    EXPECT_FALSE(first.state.empty());
+    const RepairResult second = train_repair(files, config, checkpoint);
+    EXPECT_EQ(second.losses.size(), 6u);
+    EXPECT_TRUE(same_state(second.state, whole.state));
+    EXPECT_EQ(second.groups.front().net.ap, whole.groups.front().net.ap);
+    // Once complete there is nothing left to do.
+    const RepairResult third = train_repair(files, config, checkpoint);
+    EXPECT_TRUE(same_state(third.state, whole.state));
+}
+
+TEST(TrainRepair, refuses_a_checkpoint_of_another_training) {
+    const support::TemporaryFolder folder;
+    const std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.epochs = 1;
+    const Checkpoint checkpoint{folder.path() / "training", "hash"};
+    train_repair(files, config, checkpoint);
+    RepairConfig other = config;
+    other.learning_rate = 0.5;
+    EXPECT_THAT(message_of([&] { train_repair(files, other, checkpoint); }),
+                ::testing::AllOf(HasSubstr("learning_rate = 0.003"), HasSubstr("learning_rate = 0.5")));
+    EXPECT_THAT(message_of([&] {
+                    train_repair(files, config, {checkpoint.folder, "other data"});
+                }),
+                HasSubstr("data_hash"));
+    core::write_atomically(checkpoint.folder / "checkpoint.json", "{");
+    EXPECT_THAT(message_of([&] { train_repair(files, config, checkpoint); }), HasSubstr("checkpoint.json"));
+}
+
+TEST(TrainRepair, divergence_stops_and_keeps_the_last_good_checkpoint) {
+    const support::TemporaryFolder folder;
+    std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.learning_rate = 1e20;
+    const RepairResult result = train_repair(files, config, {folder.path() / "training", "hash"});
+    EXPECT_EQ(result.outcome, Outcome::diverged);
+    EXPECT_LT(result.losses.size(), 6u);
+}
+
+TEST(TrainRepair, says_what_the_data_lack) {
+    EXPECT_THAT(message_of([] { train_repair({}, {}, {}); }), HasSubstr("--net graphsage"));
+    EXPECT_THAT(message_of([] { train_repair(runs(2), {}, {}); }), HasSubstr("3 seeds or more"));
+    std::vector<RepairSampleFile> one_class = runs(4, 4);
+    for (RepairSampleFile& file : one_class) {
+        for (prediction::RepairSample& sample : file.samples)
+            std::ranges::fill(sample.linked, std::uint8_t{0});
+    }
+    EXPECT_THAT(message_of([&] { train_repair(one_class, {}, {}); }),
+                HasSubstr("hold only pairs that are not linked"));
+    std::vector<RepairSampleFile> other_radius = runs(4, 4);
+    other_radius[2].origin.link_radius_m = 30.0;
+    EXPECT_THAT(message_of([&] { train_repair(other_radius, {}, {}); }), HasSubstr("links below 30 m"));
+}
+
+TEST(TrainRepair, ablations_leave_out_what_they_say) {
+    const std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.epochs = 2;
+    EXPECT_TRUE(config.is_whole());
+    const RepairResult whole = train_repair(files, config, {});
+    const auto differs = [&](const RepairConfig& other) {
+        EXPECT_FALSE(other.is_whole());
+        const RepairResult result = train_repair(files, other, {});
+        EXPECT_FALSE(result.groups.empty());
+        return result.losses.back().held_out != whole.losses.back().held_out;
+    };
+    for (const Aggregation aggregation : {Aggregation::mean, Aggregation::gcn, Aggregation::gat}) {
+        RepairConfig other = config;
+        other.aggregation = aggregation;
+        EXPECT_TRUE(differs(other));
+    }
+    RepairConfig other = config;
+    other.layers = 0;
+    EXPECT_TRUE(differs(other));
+    other = config;
+    other.motion_head = false;
+    EXPECT_TRUE(differs(other));
+    other = config;
+    other.pair_features = false;
+    EXPECT_TRUE(differs(other));
+    other = config;
+    other.edges = MessageEdges::observed;
+    EXPECT_TRUE(differs(other));
+}
+
+TEST(TrainRepair, samples_easy_pairs_without_changing_what_they_weigh) {
+    SyntheticRepair world(5);
+    const prediction::RepairSample sample = world.sample(3.0);
+    const prediction::RepairSample* const one = &sample;
+    const RepairBatch all = batch_of(std::span(&one, 1), MessageEdges::believed);
+    double weight = 0.0;
+    std::size_t pairs = 0;
+    constexpr int draws = 200;
+    for (std::uint32_t draw = 0; draw < draws; ++draw) {
+        const PairSampling sampling{0.25, core::KeyedRandom(core::StudySeed{1}, core::Replication{draw})};
+        const RepairBatch some = batch_of(std::span(&one, 1), MessageEdges::believed, sampling);
+        for (const float of_pair : some.weight)
+            weight += of_pair;
+        pairs += some.pair_count();
+    }
+    const auto all_pairs = static_cast<double>(all.pair_count());
+    EXPECT_LT(static_cast<double>(pairs), 0.6 * draws * all_pairs);
+    EXPECT_NEAR(weight / draws, all_pairs, 0.03 * all_pairs);
+}
+
+TEST(RepairOutputs, the_folder_holds_a_model_unless_it_is_an_ablation) {
+    const support::TemporaryFolder folder;
+    const std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.epochs = 1;
+    const RepairResult result = train_repair(files, config, {});
+    write_outputs(folder.path() / "whole", result, config, summary_of(result, config, "data", "hash"));
+    const prediction::Weights weights =
+        prediction::read_weights(folder.path() / "whole" / "graphsage.weights");
+    EXPECT_NO_THROW(prediction::RepairNet{weights});
+    EXPECT_THAT(weights.notes.front(), HasSubstr("hash"));
+    EXPECT_THAT(core::read_file(folder.path() / "whole" / "metrics.csv"), HasSubstr("all,all,route_rule,"));
+    config.layers = 0;
+    write_outputs(folder.path() / "ablation", result, config, summary_of(result, config, "data", "hash"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "ablation" / "graphsage.weights"));
+}
+
+class RepairSampleFileTest : public ::testing::Test {
+  protected:
+    std::filesystem::path write() {
+        SyntheticRepair world(1);
+        file_ = world.file(4, 3);
+        prediction::RepairSampleWriter writer(file_.origin);
+        for (const prediction::RepairSample& sample : file_.samples)
+            writer.add(sample);
+        const std::filesystem::path path = folder_.path() / "some.samples";
+        writer.write(path);
+        return path;
+    }
+    support::TemporaryFolder folder_;
+    RepairSampleFile file_;
+};
+
+TEST_F(RepairSampleFileTest, what_was_written_is_read) {
+    const RepairSampleFile read = prediction::read_repair_samples(write());
+    EXPECT_EQ(read.origin, file_.origin);
+    ASSERT_EQ(read.samples.size(), 3u);
+    for (std::size_t at = 0; at < 3; ++at) {
+        const prediction::RepairInputs& one = read.samples[at].inputs;
+        const prediction::RepairInputs& other = file_.samples[at].inputs;
+        EXPECT_EQ(one.nodes, other.nodes);
+        EXPECT_EQ(one.edges, other.edges);
+        EXPECT_EQ(one.source, other.source);
+        EXPECT_EQ(one.first_edge, other.first_edge);
+        EXPECT_EQ(one.pairs, other.pairs);
+        EXPECT_EQ(one.pair_features, other.pair_features);
+        EXPECT_EQ(read.samples[at].linked, file_.samples[at].linked);
+        EXPECT_EQ(read.samples[at].rule, file_.samples[at].rule);
+        ASSERT_EQ(one.receivers.size(), other.receivers.size());
+        EXPECT_EQ(one.receivers[1].true_displacement_m, other.receivers[1].true_displacement_m);
+        EXPECT_EQ(one.receivers[1].path.points[3].x_m, other.receivers[1].path.points[3].x_m);
+    }
+}
+
+TEST_F(RepairSampleFileTest, a_file_cut_or_changed_is_refused) {
+    const std::filesystem::path path = write();
+    const std::string bytes = core::read_file(path);
+    for (const std::size_t size : {std::size_t{10}, bytes.size() / 2, bytes.size() - 3}) {
+        core::write_atomically(path, bytes.substr(0, size));
+        EXPECT_NE(message_of([&] { prediction::read_repair_samples(path); }), "") << size;
+    }
+    std::string changed = bytes;
+    changed[bytes.size() / 2] ^= 1;
+    core::write_atomically(path, changed);
+    EXPECT_THAT(message_of([&] { prediction::read_repair_samples(path); }),
+                HasSubstr("its content hashes to"));
+}
+
+TEST_F(RepairSampleFileTest, numbers_that_contradict_each_other_are_a_fault_of_the_recorder) {
+    SyntheticRepair world(1);
+    const prediction::RepairSample good = world.sample(0.0);
+    prediction::RepairSampleWriter writer({"line", "B10", prediction::repair_schema(), 1, 0, 50.0});
+    prediction::RepairSample bad = good;
+    bad.inputs.source.front() = 1000;
+    EXPECT_THROW(writer.add(bad), std::logic_error);
+    bad = good;
+    bad.linked.front() = 2;
+    EXPECT_THROW(writer.add(bad), std::logic_error);
+    bad = good;
+    bad.inputs.nodes[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(writer.add(bad), std::logic_error);
+    EXPECT_NO_THROW(writer.add(good));
+}
+
+}  // namespace
+}  // namespace clearway::training

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "prediction/repair_sample.hpp"
+
+namespace clearway::training {
+
+/// Samples of the improved net's form that could be real: vehicles on a straight road of 600 m, a third of
+/// them not known. A hidden vehicle's true displacement is half of what the rule says when its speed feature
+/// is below 0.5 and all of it otherwise, so that there is something to learn that the rule does not know.
+class SyntheticRepair {
+  public:
+    explicit SyntheticRepair(std::uint32_t seed) : random_(seed) {}
+
+    prediction::RepairSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
+        prediction::RepairSampleFile file;
+        file.origin = {"line", failure, prediction::repair_schema(), 1, replication, 50.0};
+        for (int second = 0; second < samples; ++second)
+            file.samples.push_back(sample(second));
+        return file;
+    }
+
+    prediction::RepairSample sample(double time_s) {
+        constexpr std::uint32_t rows = 24;
+        prediction::RepairSample sample;
+        sample.time_s = time_s;
+        prediction::RepairInputs& inputs = sample.inputs;
+        inputs.rows = rows;
+        inputs.nodes.assign(rows * prediction::node_width, 0.0F);
+        std::vector<float> true_x_m(rows);
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            const float x_m = 600.0F * uniform();
+            const float speed = uniform();
+            inputs.x_m.push_back(x_m);
+            inputs.y_m.push_back(0.0F);
+            inputs.sensor_sigma_m.push_back(0.0F);
+            float* const numbers = &inputs.nodes[row * prediction::node_width];
+            const bool known = row % 3 != 0;
+            numbers[0] = known ? 1.0F : 0.0F;
+            numbers[3] = speed;
+            true_x_m[row] = x_m;
+            if (known) continue;
+            prediction::Receiver receiver;
+            receiver.row = row;
+            receiver.reach_m = 150.0F;
+            receiver.displacement_m = 140.0F * uniform();
+            receiver.true_displacement_m = receiver.displacement_m * (speed < 0.5F ? 0.5F : 1.0F);
+            for (std::size_t i = 0; i < prediction::path_points; ++i) {
+                receiver.path.points[i] = {x_m + 10.0F * static_cast<float>(i), 0.0F};
+            }
+            for (std::uint32_t number = 6; number < prediction::node_width; ++number)
+                numbers[number] = uniform() - 0.5F;
+            numbers[10] = receiver.displacement_m / 100.0F;
+            true_x_m[row] = x_m + receiver.true_displacement_m;
+            inputs.receivers.push_back(receiver);
+            add_edges(row, inputs);
+        }
+        for (std::uint32_t left = 0; left < rows; ++left) {
+            for (std::uint32_t right = left + 1; right < rows; ++right) {
+                if (left % 3 != 0 && right % 3 != 0) continue;
+                add_pair({left, right}, true_x_m, sample);
+            }
+        }
+        return sample;
+    }
+
+  private:
+    void add_edges(std::uint32_t row, prediction::RepairInputs& inputs) {
+        for (std::uint32_t source = 0; source < inputs.rows; source += 5) {
+            if (source == row) continue;
+            inputs.source.push_back(source);
+            for (std::uint32_t number = 0; number < prediction::edge_width; ++number)
+                inputs.edges.push_back(uniform() < 0.3F ? 0.0F : uniform() - 0.5F);
+        }
+        inputs.first_edge.push_back(static_cast<std::uint32_t>(inputs.source.size()));
+    }
+
+    static float rule_x_m(const prediction::RepairInputs& inputs, std::uint32_t row) {
+        for (const prediction::Receiver& receiver : inputs.receivers) {
+            if (receiver.row == row) return inputs.x_m[row] + receiver.displacement_m;
+        }
+        return inputs.x_m[row];
+    }
+
+    void add_pair(prediction::RowPair pair, const std::vector<float>& true_x_m,
+                  prediction::RepairSample& sample) {
+        const float distance_m =
+            std::abs(rule_x_m(sample.inputs, pair.left) - rule_x_m(sample.inputs, pair.right));
+        sample.inputs.pairs.push_back(pair);
+        for (std::uint32_t number = 0; number < prediction::pair_width; ++number) {
+            sample.inputs.pair_features.push_back(number < 3 ? std::min(distance_m / 50.0F, 4.0F)
+                                                             : uniform() - 0.5F);
+        }
+        const float apart_m = std::abs(true_x_m[pair.left] - true_x_m[pair.right]);
+        sample.linked.push_back(apart_m < 50.0F ? 1 : 0);
+        sample.rule.push_back(1.0F / (1.0F + std::exp((distance_m - 50.0F) / 10.0F)));
+    }
+
+    float uniform() { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random_); }
+
+    std::mt19937 random_;
+};
+
+}  // namespace clearway::training
