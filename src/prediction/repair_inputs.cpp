@@ -11,6 +11,8 @@ namespace {
 
 constexpr float speed_unit_mps = 15.0F;
 constexpr float length_unit_m = 50.0F;
+/// In place of a range where a vehicle does not detect the other.
+constexpr float not_detected = -2.0F;
 
 float flag(bool condition) {
     return condition ? 1.0F : 0.0F;
@@ -178,45 +180,51 @@ void RepairInputBuilder::write_receiver_features(const traffic::Observation& obs
 
 void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
     proximity_.build_all_pairs({x_m_, y_m_, scene.tracks.vehicle_class}, message_radius_m, near_);
-    auto detector = detectors_.begin();
+    auto first = detectors_.begin();
     for (const RoadAhead& ahead : ahead_) {
-        const auto detected_end = std::find_if(detector, detectors_.end(),
-                                               [&](const Detector& entry) { return entry.row != ahead.row; });
-        const auto detected_range = [&](std::uint32_t source) {
-            const auto found = std::find_if(detector, detected_end,
-                                            [&](const Detector& entry) { return entry.from == source; });
-            return found != detected_end;
-        };
-        nearest_.clear();
-        const auto neighbours = near_.neighbours_of(ahead.row);
-        const auto distances = near_.distances_of(ahead.row);
-        for (std::size_t at = 0; at < neighbours.size(); ++at) {
-            const std::uint32_t source = neighbours[at];
-            const bool apart = (ahead.leader.exists && ahead.leader.row == source) ||
-                               (ahead.follower.exists && ahead.follower.row == source) ||
-                               detected_range(source);
-            if (!apart) nearest_.push_back({distances[at], source});
+        auto last = first;
+        while (last != detectors_.end() && last->row == ahead.row) {
+            ++last;
         }
-        const std::size_t kept = std::min(most_near_sources, nearest_.size());
-        std::ranges::partial_sort(nearest_, nearest_.begin() + static_cast<std::ptrdiff_t>(kept));
-        for (std::size_t at = 0; at < kept; ++at) {
-            add_edge(scene, ahead, nearest_[at].row, -2.0F, inputs);
-        }
-        for (; detector != detected_end; ++detector) {
-            add_edge(scene, ahead, detector->from, detector->range_m, inputs);
+        const std::span<const Detector> detectors(first, last);
+        add_nearest(scene, ahead, detectors, inputs);
+        for (const Detector& detector : detectors) {
+            add_edge(scene, ahead, detector.from, detector.range_m, inputs);
         }
         for (const VehicleOnWay* const other : {&ahead.leader, &ahead.follower}) {
-            const bool detected =
-                other->exists && std::any_of(detectors_.begin(), detected_end, [&](const Detector& entry) {
-                    return entry.row == ahead.row && entry.from == other->row;
-                });
-            if (other->exists && !detected) add_edge(scene, ahead, other->row, -2.0F, inputs);
+            if (!other->exists || detects(detectors, other->row)) continue;
+            add_edge(scene, ahead, other->row, not_detected, inputs);
         }
         inputs.first_edge.push_back(static_cast<std::uint32_t>(inputs.source.size()));
+        first = last;
     }
 }
 
-/// `range_m`: measured, -1 for presence alone, -2 where nothing was detected.
+bool RepairInputBuilder::detects(std::span<const Detector> detectors, std::uint32_t row) {
+    return std::ranges::find(detectors, row, &Detector::from) != detectors.end();
+}
+
+/// The nearest vehicles but those that get an edge for another reason.
+void RepairInputBuilder::add_nearest(const Scene& scene, const RoadAhead& ahead,
+                                     std::span<const Detector> detectors, RepairInputs& inputs) {
+    nearest_.clear();
+    const auto neighbours = near_.neighbours_of(ahead.row);
+    const auto distances = near_.distances_of(ahead.row);
+    for (std::size_t at = 0; at < neighbours.size(); ++at) {
+        const std::uint32_t source = neighbours[at];
+        const bool apart = (ahead.leader.exists && ahead.leader.row == source) ||
+                           (ahead.follower.exists && ahead.follower.row == source) ||
+                           detects(detectors, source);
+        if (!apart) nearest_.push_back({distances[at], source});
+    }
+    const std::size_t kept = std::min(most_near_sources, nearest_.size());
+    std::ranges::partial_sort(nearest_, nearest_.begin() + static_cast<std::ptrdiff_t>(kept));
+    for (std::size_t at = 0; at < kept; ++at) {
+        add_edge(scene, ahead, nearest_[at].row, not_detected, inputs);
+    }
+}
+
+/// `range_m`: measured, -1 for presence alone, or `not_detected`.
 void RepairInputBuilder::add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source,
                                   float range_m, RepairInputs& inputs) {
     const Tracks& tracks = scene.tracks;
@@ -246,7 +254,7 @@ void RepairInputBuilder::add_edge(const Scene& scene, const RoadAhead& ahead, st
     out.put(std::min(tracks.age_s[source] / 10.0F, 6.0F));
     out.put(ahead.leader.exists && ahead.leader.row == source);
     out.put(ahead.follower.exists && ahead.follower.row == source);
-    out.put(range_m > -1.5F);
+    out.put(range_m != not_detected);
     out.put(range_m >= 0.0F);
     out.put(range_m >= 0.0F ? within((distance_m - range_m) / length_unit_m, 3.0F) : 0.0F);
     const bool same_lane = last.lane.exists() && last.lane == tracks.last[row].lane;

@@ -16,9 +16,9 @@ namespace clearway::prediction {
 // coordinates of the map, no truth, nothing of the future.
 
 /// Numbers of a vehicle, of an edge that carries a message, and of a pair.
-inline constexpr std::uint32_t node_width = 45;
-inline constexpr std::uint32_t edge_width = 18;
-inline constexpr std::uint32_t pair_width = 12;
+inline constexpr std::size_t node_width = 45;
+inline constexpr std::size_t edge_width = 18;
+inline constexpr std::size_t pair_width = 12;
 /// Name and version of all of this; its width is `node_width`.
 FeatureSchema repair_schema();
 
@@ -69,10 +69,20 @@ class RepairInputBuilder {
     const std::vector<RoadAhead>& ahead() const { return ahead_; }
 
   private:
+    struct Detector {
+        std::uint32_t row = 0;
+        std::uint32_t from = 0;
+        float range_m = -1.0F;
+        auto operator<=>(const Detector&) const = default;
+    };
+
     void write_nodes(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
     void write_receiver_features(const traffic::Observation& observation, const Scene& scene,
-                                 const RoadAhead& ahead, std::span<float> row);
+                                 const RoadAhead& ahead, std::span<float> numbers);
     void write_edges(const Scene& scene, RepairInputs& inputs);
+    static bool detects(std::span<const Detector> detectors, std::uint32_t row);
+    void add_nearest(const Scene& scene, const RoadAhead& ahead, std::span<const Detector> detectors,
+                     RepairInputs& inputs);
     void add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source, float range_m,
                   RepairInputs& inputs);
     void write_pairs(const Scene& scene, RepairInputs& inputs);
@@ -85,12 +95,6 @@ class RepairInputBuilder {
     std::vector<RoadAhead> ahead_;
     std::vector<std::uint32_t> ahead_of_row_;
     std::vector<float> x_m_, y_m_;  ///< Believed by the rule.
-    struct Detector {
-        std::uint32_t row = 0;
-        std::uint32_t from = 0;
-        float range_m = -1.0F;
-        auto operator<=>(const Detector&) const = default;
-    };
     std::vector<Detector> detectors_;
     struct Near {
         float distance_m = 0.0F;

@@ -63,16 +63,17 @@ RepairNet::RepairNet(const Weights& weights, Kernel kernel) : kernel_(kernel) {
     dimensions_ = {weights.dimension("hidden"),    weights.dimension("layers"),  weights.dimension("motion"),
                    weights.dimension("embedding"), weights.dimension("decoder"), weights.dimension("last")};
     const std::uint32_t hidden = dimensions_.hidden;
-    encoder_ = linear_from(weights, "encoder", node_width, hidden, Bias::with);
+    encoder_ = linear_from(weights, "encoder", std::uint32_t{node_width}, hidden, Bias::with);
     for (std::uint32_t number = 1; number <= dimensions_.layers; ++number) {
         const std::string layer = fmt::format("layer{}.", number);
-        layers_.push_back({linear_from(weights, layer + "gate_own", hidden, hidden, Bias::with),
-                           linear_from(weights, layer + "gate_source", hidden, hidden, Bias::without),
-                           linear_from(weights, layer + "gate_edge", edge_width, hidden, Bias::without),
-                           linear_from(weights, layer + "value_source", hidden, hidden, Bias::with),
-                           linear_from(weights, layer + "value_edge", edge_width, hidden, Bias::without),
-                           linear_from(weights, layer + "out_message", hidden, hidden, Bias::with),
-                           linear_from(weights, layer + "out_own", hidden, hidden, Bias::without)});
+        layers_.push_back(
+            {linear_from(weights, layer + "gate_own", hidden, hidden, Bias::with),
+             linear_from(weights, layer + "gate_source", hidden, hidden, Bias::without),
+             linear_from(weights, layer + "gate_edge", std::uint32_t{edge_width}, hidden, Bias::without),
+             linear_from(weights, layer + "value_source", hidden, hidden, Bias::with),
+             linear_from(weights, layer + "value_edge", std::uint32_t{edge_width}, hidden, Bias::without),
+             linear_from(weights, layer + "out_message", hidden, hidden, Bias::with),
+             linear_from(weights, layer + "out_own", hidden, hidden, Bias::without)});
     }
     motion1_ = linear_from(weights, "motion1", hidden, dimensions_.motion, Bias::with);
     motion2_ = linear_from(weights, "motion2", dimensions_.motion, 2, Bias::with);
@@ -264,8 +265,8 @@ float RepairNet::distance_facts(const RowPair& pair, float* facts) const {
 }
 
 void RepairNet::decode(const RepairInputs& inputs, std::vector<float>& logits) {
-    const std::uint32_t width = decoder_width(dimensions_);
-    const std::uint32_t embedding = dimensions_.embedding;
+    const std::size_t width = decoder_width(dimensions_);
+    const std::size_t embedding = dimensions_.embedding;
     logits.resize(inputs.pairs.size());
     block_.resize(block_pairs * width);
     block1_.resize(block_pairs * decoder1_.stride());
@@ -279,7 +280,7 @@ void RepairNet::decode(const RepairInputs& inputs, std::vector<float>& logits) {
             const float* const left = &embeddings_[pair.left * embedding_.stride()];
             const float* const right = &embeddings_[pair.right * embedding_.stride()];
             float* const row = &block_[i * width];
-            for (std::uint32_t at = 0; at < embedding; ++at) {
+            for (std::size_t at = 0; at < embedding; ++at) {
                 row[at] = left[at] * right[at];
                 row[embedding + at] = std::abs(left[at] - right[at]);
             }

@@ -33,7 +33,7 @@ inline constexpr std::uint32_t distance_width = 4;
 /// Inputs of the decoder: product and distance of the embeddings, `pair_width` features, and distance, score,
 /// P(d < r) and spread of the believed places.
 constexpr std::uint32_t decoder_width(const RepairDimensions& dimensions) {
-    return 2 * dimensions.embedding + pair_width + distance_width;
+    return 2 * dimensions.embedding + std::uint32_t{pair_width} + distance_width;
 }
 
 /// Where the net believes a receiver to be.
