@@ -27,6 +27,8 @@ constexpr Registration registry[] = {
     {"graphsage_as_published", "the dissertation's net on raw coordinates", make_graphsage_as_published},
     {"graphsage_corrected", "the same architecture on inputs that carry distance and age",
      make_graphsage_corrected},
+    {"graphsage", "the improved net: messages in route frames, motion head, calibrated links",
+     make_graphsage},
 };
 
 }  // namespace
