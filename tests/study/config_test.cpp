@@ -57,6 +57,43 @@ safety_checks = "off"
     EXPECT_EQ(config.conditions[2].safety_checks, traffic::SafetyChecks::off);
 }
 
+TEST_F(StudyFile, LeavesOfItselfWhatQuickNames) {
+    const std::string text = R"(
+name = "outages"
+scenarios = ["merge", "intersection"]
+conditions = ["baseline"]
+condition = [{name = "a", failure = "dark_share=0.1"}, {name = "b", failure = "dark_share=0.9"}]
+[quick]
+replications = 3
+scenarios = ["merge"]
+conditions = ["baseline", "b"]
+)";
+    const auto file = folder_.write("study.toml", text);
+    EXPECT_EQ(read_study(file).conditions.size(), 3U);
+    EXPECT_EQ(read_study(file).replications, 20U);
+    const StudyConfig quick = read_study(file, Extent::quick);
+    EXPECT_EQ(quick.name, "outages-quick");
+    EXPECT_EQ(quick.replications, 3U);
+    ASSERT_EQ(quick.scenarios.size(), 1U);
+    EXPECT_EQ(quick.scenarios[0].name, "merge");
+    ASSERT_EQ(quick.conditions.size(), 2U);
+    EXPECT_EQ(quick.conditions[1].failure, "dark_share=0.9");
+}
+
+TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
+    const std::string text = "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n";
+    const std::string wrong = problems(
+        text + "[quick]\nreplications = 0\nscenarios = [\"merg\"]\nconditions = [\"solo\"]\nseed = 3\n");
+    EXPECT_THAT(wrong, testing::AllOf(HasSubstr("replications"), HasSubstr("Did you mean 'merge'?"),
+                                      HasSubstr("'solo' is none of the study's"), HasSubstr("unknown key")));
+    try {
+        read_study(folder_.write("study.toml", text), Extent::quick);
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("[quick]"));
+    }
+}
+
 TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {
     const std::string message = problems(R"(replikations = 30
 replications = -3
