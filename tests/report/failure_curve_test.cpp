@@ -90,8 +90,8 @@ TEST(FailureCurves, ShowNoBenefitWithoutAnInterval) {
     analysis::Estimate single;
     single.n = 1;
     single.mean = -5.0;
-    const auto curves = failure_curves(summary_of({condition("dark_share=0", "none", single, 1.0),
-                                                   condition("dark_share=0.5", "none", single, 0.5)}));
+    const auto curves = failure_curves(summary_of(
+        {condition("dark_share=0", "none", single, 1.0), condition("dark_share=0.5", "none", single, 0.5)}));
     EXPECT_EQ(curves[0].lines[0].break_even, 0u);
 }
 
@@ -108,7 +108,8 @@ TEST(FailureCurves, StandInTheTableInJsonAndOnThePage) {
     StudyFacts study;
     study.failure_curves = failure_curves(three_shares());
     const std::string table = console_tables(study);
-    EXPECT_THAT(table, HasSubstr("Benefit against failure: city, policy clear_lane; failure mean_outage_s=10"));
+    EXPECT_THAT(table,
+                HasSubstr("Benefit against failure: city, policy clear_lane; failure mean_outage_s=10"));
     EXPECT_THAT(table, HasSubstr("-4.0 [-7.9, -0.1]"));
     EXPECT_THAT(table, HasSubstr("0.400 [0.390, 0.410]"));
     EXPECT_THAT(table, HasSubstr("not shown (break-even)"));
