@@ -1,10 +1,12 @@
 #include "study/config.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "study/conditions.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -92,6 +94,21 @@ TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("[quick]"));
     }
+}
+
+TEST(ShippedStudies, CanBeReadWholeAndQuickWhereTheySaySo) {
+    setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);
+    std::size_t read = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(CLEARWAY_SOURCE_DIR) + "/studies")) {
+        if (entry.path().extension() != ".toml") continue;
+        EXPECT_FALSE(read_study(entry.path()).conditions.empty()) << entry.path();
+        if (core::read_file(entry.path()).find("[quick]\n") == std::string::npos) continue;
+        EXPECT_LT(read_study(entry.path(), Extent::quick).conditions.size(),
+                  read_study(entry.path()).conditions.size());
+        ++read;
+    }
+    EXPECT_GT(read, 0U) << "studies/sensor_failure.toml has one";
 }
 
 TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {
