@@ -240,11 +240,8 @@ LogisticResult train_logistic(const std::vector<PairSampleFile>& files, const Lo
     LogisticResult result;
     std::vector<DataSeed> seeds;
     std::ranges::transform(files, std::back_inserter(seeds), seed_of);
-    CorrectedConfig split;
-    split.training.seed = config.seed;
-    split.validation_share = config.validation_share;
-    split.test_share = config.test_share;
-    result.seeds = split_seeds(seeds, split);
+    result.seeds = split_seeds(
+        seeds, {.seed = config.seed, .validation = config.validation_share, .test = config.test_share});
 
     const std::vector<const PairSampleFile*> train = files_of(files, result.seeds.train, "training");
     require_both_classes(train);

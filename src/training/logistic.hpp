@@ -11,7 +11,7 @@
 #include "core/fields.hpp"
 #include "metrics/link_quality.hpp"
 #include "prediction/pair_samples.hpp"
-#include "training/corrected.hpp"
+#include "training/seeds.hpp"
 
 namespace clearway::training {
 
