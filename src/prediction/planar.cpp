@@ -118,12 +118,16 @@ void elapse(float elapsed_s, float heading_rad, const Noise& noise, Filter& filt
     }
 }
 
-/// The four measurements one after the other: their errors are independent.
+/// The four measurements one after the other: their errors are independent. A position without a stated error
+/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
+/// gain across the heading, where the filter itself is certain.
 void correct(const Measurement& seen, Filter& filter) {
+    constexpr float least_position_var_m2 = 0.01F;
     auto& p = filter.covariance;
     for (std::size_t at = 0; at < 4; ++at) {
-        const float total = p[at][at] + seen.variance[at];
-        if (total <= 0.0F) continue;
+        const float variance =
+            at < 2 ? std::max(seen.variance[at], least_position_var_m2) : seen.variance[at];
+        const float total = p[at][at] + variance;
         const float innovation = seen.value[at] - filter.mean[at];
         const std::array<float, 4> row = p[at];
         for (std::size_t i = 0; i < 4; ++i) {
@@ -132,6 +136,9 @@ void correct(const Measurement& seen, Filter& filter) {
                 p[i][j] -= row[i] * row[j] / total;
             }
         }
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        if (seen.variance[axis] == 0.0F) filter.mean[axis] = seen.value[axis];
     }
 }
 

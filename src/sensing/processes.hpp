@@ -75,7 +75,7 @@ class NoiseProcess {
     /// Standard normal, correlated with the report before by `correlation`; `axis` of `axes` independent
     /// ones.
     struct Series {
-        core::Purpose purpose;
+        core::Purpose purpose = core::Purpose::position_noise;
         std::uint64_t axes = 1;
         std::uint64_t axis = 0;
         double correlation = 0.0;

@@ -198,6 +198,28 @@ TEST(Kalman, TakesEachReportOnceAndStartsAnewWithAnOlderOne) {
     EXPECT_EQ(again.vehicles[0].sigma_m, 3.0F);
 }
 
+TEST(Kalman, KeepsToExactReportsInAnyDirection) {
+    const support::Scene scene("10 m per cell\n..e....");
+    for (const float heading : {0.0F, 0.3F, 0.8F, 2.0F, -2.7F}) {
+        const auto kalman = make_predictor("kalman", {scene.network(), {}, "", {}});
+        traffic::MotionState state;
+        state.heading_rad = heading;
+        for (int second = 0; second < 120; ++second) {
+            state.speed_mps = 10.0F + static_cast<float>(second % 7);
+            state.x_m = 5000.0F + 11.0F * static_cast<float>(second) * std::cos(heading);
+            state.y_m = 3000.0F + 11.0F * static_cast<float>(second) * std::sin(heading);
+            const auto belief = belief_of(*kalman, report_of(scene, state, second, second));
+            ASSERT_EQ(belief.vehicles[0].state.x_m, state.x_m);
+            ASSERT_NEAR(belief.vehicles[0].state.speed_mps, state.speed_mps, 4.0) << heading << " " << second;
+            ASSERT_LT(belief.vehicles[0].sigma_m, 0.2F);
+        }
+        const auto later = belief_of(*kalman, report_of(scene, state, 124.0, 119.0));
+        EXPECT_NEAR(
+            std::hypot(later.vehicles[0].state.x_m - state.x_m, later.vehicles[0].state.y_m - state.y_m),
+            5.0 * state.speed_mps, 20.0);
+    }
+}
+
 TEST(Kalman, IsNearerToTheTruthThanNoisyReports) {
     const support::Scene scene("10 m per cell\n..e....");
     const auto kalman = make_predictor("kalman", {scene.network(), {}, "", {}});
