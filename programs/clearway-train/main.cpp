@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,14 +18,16 @@
 #include "core/files.hpp"
 #include "prediction/dataset_files.hpp"
 #include "prediction/graph_sample.hpp"
+#include "prediction/pair_samples.hpp"
 #include "training/as_published.hpp"
 #include "training/corrected.hpp"
+#include "training/logistic.hpp"
 #include "training/outputs.hpp"
 
 namespace clearway::training {
 namespace {
 
-enum class Mode { as_published, corrected };
+enum class Mode { as_published, corrected, logistic };
 
 struct Arguments {
     std::filesystem::path data;
@@ -34,6 +37,7 @@ struct Arguments {
     std::vector<std::filesystem::path> unseen;
     Printing printing = Printing::epochs;
     CorrectedConfig config;
+    LogisticConfig logistic;
 };
 
 void declare_options(CLI::App& app, Arguments& arguments) {
@@ -47,6 +51,16 @@ void declare_options(CLI::App& app, Arguments& arguments) {
     auto* const corrected = app.add_flag_callback(
         "--corrected", [&] { arguments.mode = Mode::corrected; },
         "Train on many snapshots, split by seed, without messages along the labels");
+    auto* const logistic =
+        app.add_flag_callback(
+               "--logistic", [&] { arguments.mode = Mode::logistic; },
+               "Fit the logistic pair model on `clearway dataset --samples --net logistic`")
+            ->excludes(corrected);
+    app.add_option("--ridge", arguments.logistic.ridge, "Weight of the squared weights beside the mean loss")
+        ->check(CLI::Range(0.0, 1e6))
+        ->option_text(fmt::format("NUMBER, 0 to 1e6 [{:g}]", arguments.logistic.ridge))
+        ->needs(logistic)
+        ->group("Only with --logistic");
     static const std::map<std::string, PairChoice> pairs = {{"true-links", PairChoice::true_only},
                                                             {"candidates", PairChoice::candidates}};
     app.add_option_function<std::string>(
@@ -54,11 +68,13 @@ void declare_options(CLI::App& app, Arguments& arguments) {
            "Pairs of the list to use: only those labelled 1, or all")
         ->check(CLI::IsMember(pairs))
         ->option_text("true-links|candidates [candidates]")
-        ->excludes(corrected);
+        ->excludes(corrected)
+        ->excludes(logistic);
     app.add_option("--unseen", arguments.unseen,
                    "Data sets, for example of other seeds, on which the net is scored")
         ->option_text("DIR...")
-        ->excludes(corrected);
+        ->excludes(corrected)
+        ->excludes(logistic);
     app.add_flag_callback(
         "--quiet", [&] { arguments.printing = Printing::closing_only; },
         "Do not print the losses of each epoch");
@@ -72,7 +88,8 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "`clearway train graphsage --help` explains how the improved net is trained.\n\n"
         "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
         "torch.load),\n"
-        "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv.\n\n"
+        "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv. With --logistic: "
+        "summary.json\nand logistic.weights.\n\n"
         "Examples:\n  clearway dataset city --out data/city\n  clearway train --data data/city --out "
         "models/mine\n"
         "  clearway train --data data/city --pairs true-links --epochs 100 --seed 1 --out models/true_links "
@@ -164,6 +181,41 @@ core::ExitCode run_corrected(const Arguments& arguments) {
     return conclude(arguments, result, summary);
 }
 
+core::ExitCode run_logistic(const Arguments& arguments) {
+    const std::vector<std::filesystem::path> paths = prediction::find_pair_samples(arguments.data);
+    std::vector<prediction::PairSampleFile> files;
+    for (const std::filesystem::path& path : paths)
+        files.push_back(prediction::read_pair_samples(path));
+    LogisticConfig config = arguments.logistic;
+    config.seed = arguments.config.training.seed;
+    const LogisticResult result = train_logistic(files, config);
+    const auto summary = summary_of(result, config, arguments.data, hash_of_files(paths));
+    write_outputs(arguments.out, result, summary);
+    if (arguments.printing == Printing::json) {
+        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return core::ExitCode::ok;
+    }
+    fmt::print("{} Newton steps, {}; training log loss {:.4f} nat over {} pairs\n", result.iterations,
+               result.converged ? "converged" : "not converged", result.train_loss, result.train_pairs);
+    for (const LogisticGroup& group : result.groups) {
+        print_quality(group.scenario.empty() ? "test seeds" : group.scenario + " " + group.failure,
+                      group.quality);
+    }
+    return core::ExitCode::ok;
+}
+
+core::ExitCode train_as(const Arguments& arguments) {
+    switch (arguments.mode) {
+        case Mode::as_published:
+            return run_as_published(arguments);
+        case Mode::corrected:
+            return run_corrected(arguments);
+        case Mode::logistic:
+            return run_logistic(arguments);
+    }
+    throw std::logic_error("a mode of training without its function");
+}
+
 int run(int argument_count, char** argument_values) {
     if (argument_count > 1 && std::string_view(argument_values[1]) == "graphsage") {
         return run_graphsage(argument_count - 1, argument_values + 1);
@@ -180,8 +232,7 @@ int run(int argument_count, char** argument_values) {
     }
     watch_signals();
     core::make_folder(arguments.out);
-    const core::ExitCode code =
-        arguments.mode == Mode::corrected ? run_corrected(arguments) : run_as_published(arguments);
+    const core::ExitCode code = train_as(arguments);
     if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
     return static_cast<int>(code);
 }

@@ -83,9 +83,13 @@ Actuator::Actuator(const roads::Network& network, Config config)
 
 Actuator::~Actuator() = default;
 
-void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now) {
+void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now,
+                      std::span<const core::VehicleKey> unreachable) {
     for (const traffic::Lease& lease : leases) {
         const char* reason = state_->check(lease, now);
+        const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+        if (reason == nullptr && vehicle != nullptr && std::ranges::binary_search(unreachable, *vehicle))
+            reason = "unreachable";
         if (reason == nullptr) {
             state_->take(lease);
             continue;

@@ -31,15 +31,16 @@ namespace clearway::actuation {
 /// | reason | meaning |
 /// |---|---|
 /// | `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
-/// `no_such_signal`, `wrong_target` | never legal | | `vehicle_gone`, `signal_gone`,
-/// `vehicle_does_not_answer` | the target is not there (any more) | | `not_controllable`,
-/// `not_an_emergency_vehicle` | human drivers take no leases; only emergency vehicles pass red | |
-/// `above_allowed_speed` | faster than road limit and vehicle allow | | `cannot_stop_comfortably` | a stop
-/// that needs more than the vehicle's usual deceleration | | `on_a_junction`, `no_such_lane`,
-/// `lane_not_allowed` | the lane is not there for this vehicle | | `lane_does_not_continue` | neither a best
-/// lane for its route nor drivable for over 300 m | | `no_room_beside` | the vehicle itself would not change
-/// now | | `needs_sublane_model` | lateral positions without the sublane model | | `outranked`, `hold_cap`,
-/// `cool_down`, `no_phase_serves` | see Config; a favour that no phase can grant |
+/// `no_such_signal`, `wrong_target` | never legal | | `unreachable` | commands do not reach it now | |
+/// `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer` | the target is not there (any more) | |
+/// `not_controllable`, `not_an_emergency_vehicle` | human drivers take no leases; only emergency vehicles
+/// pass red | | `above_allowed_speed` | faster than road limit and vehicle allow | |
+/// `cannot_stop_comfortably` | a stop that needs more than the vehicle's usual deceleration | |
+/// `on_a_junction`, `no_such_lane`, `lane_not_allowed` | the lane is not there for this vehicle | |
+/// `lane_does_not_continue` | neither a best lane for its route nor drivable for over 300 m | |
+/// `no_room_beside` | the vehicle itself would not change now | | `needs_sublane_model` | lateral positions
+/// without the sublane model | | `outranked`, `hold_cap`, `cool_down`, `no_phase_serves` | see Config; a
+/// favour that no phase can grant |
 ///
 /// A speed lease never brakes harder than the vehicle's usual deceleration: SUMO bounds the change of every
 /// step while the safety checks are on.
@@ -54,8 +55,10 @@ class Actuator {
     Actuator& operator=(const Actuator&) = delete;
 
     /// Takes new leases and renewals. A lease of the same part for the same target, beneficiary and kind of
-    /// thing renews the running one.
-    void accept(std::span<const traffic::Lease> leases, core::Seconds now);
+    /// thing renews the running one. Leases for the `unreachable` vehicles (ordered by key) are refused, so
+    /// that those running there expire.
+    void accept(std::span<const traffic::Lease> leases, core::Seconds now,
+                std::span<const core::VehicleKey> unreachable = {});
 
     /// Appends the commands for this step, ordered by vehicle key, then by signal. `snapshot` and `self` are
     /// the vehicles' knowledge of themselves. Called once for every step, in order of time.

@@ -32,12 +32,9 @@ struct Arguments {
 };
 
 void check_failures(const std::vector<std::string>& failures) {
-    const std::vector<std::string> known = failure_names();
     std::vector<core::Problem> problems;
     for (const std::string& failure : failures) {
-        if (std::ranges::find(known, failure) == known.end()) {
-            problems.push_back(unknown_name("--failure", failure, known));
-        }
+        check_failure("--failure", failure, problems);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
@@ -115,7 +112,7 @@ void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Opt
 }
 
 CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
-    const char* const group = "Many snapshots (for train --corrected and --graphsage)";
+    const char* const group = "Many snapshots (for train the other trainings)";
     results::DatasetOrder& order = arguments.order;
     CLI::Option* const samples =
         app.add_flag_callback(
@@ -123,12 +120,14 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
                "What predictors are given at many moments, and the answers [one snapshot]")
             ->group(group);
     static const std::map<std::string, results::DatasetKind> nets = {
-        {"corrected", results::DatasetKind::samples}, {"graphsage", results::DatasetKind::repair}};
+        {"corrected", results::DatasetKind::samples},
+        {"graphsage", results::DatasetKind::repair},
+        {"logistic", results::DatasetKind::pair_samples}};
     app.add_option_function<std::string>(
            "--net", [&order](const std::string& name) { order.kind = nets.at(name); },
-           "Whose inputs: graphsage_corrected's or graphsage's")
+           "Whose inputs: graphsage_corrected's, graphsage's or the pair model's (as CSV)")
         ->check(CLI::IsMember(nets))
-        ->option_text("corrected|graphsage [corrected]")
+        ->option_text("corrected|graphsage|logistic [corrected]")
         ->needs(samples)
         ->group(group);
     app.add_option("--exits", order.exits, "Whether it is known when a vehicle leaves the network")

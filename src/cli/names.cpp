@@ -26,6 +26,24 @@ std::vector<std::string> failure_names() {
     return names;
 }
 
+void check_failure(const std::string& where, const std::string& failure,
+                   std::vector<core::Problem>& problems) {
+    if (failure.find_first_of("=,") == std::string::npos) {
+        const std::vector<std::string> known = failure_names();
+        if (std::ranges::find(known, failure) == known.end())
+            problems.push_back(unknown_name(where, failure, known));
+        return;
+    }
+    try {
+        sensing::failure_from(failure);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("{} `{}`: {}", where, failure, problem.where);
+            problems.push_back(std::move(problem));
+        }
+    }
+}
+
 std::vector<std::string> part_names() {
     std::vector<std::string> names;
     for (const policy::PartEntry& part : policy::parts()) {
@@ -44,7 +62,7 @@ void check_names(const std::vector<results::ConditionSpec>& conditions) {
     };
     for (const results::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
-        check(where + "failure", condition.failure, failure_names());
+        check_failure(where + "failure", condition.failure, problems);
         check(where + "predictor", condition.predictor, prediction::predictor_names());
         for (const std::string& part : condition.parts) {
             check(where + "policy", part, part_names());

@@ -15,6 +15,10 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
 std::vector<std::string> failure_names();
 std::vector<std::string> part_names();
 
+/// Adds what is wrong with a failure, a preset or fields (sensing::failure_from), given at `where`.
+void check_failure(const std::string& where, const std::string& failure,
+                   std::vector<core::Problem>& problems);
+
 /// Checks failure, predictor and policy parts of every condition before anything runs. Throws
 /// core::InputError with all unknown names.
 void check_names(const std::vector<results::ConditionSpec>& conditions);

@@ -17,13 +17,14 @@ struct Arguments {
     std::string file;
     std::string folder;
     Mode mode = Mode::run;
+    study::Extent extent = study::Extent::whole;
     unsigned jobs = 0;
     results::StepRecording recording = results::StepRecording::off;
     Printing printing = Printing::text;
 };
 
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
-    const study::StudyConfig config = study::read_study(arguments.file);
+    const study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
     RunPlanOptions options{folder, arguments.jobs, arguments.printing, invocation.command,
                            arguments.recording};
@@ -46,6 +47,9 @@ Action configure_study(CLI::App& app) {
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
         "Print cells, runs and estimated time, and run nothing [off]");
+    app.add_flag_callback(
+        "--quick", [arguments] { arguments->extent = study::Extent::quick; },
+        "Run what [quick] of the file leaves of the study, into runs/NAME-quick [the whole study]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
     add_json_option(app, arguments->printing, "tables or plan");

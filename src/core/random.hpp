@@ -27,6 +27,7 @@ enum class Purpose : std::uint32_t {
     position_noise = 19,
     speed_noise = 20,
     sensing_share = 21,
+    seen_position = 22,
     siren_reaction = 32,
     training = 48,
     negative_sampling = 49,

@@ -46,7 +46,7 @@ void ClosedLoop::step() {
         if (chain.observation().is_report) score(snapshot);
     }
     commands_.clear();
-    machinery_.actuator->accept(chain.leases(), snapshot.time);
+    machinery_.actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
     machinery_.actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
     recorder_.step(snapshot, session_.events(), chain.leases());

@@ -69,37 +69,77 @@ void record_published(const results::DatasetOrder& order, UnitRun& run, const gr
                dataset.pair_count(), recorder.time().value);
 }
 
+bool exits_unknown(const results::DatasetOrder& order) {
+    return order.exits == "unknown";
+}
+
+/// The failure as data sets name it.
+std::string failure_name(const results::DatasetOrder& order, const std::string& failure) {
+    return failure + (exits_unknown(order) ? " exits unknown" : "");
+}
+
+std::unique_ptr<sensing::SensorModel> sensor_for(const results::DatasetOrder& order,
+                                                 const std::string& failure, const UnitRun& run,
+                                                 const graph::LinkRules& rules) {
+    sensing::FailureConfig config = sensing::failure_from(failure);
+    if (exits_unknown(order)) config.exits = sensing::Exits::unknown;
+    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    return sensing::make_sensor(config, random, {.network = run.network(), .rules = rules});
+}
+
+std::filesystem::path file_for(const results::DatasetOrder& order, const std::string& failure,
+                               const char* ending) {
+    return order.output / fmt::format("{}-{}{}-{:04}{}", order.scenario, failure,
+                                      exits_unknown(order) ? "-exits-unknown" : "", order.replication,
+                                      ending);
+}
+
 /// One recorder of a kind for each failure, all watching one run.
 template <class SampleRecorder>
 void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
                     const prediction::FeatureSchema& features) {
-    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
-    const bool exits_known = order.exits == "known";
     std::vector<std::unique_ptr<SampleRecorder>> recorders;
     Listeners all;
     for (const std::string& failure : order.failures) {
-        sensing::FailureConfig config = sensing::failure_from(failure);
-        config.exits = exits_known ? sensing::Exits::known : sensing::Exits::unknown;
         const prediction::GraphSampleOrigin origin{.scenario = order.scenario,
-                                                   .failure = failure + (exits_known ? "" : " exits unknown"),
+                                                   .failure = failure_name(order, failure),
                                                    .features = features,
                                                    .study_seed = order.study_seed,
                                                    .replication = order.replication,
                                                    .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<SampleRecorder>(
-            run.network(), rules, origin,
-            sensing::make_sensor(config, random, {.network = run.network(), .rules = rules}),
-            core::Seconds(order.interval_s)));
+        recorders.push_back(std::make_unique<SampleRecorder>(run.network(), rules, origin,
+                                                             sensor_for(order, failure, run, rules),
+                                                             core::Seconds(order.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            order.output / fmt::format("{}-{}{}-{:04}{}", order.scenario, order.failures[i],
-                                       exits_known ? "" : "-exits-unknown", order.replication,
-                                       prediction::graph_sample_extension);
+            file_for(order, order.failures[i], prediction::graph_sample_extension);
         recorders[i]->writer().write(file);
         fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
+    }
+}
+
+void record_pair_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+    std::vector<std::unique_ptr<PairSampleRecorder>> recorders;
+    Listeners all;
+    for (const std::string& failure : order.failures) {
+        const prediction::PairSampleOrigin origin{.scenario = order.scenario,
+                                                  .failure = failure_name(order, failure),
+                                                  .study_seed = order.study_seed,
+                                                  .replication = order.replication,
+                                                  .link_radius_m = rules.radius_m};
+        recorders.push_back(std::make_unique<PairSampleRecorder>(run.network(), rules, origin,
+                                                                 sensor_for(order, failure, run, rules),
+                                                                 core::Seconds(order.interval_s)));
+        all.add(*recorders.back());
+    }
+    run.record(plain_traffic(), all);
+    for (std::size_t i = 0; i < recorders.size(); ++i) {
+        const std::filesystem::path file = file_for(order, order.failures[i], prediction::pair_sample_ending);
+        prediction::write_pair_samples(file, recorders[i]->samples());
+        fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
     }
 }
 
@@ -127,6 +167,9 @@ core::ExitCode record_dataset(const std::filesystem::path& order_file) {
             break;
         case results::DatasetKind::repair:
             record_samples<RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
+            break;
+        case results::DatasetKind::pair_samples:
+            record_pair_samples(order, run, rules);
             break;
     }
     return core::ExitCode::ok;

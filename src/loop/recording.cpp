@@ -117,6 +117,32 @@ void RepairSampleRecorder::label(const truth::Snapshot& snapshot) {
     }
 }
 
+PairSampleRecorder::PairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                                       const prediction::PairSampleOrigin& origin,
+                                       std::unique_ptr<sensing::SensorModel> sensor, core::Seconds interval)
+    : rules_(rules),
+      sensor_(std::move(sensor)),
+      scenes_(network, rules),
+      samples_{.origin = origin, .features = {}, .linked = {}},
+      interval_s_(interval.value) {}
+
+void PairSampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    sensor_->observe(snapshot, roster, observation_);
+    if (!observation_.is_report || observation_.time.value < next_s_) return;
+    scenes_.build(observation_, scene_);
+    if (scene_.candidates.size() == 0) return;
+    for (std::size_t at = 0; at < scene_.candidates.size(); ++at) {
+        const prediction::RowPair rows = scene_.candidates.rows[at];
+        samples_.features.push_back(
+            prediction::pair_features(scene_, at, static_cast<float>(rules_.radius_m)));
+        samples_.linked.push_back(truly_linked(snapshot, scene_.tracks.key[rows.left],
+                                               scene_.tracks.key[rows.right], rules_.radius_m)
+                                      ? 1
+                                      : 0);
+    }
+    next_s_ = observation_.time.value + interval_s_;
+}
+
 PairDatasetRecorder::PairDatasetRecorder(const roads::Network& network, const graph::LinkRules& rules,
                                          const prediction::FeatureSchema& features,
                                          results::ListedPairs pairs)

@@ -10,6 +10,7 @@
 #include "prediction/dataset_files.hpp"
 #include "prediction/features.hpp"
 #include "prediction/graph_sample.hpp"
+#include "prediction/pair_samples.hpp"
 #include "prediction/predictor.hpp"
 #include "prediction/repair_inputs.hpp"
 #include "prediction/repair_sample.hpp"
@@ -72,6 +73,29 @@ class RepairSampleRecorder : public StepListener {
     traffic::BelievedGraph belief_;
     prediction::RepairSample sample_;
     prediction::RepairSampleWriter writer_;
+    double interval_s_;
+    double next_s_ = 0.0;
+};
+
+/// Records the features of every candidate pair at report rounds (prediction/pair_features.hpp), with the
+/// true answer: data for the logistic pair model.
+class PairSampleRecorder : public StepListener {
+  public:
+    /// As SampleRecorder.
+    PairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
+                       const prediction::PairSampleOrigin& origin,
+                       std::unique_ptr<sensing::SensorModel> sensor, core::Seconds interval);
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
+    const prediction::PairSampleFile& samples() const { return samples_; }
+
+  private:
+    graph::LinkRules rules_;
+    std::unique_ptr<sensing::SensorModel> sensor_;
+    traffic::Observation observation_;
+    prediction::SceneBuilder scenes_;
+    prediction::Scene scene_;
+    prediction::PairSampleFile samples_;
     double interval_s_;
     double next_s_ = 0.0;
 };

@@ -33,13 +33,7 @@ class GraphSageAsPublished final : public PairwisePredictor {
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        const Tracks& tracks = scene.tracks;
-        for (std::size_t row = 0; row < tracks.size(); ++row) {
-            beliefs[row] = {
-                tracks.last[row],
-                held_sigma_m(tracks.sensor_sigma_m[row], tracks.last[row].speed_mps, tracks.age_s[row]),
-                true};
-        }
+        detail::believe_last_seen(scene.tracks, beliefs);
     }
     void score(const Scene& scene, const std::vector<RowBelief>&,
                std::vector<float>& probabilities) override {

@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "prediction/common_neighbours.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
+#include "prediction/logistic.hpp"
+#include "prediction/planar.hpp"
 #include "prediction/route_rule.hpp"
 
 namespace clearway::prediction {
@@ -22,8 +25,15 @@ constexpr Registration registry[] = {
     {"none", "no repair: only vehicles whose newest report arrived", make_no_repair},
     {"last_seen", "vehicles stay where they were last seen", make_last_seen},
     {"dead_reckoning", "vehicles go on at their reported speed along their route", make_dead_reckoning},
+    {"dead_reckoning_heading", "vehicles go straight on by heading and speed",
+     [](const PredictorContext& context) { return make_dead_reckoning_heading(context); }},
+    {"kalman", "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances",
+     [](const PredictorContext& context) { return make_kalman(context); }},
     {"route_rule", "dead reckoning held by red lights and leaders, drawn to where surviving links can be",
      make_route_rule},
+    {"common_neighbours", "links by the number of vehicles near both when last seen",
+     [](const PredictorContext& context) { return make_common_neighbours(context); }},
+    {"logistic", "logistic regression on distances, ages and speeds of a pair", make_logistic},
     {"graphsage_as_published", "the dissertation's net on raw coordinates", make_graphsage_as_published},
     {"graphsage_corrected", "the same architecture on inputs that carry distance and age",
      make_graphsage_corrected},

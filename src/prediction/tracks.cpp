@@ -54,6 +54,8 @@ void Tracks::resize(std::size_t rows) {
 
 void dead_reckon(const traffic::Observation& observation, const roads::Network& network, Tracks& tracks) {
     tracks.resize(observation.vehicles.size());
+    tracks.time_s = observation.time.value;
+    tracks.exits_known = observation.exits_known;
     tracks.all_known = true;
     tracks.all_current = true;
     for (std::size_t row = 0; row < tracks.size(); ++row) {

@@ -27,10 +27,14 @@ struct Tracks {
     /// report interval old.
     std::vector<std::uint8_t> known;
 
+    double time_s = 0.0;  ///< Of the observation.
+    bool exits_known = true;
     bool all_known = true;
     bool all_current = true;  ///< Every age is 0: both positions are the same.
 
     std::size_t size() const { return key.size(); }
+    /// Whether dead reckoning says that the vehicle left; never where exits are known and it is still listed.
+    bool has_left(std::size_t row) const { return !exits_known && past_end_m[row] > 0.0F; }
     void resize(std::size_t rows);
 };
 

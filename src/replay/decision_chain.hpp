@@ -41,6 +41,8 @@ class DecisionChain {
 
     bool has_policy() const { return !parts_.empty(); }
     const traffic::Observation& observation() const { return observation_; }
+    /// Vehicles that commands do not reach now (sensing::SensorModel).
+    std::span<const core::VehicleKey> unreachable() const { return sensor_->unreachable(); }
     const prediction::Predictor& predictor() const { return *predictor_; }
     /// Of the last decision.
     const traffic::BelievedGraph& belief() const { return belief_; }

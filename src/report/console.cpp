@@ -24,6 +24,18 @@ std::string safe(const std::string& text) {
     return result;
 }
 
+/// The same for text of several lines.
+std::string safe_table(std::string text) {
+    std::ranges::replace_if(
+        text,
+        [](char letter) {
+            const auto code = static_cast<unsigned char>(letter);
+            return (code < 0x20 && letter != '\n') || code == 0x7f;
+        },
+        '?');
+    return text;
+}
+
 std::string label(const ConditionFacts& condition) {
     std::string text = safe(condition.title);
     if (condition.safety_checks_off) text += " (!)";
@@ -174,6 +186,7 @@ std::string console_tables(const StudyFacts& study) {
             any_unsafe || std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
     }
+    text += safe_table(failure_table(study.failure_curves));
     append_wrapped(
         "here: mean and half width of its 95 % interval. diff.: mean of the paired differences to the "
         "baseline of the "

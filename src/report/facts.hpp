@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/failure_curve.hpp"
+
 namespace clearway::report {
 
 /// What the tables show, in their order. The first three are the dissertation's columns.
@@ -149,6 +151,7 @@ using Provenance = std::pair<std::string, std::string>;
 struct StudyFacts {
     std::string title;
     std::vector<ScenarioFacts> scenarios;
+    std::vector<FailureCurve> failure_curves;
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
     std::string command;  ///< That makes the same study again.

@@ -88,6 +88,35 @@ Json to_json(const std::vector<WideEdge>& edges) {
     return rows;
 }
 
+Json to_json(const std::optional<analysis::Estimate>& estimate) {
+    if (!estimate) return nullptr;
+    const auto& interval = estimate->interval;
+    return {{"mean", estimate->mean},
+            {"low_95", interval ? Json(interval->low) : Json(nullptr)},
+            {"high_95", interval ? Json(interval->high) : Json(nullptr)},
+            {"replications", estimate->n}};
+}
+
+Json to_json(const FailureCurve& curve) {
+    Json repairs = Json::array();
+    for (const FailureLine& line : curve.lines) {
+        Json points = Json::array();
+        for (const FailurePoint& point : line.points) {
+            points.push_back({{"dark_share", point.dark_share},
+                              {"emergency_time_loss_difference_s", to_json(point.time_loss)},
+                              {"link_f1", to_json(point.link_f1)}});
+        }
+        repairs.push_back({{"repair", line.repair},
+                           {"break_even_dark_share",
+                            line.break_even ? Json(line.points[*line.break_even].dark_share) : Json(nullptr)},
+                           {"points", std::move(points)}});
+    }
+    return {{"scenario", curve.scenario},
+            {"policy", curve.policy},
+            {"failure", curve.failure},
+            {"repairs", std::move(repairs)}};
+}
+
 }  // namespace
 
 std::string json_tables(const StudyFacts& study) {
@@ -102,8 +131,11 @@ std::string json_tables(const StudyFacts& study) {
                              {"conditions", std::move(conditions)}});
         if (scenario.wide_edges) scenarios.back()["wide_edges"] = to_json(*scenario.wide_edges);
     }
-    const Json result = {
+    Json result = {
         {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};
+    for (const FailureCurve& curve : study.failure_curves) {
+        result["failure_curves"].push_back(to_json(curve));
+    }
     return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -278,6 +278,7 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     add_distributions(results, conditions);
     add_failures(results, conditions);
     add_files(summary.manifest, folder, study);
+    study.failure_curves = failure_curves(summary);
     study.provenance = provenance_of(results);
     return study;
 }

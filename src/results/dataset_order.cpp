@@ -12,7 +12,7 @@
 namespace clearway::results {
 namespace {
 
-constexpr std::array<std::string_view, 3> kind_names = {"published", "samples", "repair"};
+constexpr std::array<std::string_view, 4> kind_names = {"published", "samples", "repair", "pair_samples"};
 constexpr std::array<std::string_view, 2> pair_names = {"true_links", "candidates"};
 
 template <class Enum, std::size_t count>
@@ -81,7 +81,7 @@ DatasetOrder read_dataset_order(const std::filesystem::path& file) {
             {file.string(), error.what(), "a data set order as clearway dataset writes it", ""});
     } catch (const std::bad_optional_access&) {
         throw core::InputError({file.string(), "unknown kind or pairs",
-                                "published, samples, repair; true_links, candidates", ""});
+                                "published, samples, repair, pair_samples; true_links, candidates", ""});
     }
 }
 

@@ -14,6 +14,7 @@ enum class DatasetKind : std::uint8_t {
     published,  ///< One snapshot as chapter 5.4 of the dissertation stores it: three CSV files.
     samples,    ///< What predictors were given at many moments, with the answers: one file per failure model.
     repair,     ///< The same for the improved net, `graphsage`.
+    pair_samples,  ///< The features of every candidate pair, for the logistic pair model; likewise.
 };
 /// Which pairs a published data set lists; the dissertation does not say.
 enum class ListedPairs : std::uint8_t {

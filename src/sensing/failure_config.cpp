@@ -1,5 +1,8 @@
 #include "sensing/failure_config.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -48,7 +51,7 @@ FailureConfig late(double latency_s) {
 
 bool fails(const FailureConfig& config) {
     return config.loss_rate > 0.0 || config.dark_share > 0.0 || config.position_sigma_m > 0.0 ||
-           config.speed_sigma_mps > 0.0 || config.latency_s > 0.0;
+           config.speed_sigma_mps > 0.0 || config.latency_s > 0.0 || config.connected_share < 1.0;
 }
 
 void check_ranges(const FailureConfig& config, const std::string& where,
@@ -87,7 +90,76 @@ void check_together(const FailureConfig& config, const std::string& where,
              fmt::format("at least report_interval_s / (1 - dark_share) = {:.4g} s", least_outage_s),
              "use loss_rate for losses without bursts"});
     }
+    if (config.occlusion == Occlusion::considered && config.onboard_range_m == 0.0 &&
+        config.link_detection_rate == 0.0) {
+        problems.push_back({where + ".occlusion", "considered, but no vehicle looks at others", "ignored",
+                            "give onboard_range_m or link_detection_rate"});
+    }
 }
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Sets one field from its text. What is allowed instead, or nothing when it was set.
+std::optional<std::string> set(double& value, std::string_view text) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) return "a number";
+    value = number;
+    return std::nullopt;
+}
+template <class Enum>
+std::optional<std::string> set(Enum& value, std::string_view text) {
+    std::string allowed;
+    for (const auto& [enumerator, spelling] : spellings(Enum{})) {
+        if (text == spelling) {
+            value = enumerator;
+            return std::nullopt;
+        }
+        allowed += (allowed.empty() ? "" : ", ") + std::string(spelling);
+    }
+    return allowed;
+}
+
+core::Problem unknown(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
+    const std::string near = core::nearest(std::string(name), known);
+    return {"failure", fmt::format("'{}' is not a {}", name, what), fmt::format("{}", fmt::join(known, ", ")),
+            near.empty() ? "" : fmt::format("did you mean {}?", near)};
+}
+
+/// Reads `FIELD=VALUE` items one after the other.
+class FieldReader {
+  public:
+    void read(std::string_view item) {
+        const std::size_t equals = item.find('=');
+        const std::string_view name = trimmed(item.substr(0, equals));
+        const std::string_view value = trimmed(item.substr(equals + 1));
+        std::vector<std::string> names;
+        bool found = false;
+        core::for_each_field<FailureConfig>([&](const auto& field) {
+            names.emplace_back(field.name);
+            if (name != field.name) return;
+            found = true;
+            const auto allowed = set(config.*field.member, value);
+            if (allowed) problem(name, fmt::format("'{}' is not a value of it", value), *allowed);
+        });
+        if (!found) problems.push_back(unknown("field of a failure", name, names));
+        if (std::ranges::find(seen_, name) != seen_.end()) problem(name, "stands there twice", "once");
+        seen_.emplace_back(name);
+    }
+
+    FailureConfig config;
+    std::vector<core::Problem> problems;
+
+  private:
+    void problem(std::string_view name, const std::string& what, const std::string& allowed) {
+        problems.push_back({fmt::format("failure.{}", name), what, allowed, ""});
+    }
+    std::vector<std::string> seen_;
+};
 
 }  // namespace
 
@@ -124,16 +196,35 @@ std::vector<FailurePreset> failure_presets() {
     return presets;
 }
 
-FailureConfig failure_from(const std::string& name) {
-    std::vector<std::string> names;
-    for (const FailurePreset& preset : failure_presets()) {
-        if (preset.name == name) return preset.config;
-        names.push_back(preset.name);
+FailureConfig failure_from(const std::string& text) {
+    FieldReader reader;
+    std::string_view rest = text;
+    for (bool first = true, more = true; more; first = false) {
+        const std::size_t comma = rest.find(',');
+        const std::string_view item = trimmed(rest.substr(0, comma));
+        more = comma != std::string_view::npos;
+        if (more) rest.remove_prefix(comma + 1);
+        if (item.find('=') != std::string_view::npos) {
+            reader.read(item);
+            continue;
+        }
+        std::vector<std::string> names;
+        bool found = false;
+        for (const FailurePreset& preset : failure_presets()) {
+            names.push_back(preset.name);
+            if (preset.name != item) continue;
+            found = true;
+            if (first) reader.config = preset.config;
+        }
+        if (!found) reader.problems.push_back(unknown("failure preset", item, names));
+        if (found && !first) {
+            reader.problems.push_back({"failure", fmt::format("the preset '{}' behind other parts", item),
+                                       "one preset, in front", "Give its fields instead"});
+        }
     }
-    const std::string near = core::nearest(name, names);
-    throw core::InputError({"failure", fmt::format("'{}' is not a failure preset", name),
-                            fmt::format("{}", fmt::join(names, ", ")),
-                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+    if (reader.problems.empty()) reader.problems = problems_of(reader.config, "failure");
+    if (!reader.problems.empty()) throw core::InputError(std::move(reader.problems));
+    return reader.config;
 }
 
 }  // namespace clearway::sensing

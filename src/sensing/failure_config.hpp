@@ -16,6 +16,10 @@ enum class Detection { presence, range };
 /// Whether it is known when a vehicle leaves the network (detectors at every exit), so that its last report
 /// is dropped.
 enum class Exits { known, unknown };
+/// Whether a vehicle between two others hides them from each other's sensors.
+enum class Occlusion { ignored, considered };
+/// Whether a vehicle whose newest report was lost still receives commands.
+enum class DarkCommands { received, lost };
 
 /// Spelling of each enumerator in files and on the command line.
 constexpr std::array<std::pair<Detection, const char*>, 2> spellings(Detection) {
@@ -24,8 +28,15 @@ constexpr std::array<std::pair<Detection, const char*>, 2> spellings(Detection) 
 constexpr std::array<std::pair<Exits, const char*>, 2> spellings(Exits) {
     return {{{Exits::known, "known"}, {Exits::unknown, "unknown"}}};
 }
+constexpr std::array<std::pair<Occlusion, const char*>, 2> spellings(Occlusion) {
+    return {{{Occlusion::ignored, "ignored"}, {Occlusion::considered, "considered"}}};
+}
+constexpr std::array<std::pair<DarkCommands, const char*>, 2> spellings(DarkCommands) {
+    return {{{DarkCommands::received, "received"}, {DarkCommands::lost, "lost"}}};
+}
 
 /// How sensors report and how they fail. The parts combine freely; each is off at its default.
+/// docs/sensing.md explains them.
 struct FailureConfig {
     double report_interval_s = 1.0;
     double loss_rate = 0.0;
@@ -34,10 +45,19 @@ struct FailureConfig {
     double link_detection_rate = 0.0;
     Detection detection = Detection::presence;
     double range_sigma_m = 0.0;
+    double link_detection_range_m = 1000.0;
     double position_sigma_m = 0.0;
     double position_correlation_s = 0.0;
     double speed_sigma_mps = 0.0;
+    double speed_correlation_s = 0.0;
     double latency_s = 0.0;
+    double connected_share = 1.0;
+    double roadside_range_m = 0.0;
+    double roadside_sigma_m = 1.0;
+    double onboard_range_m = 0.0;
+    double onboard_sigma_m = 0.5;
+    Occlusion occlusion = Occlusion::ignored;
+    DarkCommands dark_commands = DarkCommands::received;
     Exits exits = Exits::known;
     double forget_after_s = 300.0;
 
@@ -62,6 +82,8 @@ struct FailureConfig {
             Field{"detection", "", &C::detection, 0, 0, "What a detection tells", "presence is the least"},
             Field{"range_sigma_m", "m", &C::range_sigma_m, 0.0, 100.0, "Standard error of a detected range",
                   "off; preset C.range: 1 m"},
+            Field{"link_detection_range_m", "m", &C::link_detection_range_m, 0.0, 1000.0,
+                  "A link is detected only between vehicles nearer than this", "no limit"},
             Field{"position_sigma_m", "m", &C::position_sigma_m, 0.0, 100.0,
                   "Standard error of a reported position, along each axis", "off; presets D"},
             Field{"position_correlation_s", "s", &C::position_correlation_s, 0.0, 600.0,
@@ -69,8 +91,31 @@ struct FailureConfig {
                   "white"},
             Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 0.0, 20.0,
                   "Standard error of a reported speed", "off"},
+            Field{"speed_correlation_s", "s", &C::speed_correlation_s, 0.0, 600.0,
+                  "Time in which the speed error forgets itself (first-order); 0 for white noise", "white"},
             Field{"latency_s", "s", &C::latency_s, 0.0, 60.0,
                   "Time from measuring to arrival of every report", "off; preset DL2: 2 s"},
+            Field{"connected_share", "1", &C::connected_share, 0.0, 1.0,
+                  "Share of the human-driven vehicles that report at all; the others always do",
+                  "everybody, as the dissertation assumes"},
+            Field{"roadside_range_m", "m", &C::roadside_range_m, 0.0, 1000.0,
+                  "Units at signals see every vehicle within this distance, whatever its equipment", "off"},
+            Field{"roadside_sigma_m", "m", &C::roadside_sigma_m, 0.0, 100.0,
+                  "Standard error of a position that a roadside unit sees, along each axis",
+                  "1 m assumed: a camera on a mast"},
+            Field{
+                "onboard_range_m", "m", &C::onboard_range_m, 0.0, 1000.0,
+                "Automated and emergency vehicles that report also report whom they see within this distance",
+                "off"},
+            Field{"onboard_sigma_m", "m", &C::onboard_sigma_m, 0.0, 100.0,
+                  "Standard error of a position seen from a vehicle, along each axis",
+                  "0.5 m assumed: lidar or radar, with the observer's own error"},
+            Field{"occlusion", "", &C::occlusion, 0, 0,
+                  "Whether a vehicle between hides others from on-board sensors and link detection",
+                  "ignored: presets C have none"},
+            Field{"dark_commands", "", &C::dark_commands, 0, 0,
+                  "Whether a vehicle whose newest report was lost still receives commands",
+                  "received: the sensor fails, not the radio"},
             Field{"exits", "", &C::exits, 0, 0, "Whether it is known when a vehicle leaves the network",
                   "known: the frozen benchmark reports both"},
             Field{"forget_after_s", "s", &C::forget_after_s, 1.0, 86400.0,
@@ -96,7 +141,10 @@ struct FailurePreset {
 /// latency), D3B10 (D3 and B10).
 std::vector<FailurePreset> failure_presets();
 
-/// The configuration of a preset. Throws core::InputError naming the nearest for an unknown name.
-FailureConfig failure_from(const std::string& name);
+/// The configuration that a text names: a preset, fields of FailureConfig, or both, separated by commas:
+/// `B10`, `B10,dark_share=0.5,exits=unknown`, `connected_share=0.3,onboard_range_m=80`. Without a preset,
+/// reports of 1 Hz that never fail are the start. Throws core::InputError with all that is wrong: unknown
+/// names (with the nearest), fields twice, values that are no numbers, out of range or do not go together.
+FailureConfig failure_from(const std::string& text);
 
 }  // namespace clearway::sensing

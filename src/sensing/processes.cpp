@@ -16,6 +16,11 @@ constexpr std::uint64_t state_draw(ReportNumber report) {
     return 2 * report + 1;
 }
 
+/// From one report to the next, of a first-order process.
+double correlation(double interval_s, double correlation_s) {
+    return correlation_s > 0.0 ? std::exp(-interval_s / correlation_s) : 0.0;
+}
+
 std::uint64_t pair_subject(core::VehicleKey one, core::VehicleKey other) {
     const auto [low, high] = std::minmax(one.value, other.value);
     return core::mix64(low) ^ high;
@@ -45,38 +50,55 @@ bool LossProcess::lost(core::VehicleKey vehicle, ReportNumber report) const {
     return in_outage(vehicle, report);
 }
 
+EquipmentProcess::EquipmentProcess(const FailureConfig& config, const core::KeyedRandom& random)
+    : random_(random), connected_share_(config.connected_share) {}
+
+bool EquipmentProcess::equipped(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const {
+    return vehicle_class != traffic::VehicleClass::human ||
+           random_.uniform(core::Purpose::sensing_share, vehicle.value) < connected_share_;
+}
+
 NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random,
                            const roads::Network& network)
     : random_(random),
       network_(network),
       position_sigma_m_(config.position_sigma_m),
-      correlation_(config.position_correlation_s > 0.0
-                       ? std::exp(-config.report_interval_s / config.position_correlation_s)
-                       : 0.0),
-      speed_sigma_mps_(config.speed_sigma_mps) {}
+      position_correlation_(correlation(config.report_interval_s, config.position_correlation_s)),
+      speed_sigma_mps_(config.speed_sigma_mps),
+      speed_correlation_(correlation(config.report_interval_s, config.speed_correlation_s)) {}
 
-double NoiseProcess::position_error_m(core::VehicleKey vehicle, ReportNumber report,
-                                      std::uint64_t axis) const {
+double NoiseProcess::draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const {
     double weight = 1.0;
     double sum = 0.0;
     double square = 0.0;
     while (weight >= least_weight) {
-        sum += weight * random_.normal(core::Purpose::position_noise, vehicle.value, 2 * report + axis);
+        sum += weight * random_.normal(series.purpose, vehicle.value, series.axes * report + series.axis);
         square += weight * weight;
-        weight *= correlation_;
+        weight *= series.correlation;
         if (report-- == 0) break;
     }
-    return position_sigma_m_ * sum / std::sqrt(square);
+    return sum / std::sqrt(square);
 }
 
 void NoiseProcess::apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const {
     if (position_sigma_m_ > 0.0) {
-        move(position_error_m(vehicle, report, 0), position_error_m(vehicle, report, 1), state);
+        const auto error_m = [&](std::uint64_t axis) {
+            return position_sigma_m_ *
+                   draw({core::Purpose::position_noise, 2, axis, position_correlation_}, vehicle, report);
+        };
+        move(error_m(0), error_m(1), state);
     }
     if (speed_sigma_mps_ > 0.0) {
-        const double error = random_.normal(core::Purpose::speed_noise, vehicle.value, report);
+        const double error = draw({core::Purpose::speed_noise, 1, 0, speed_correlation_}, vehicle, report);
         state.speed_mps = static_cast<float>(std::max(0.0, state.speed_mps + speed_sigma_mps_ * error));
     }
+}
+
+void NoiseProcess::blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
+                        traffic::MotionState& state) const {
+    if (sigma_m == 0.0) return;
+    move(sigma_m * draw({core::Purpose::seen_position, 2, 0}, vehicle, report),
+         sigma_m * draw({core::Purpose::seen_position, 2, 1}, vehicle, report), state);
 }
 
 void NoiseProcess::move(double x_error_m, double y_error_m, traffic::MotionState& state) const {
@@ -103,7 +125,8 @@ DetectionProcess::DetectionProcess(const FailureConfig& config, const core::Keye
     : random_(random),
       rate_(config.link_detection_rate),
       detection_(config.detection),
-      range_sigma_m_(config.range_sigma_m) {}
+      range_sigma_m_(config.range_sigma_m),
+      most_m_(config.link_detection_range_m) {}
 
 bool DetectionProcess::detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const {
     return rate_ > 0.0 &&

@@ -7,6 +7,7 @@
 #include "roads/network.hpp"
 #include "sensing/failure_config.hpp"
 #include "traffic/observation.hpp"
+#include "traffic/vehicle.hpp"
 
 namespace clearway::sensing {
 
@@ -40,28 +41,54 @@ class LossProcess {
     double renewal_;  ///< Probability p above.
 };
 
+/// Which vehicles report at all: a pure function of the vehicle. A human-driven vehicle is equipped with
+/// probability `connected_share`; the draw is one number a vehicle, so a larger share equips the same
+/// vehicles and more.
+class EquipmentProcess {
+  public:
+    EquipmentProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    bool equipped(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const;
+
+  private:
+    core::KeyedRandom random_;
+    double connected_share_;
+};
+
 /// Errors of what a report says: a pure function of (vehicle, report number).
 ///
-/// Position: white noise on each axis, or with a correlation time tau the stationary first-order process with
-/// correlation exp(-interval / tau) from one report to the next, as a weighted sum of past white noise, cut
-/// where a weight falls below 1/1000. The place on the map moves with it: the lane position by the part along
-/// the heading, the lane by whole lane widths of the part across, so that nothing in the report is more exact
-/// than the position.
+/// Position and, with noise of its own, speed: white noise on each axis, or with a correlation time tau the
+/// stationary first-order process with correlation exp(-interval / tau) from one report to the next, as a
+/// weighted sum of past white noise, cut where a weight falls below 1/1000. A speed stays at least 0. The
+/// place on the map moves with it: the lane position by the part along the heading, the lane by whole lane
+/// widths of the part across, so that nothing in the report is more exact than the position.
 class NoiseProcess {
   public:
     NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random, const roads::Network& network);
     bool none() const { return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0; }
     void apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
+    /// The error of a position that somebody else saw: white, of standard deviation `sigma_m` along each
+    /// axis.
+    void blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
+              traffic::MotionState& state) const;
 
   private:
-    double position_error_m(core::VehicleKey vehicle, ReportNumber report, std::uint64_t axis) const;
+    /// Standard normal, correlated with the report before by `correlation`; `axis` of `axes` independent
+    /// ones.
+    struct Series {
+        core::Purpose purpose = core::Purpose::position_noise;
+        std::uint64_t axes = 1;
+        std::uint64_t axis = 0;
+        double correlation = 0.0;
+    };
+    double draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const;
     void move(double x_error_m, double y_error_m, traffic::MotionState& state) const;
 
     core::KeyedRandom random_;
     const roads::Network& network_;
     double position_sigma_m_;
-    double correlation_;  ///< From one report to the next.
+    double position_correlation_;  ///< From one report to the next.
     double speed_sigma_mps_;
+    double speed_correlation_;
 };
 
 /// Which links of dark vehicles are still detected: a pure function of (unordered pair, report number).
@@ -69,6 +96,8 @@ class DetectionProcess {
   public:
     DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random);
     bool none() const { return rate_ == 0.0; }
+    /// Whether the range allows it at all.
+    bool in_range(float true_distance_m) const { return true_distance_m < most_m_; }
     bool detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const;
     /// The range that a detection tells, or a negative number when it tells presence only.
     float range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
@@ -80,6 +109,7 @@ class DetectionProcess {
     double rate_;
     Detection detection_;
     double range_sigma_m_;
+    double most_m_;
 };
 
 }  // namespace clearway::sensing

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/random.hpp"
@@ -16,8 +17,8 @@ namespace clearway::sensing {
 /// What was missing at one step, for scoring alone. Vehicles and links that are on the road now.
 struct FailureLog {
     enum class Cause {
-        dark,        ///< An end did not report at the newest round, but is known from before.
-        never_seen,  ///< An end never reported yet, or was forgotten.
+        dark,        ///< An end was not heard at the newest round, but is known from before.
+        never_seen,  ///< An end was never heard of yet, or was forgotten.
     };
     struct LostLink {
         core::VehicleKey left;
@@ -54,6 +55,10 @@ class SensorModel {
     /// the snapshot of the last call of `observe`.
     virtual void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
                               FailureLog& log) const = 0;
+
+    /// Vehicles that commands do not reach since the newest round, ordered by key; valid until the next call
+    /// of `observe`. Empty unless `dark_commands` says otherwise.
+    virtual std::span<const core::VehicleKey> unreachable() const { return {}; }
 };
 
 /// What a sensor needs beside its configuration. `network` outlives the sensor.

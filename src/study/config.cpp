@@ -1,5 +1,6 @@
 #include "study/config.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -103,6 +104,46 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file, const 
     }
 }
 
+/// Leaves of `all` those that are named, in their old order; unknown names are problems.
+template <class Element>
+void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) {
+    std::vector<std::string> kept;
+    quick.texts(key, kept);
+    if (kept.empty()) return;
+    std::vector<std::string> names;
+    for (const Element& element : all)
+        names.push_back(element.name);
+    for (const std::string& name : kept) {
+        if (std::ranges::find(names, name) != names.end()) continue;
+        const std::string near = core::nearest(name, names);
+        quick.problem(key, fmt::format("'{}' is none of the study's", name),
+                      fmt::format("{}", fmt::join(names, ", ")),
+                      near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+    }
+    std::erase_if(
+        all, [&](const Element& element) { return std::ranges::find(kept, element.name) == kept.end(); });
+}
+
+/// Reads [quick] in any case, so that its faults show early; applies it where it is wanted.
+void read_quick(StrictTable& root, const std::string& file, Extent extent, Problems& problems,
+                StudyConfig& config) {
+    const toml::table* table = root.table("quick");
+    if (table == nullptr) {
+        if (extent == Extent::quick)
+            root.problem("quick", "the file does not say what --quick leaves out", "a table [quick]",
+                         "Add one, or run the whole study");
+        return;
+    }
+    StudyConfig quick = config;
+    quick.name += "-quick";
+    StrictTable reader(*table, "quick", file, problems);
+    reader.integer<std::uint32_t>("replications", 1, most_replications, quick.replications);
+    keep_named(reader, "scenarios", quick.scenarios);
+    keep_named(reader, "conditions", quick.conditions);
+    reader.finish();
+    if (extent == Extent::quick) config = std::move(quick);
+}
+
 }  // namespace
 
 StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
@@ -125,7 +166,7 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
     return config;
 }
 
-StudyConfig read_study(const std::filesystem::path& file) {
+StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     const std::string name = file.string();
     const toml::table table = detail::parse_toml(core::read_file(file), name);
     Problems problems;
@@ -138,6 +179,7 @@ StudyConfig read_study(const std::filesystem::path& file) {
     const scenario::Options options = read_overrides(root, name, problems);
     read_scenarios(root, file, options, problems, config);
     read_conditions(root, name, problems, config);
+    read_quick(root, name, extent, problems, config);
     root.finish();
     if (!problems.empty()) throw core::InputError(problems);
     return config;

@@ -23,6 +23,12 @@ struct StudyConfig {
 StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
                                const scenario::Options& options = {});
 
+/// How much of a study file runs.
+enum class Extent : std::uint8_t {
+    whole,
+    quick,  ///< What its [quick] leaves of it; the name ends in `-quick`.
+};
+
 /// Reads a study file. Strict: throws core::InputError with every problem found, each with file, line and
 /// column.
 ///
@@ -41,6 +47,13 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
 ///     failure = "B20"
 ///     predictor = "graphsage_corrected"
 ///     parts = ["dissertation"]
-StudyConfig read_study(const std::filesystem::path& file);
+///
+///     [quick]                                     # what --quick runs instead; each key optional
+///     replications = 3
+///     scenarios = ["merge"]                       # of the scenarios above, by name
+///     conditions = ["baseline", "b20"]            # of the conditions above
+///
+/// Quick without [quick] in the file is a problem too.
+StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole);
 
 }  // namespace clearway::study

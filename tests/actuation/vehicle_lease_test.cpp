@@ -64,6 +64,25 @@ TEST(VehicleLease, that_could_never_be_carried_out_is_refused_with_its_reason) {
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
+TEST(VehicleLease, for_a_vehicle_that_commands_do_not_reach_is_refused_and_the_running_one_expires) {
+    ActuationBench bench;
+    const auto near = bench.add(automated("a"));
+    const auto far = bench.add(automated("b"));
+    bench.offer(near, drive_at(7.0), 2.0);
+    bench.offer(far, drive_at(7.0), 2.0);
+    EXPECT_EQ(bench.only<traffic::SetSpeed>(bench.run_until(1.0)).size(), 2U);
+    const auto renewal_of = [&](core::VehicleKey vehicle) {
+        return traffic::Lease{vehicle, drive_at(7.0), bench.now + core::Seconds(2.0), 0, "part", "a test",
+                              {}};
+    };
+    bench.actuator.accept(std::vector{renewal_of(near), renewal_of(far)}, bench.now, std::vector{far});
+    const auto commands = bench.run_until(2.75);
+    ASSERT_EQ(commands.size(), 1U);
+    EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(commands)[0].vehicle, far);
+    EXPECT_EQ(bench.counts("part/drive_at").refused.at("unreachable"), 1U);
+    EXPECT_EQ(bench.counts("part/drive_at").renewed, 1U);
+}
+
 TEST(VehicleLease, above_what_the_vehicle_may_drive_is_refused_and_never_reaches_it) {
     ActuationBench bench;
     const auto vehicle = bench.add(automated("a"));

@@ -75,6 +75,20 @@ TEST_F(BadInputTest, all_problems_of_a_study_file_are_told_at_once) {
                                  HasSubstr("my.toml:7:"), HasSubstr("failur")));
 }
 
+TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
+    write_line_scenario();
+    const Ended ended = clearway({"run", "line", "--out", "out", "--failure",
+                                  "B10,dark_share=1.5,onbord_range_m=50", "--policy", "dissertation"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("condition custom: failure `B10,dark_share=1.5,onbord_range_m=50`"),
+                      HasSubstr("did you mean onboard_range_m?")));
+    const Ended data =
+        clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "loss_rate=2"});
+    EXPECT_EQ(data.code, 3);
+    EXPECT_THAT(data.err, AllOf(HasSubstr("--failure `loss_rate=2`"), HasSubstr("2 is out of range")));
+}
+
 TEST_F(BadInputTest, unknown_failure_predictor_and_policy_are_told_before_anything_runs) {
     write_line_scenario();
     const Ended ended = clearway({"run", "line", "--out", "out", "--failure", "B11", "--predictor",

@@ -204,6 +204,14 @@ TEST_F(RunTest, dataset_writes_the_three_files_of_the_dissertation) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "data" / "edge_list.csv"));
 }
 
+TEST_F(RunTest, dataset_records_the_features_of_pairs_as_csv) {
+    const Ended ended =
+        clearway({"dataset", "line", "--out", "data", "--samples", "--net", "logistic", "--failure", "A.5"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::HasSubstr("line-A.5-0000.pairs.csv: "));
+    EXPECT_THAT(read("data/line-A.5-0000.pairs.csv"), testing::HasSubstr("\nmargin,margin_seen,age_older,"));
+}
+
 TEST_F(RunTest, dataset_records_samples_of_each_failure_and_replication) {
     const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "B10", "A.5",
                                   "--seeds", "2", "--first-seed", "5", "--interval", "2", "--json"});

@@ -56,6 +56,64 @@ TEST(FailurePresets, NameTheNearestOfAnUnknownOne) {
     }
 }
 
+TEST(FailureText, ChangesFieldsOfAPresetOrOfReportsThatNeverFail) {
+    FailureConfig darker = failure_from("B10");
+    darker.dark_share = 0.5;
+    darker.exits = Exits::unknown;
+    EXPECT_EQ(failure_from("B10,dark_share=0.5,exits=unknown"), darker);
+    EXPECT_EQ(failure_from(" B10 , exits = unknown, dark_share = 0.5 "), darker);
+    FailureConfig partly;
+    partly.connected_share = 0.3;
+    EXPECT_EQ(failure_from("connected_share=0.3"), partly);
+}
+
+TEST(FailureText, IsRefusedWithAllThatIsWrong) {
+    const auto refusal = [](const char* text) -> std::string {
+        try {
+            failure_from(text);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(refusal("B10,dark_shore=0.5"), HasSubstr("did you mean dark_share?"));
+    EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: 'half'"));
+    EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
+    EXPECT_THAT(refusal("B10,exits=maybe"), HasSubstr("known, unknown"));
+    EXPECT_THAT(refusal("B10,dark_share=0.1,dark_share=0.2"), HasSubstr("stands there twice"));
+    EXPECT_THAT(refusal("dark_share=0.1,B10"), HasSubstr("one preset, in front"));
+    EXPECT_THAT(refusal("B10,"), HasSubstr("'' is not a failure preset"));
+    EXPECT_THAT(refusal(""), HasSubstr("'' is not a failure preset"));
+    EXPECT_THAT(refusal("B10,dark_share=1.5"), HasSubstr("1.5 is out of range"));
+    EXPECT_THAT(refusal("B10,dark_share=nan"), HasSubstr("out of range"));
+    EXPECT_THAT(refusal("B10,dark_share=0.5,mean_outage_s=1"), HasSubstr("too short"));
+    EXPECT_THAT(refusal("B1O,dark_shore=1"), ::testing::AllOf(HasSubstr("'B1O'"), HasSubstr("dark_shore")));
+}
+
+TEST(FailureConfig, RefusesEachNewPartOutOfItsRange) {
+    const auto refused = [](double FailureConfig::*member, double value) {
+        FailureConfig config;
+        config.*member = value;
+        return problems_of(config, "f").size() == 1;
+    };
+    EXPECT_TRUE(refused(&FailureConfig::connected_share, 1.01));
+    EXPECT_TRUE(refused(&FailureConfig::connected_share, -0.1));
+    EXPECT_TRUE(refused(&FailureConfig::roadside_range_m, -1.0));
+    EXPECT_TRUE(refused(&FailureConfig::roadside_sigma_m, -1.0));
+    EXPECT_TRUE(refused(&FailureConfig::onboard_range_m, 1001.0));
+    EXPECT_TRUE(refused(&FailureConfig::onboard_sigma_m, -0.5));
+    EXPECT_TRUE(refused(&FailureConfig::speed_correlation_s, -1.0));
+    EXPECT_TRUE(refused(&FailureConfig::link_detection_range_m, -1.0));
+}
+
+TEST(FailureConfig, RefusesOcclusionWhereNobodyLooks) {
+    FailureConfig config;
+    config.occlusion = Occlusion::considered;
+    ASSERT_THAT(problems_of(config, "f"), SizeIs(1));
+    config.onboard_range_m = 50.0;
+    EXPECT_THAT(problems_of(config, "f"), SizeIs(0));
+}
+
 TEST(FailureConfig, ReportsEveryValueOutOfItsRangeAtOnce) {
     FailureConfig config;
     config.loss_rate = 1.5;
@@ -77,6 +135,10 @@ TEST(FailureConfig, RefusesValuesThatDoNotGoTogether) {
     FailureConfig perfect_but_lossy = failure_from("perfect");
     perfect_but_lossy.loss_rate = 0.1;
     EXPECT_THAT(problems_of(perfect_but_lossy, "f"), SizeIs(1));
+
+    FailureConfig perfect_but_partly_connected = failure_from("perfect");
+    perfect_but_partly_connected.connected_share = 0.5;
+    EXPECT_THAT(problems_of(perfect_but_partly_connected, "f"), SizeIs(1));
 
     FailureConfig too_short;
     too_short.dark_share = 0.5;

@@ -190,6 +190,62 @@ TEST(NoiseProcess, NeverReportsANegativeSpeed) {
     EXPECT_NEAR(moved, 100, 40);
 }
 
+TEST(NoiseProcess, CorrelatesSpeedErrorsAsStatedApartFromPositionErrors) {
+    FailureConfig config;
+    config.speed_sigma_mps = 2.0;
+    config.speed_correlation_s = 5.0;
+    config.position_sigma_m = 3.0;
+    const NoiseProcess process(config, draws(), testing::small_scene().network());
+    double square = 0.0;
+    double product = 0.0;
+    double with_position = 0.0;
+    int count = 0;
+    for (int vehicle = 0; vehicle < 100; ++vehicle) {
+        double before = 0.0;
+        for (ReportNumber report = 500; report < 900; ++report) {
+            traffic::MotionState state;
+            state.speed_mps = 50.0F;
+            process.apply(key_of(vehicle), report, state);
+            const double error = state.speed_mps - 50.0;
+            square += error * error;
+            with_position += error * state.x_m;
+            if (report > 500) product += error * before;
+            before = error;
+            ++count;
+        }
+    }
+    EXPECT_NEAR(std::sqrt(square / count), 2.0, 0.1);
+    EXPECT_NEAR(product / square, std::exp(-0.2), 0.02);
+    EXPECT_NEAR(with_position / count / 6.0, 0.0, 0.02);
+}
+
+TEST(EquipmentProcess, EquipsTheShareOfHumanDriversAndEverybodyElse) {
+    int equipped = 0;
+    FailureConfig few;
+    few.connected_share = 0.2;
+    FailureConfig config;
+    config.connected_share = 0.3;
+    const EquipmentProcess process(config, draws());
+    const EquipmentProcess fewer(few, draws());
+    for (int vehicle = 0; vehicle < 10000; ++vehicle) {
+        const bool now = process.equipped(key_of(vehicle), traffic::VehicleClass::human);
+        equipped += now ? 1 : 0;
+        EXPECT_TRUE(process.equipped(key_of(vehicle), traffic::VehicleClass::automated));
+        EXPECT_TRUE(process.equipped(key_of(vehicle), traffic::VehicleClass::emergency));
+        EXPECT_TRUE(now || !fewer.equipped(key_of(vehicle), traffic::VehicleClass::human));
+    }
+    EXPECT_NEAR(equipped / 10000.0, 0.3, 0.015);  // Standard error 0.0046.
+}
+
+TEST(DetectionProcess, KeepsToItsRange) {
+    FailureConfig config = failure_from("C.link");
+    config.link_detection_range_m = 20.0;
+    const DetectionProcess process(config, draws());
+    EXPECT_TRUE(process.in_range(19.9F));
+    EXPECT_FALSE(process.in_range(20.0F));
+    EXPECT_TRUE(DetectionProcess(failure_from("C.link"), draws()).in_range(49.9F));
+}
+
 TEST(DetectionProcess, TreatsBothEndsAlike) {
     const DetectionProcess process(failure_from("C.range"), draws());
     int detected = 0;

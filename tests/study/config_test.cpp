@@ -1,10 +1,12 @@
 #include "study/config.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "study/conditions.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -55,6 +57,58 @@ safety_checks = "off"
     EXPECT_EQ(config.conditions[1], built_in_condition("solo", ""));
     EXPECT_EQ(config.conditions[2].failure, "B20");
     EXPECT_EQ(config.conditions[2].safety_checks, traffic::SafetyChecks::off);
+}
+
+TEST_F(StudyFile, LeavesOfItselfWhatQuickNames) {
+    const std::string text = R"(
+name = "outages"
+scenarios = ["merge", "intersection"]
+conditions = ["baseline"]
+condition = [{name = "a", failure = "dark_share=0.1"}, {name = "b", failure = "dark_share=0.9"}]
+[quick]
+replications = 3
+scenarios = ["merge"]
+conditions = ["baseline", "b"]
+)";
+    const auto file = folder_.write("study.toml", text);
+    EXPECT_EQ(read_study(file).conditions.size(), 3U);
+    EXPECT_EQ(read_study(file).replications, 20U);
+    const StudyConfig quick = read_study(file, Extent::quick);
+    EXPECT_EQ(quick.name, "outages-quick");
+    EXPECT_EQ(quick.replications, 3U);
+    ASSERT_EQ(quick.scenarios.size(), 1U);
+    EXPECT_EQ(quick.scenarios[0].name, "merge");
+    ASSERT_EQ(quick.conditions.size(), 2U);
+    EXPECT_EQ(quick.conditions[1].failure, "dark_share=0.9");
+}
+
+TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
+    const std::string text = "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n";
+    const std::string wrong = problems(
+        text + "[quick]\nreplications = 0\nscenarios = [\"merg\"]\nconditions = [\"solo\"]\nseed = 3\n");
+    EXPECT_THAT(wrong, testing::AllOf(HasSubstr("replications"), HasSubstr("Did you mean 'merge'?"),
+                                      HasSubstr("'solo' is none of the study's"), HasSubstr("unknown key")));
+    try {
+        read_study(folder_.write("study.toml", text), Extent::quick);
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("[quick]"));
+    }
+}
+
+TEST(ShippedStudies, CanBeReadWholeAndQuickWhereTheySaySo) {
+    setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);
+    std::size_t read = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(CLEARWAY_SOURCE_DIR) + "/studies")) {
+        if (entry.path().extension() != ".toml") continue;
+        EXPECT_FALSE(read_study(entry.path()).conditions.empty()) << entry.path();
+        if (core::read_file(entry.path()).find("[quick]\n") == std::string::npos) continue;
+        EXPECT_LT(read_study(entry.path(), Extent::quick).conditions.size(),
+                  read_study(entry.path()).conditions.size());
+        ++read;
+    }
+    EXPECT_GT(read, 0U) << "studies/sensor_failure.toml has one";
 }
 
 TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {

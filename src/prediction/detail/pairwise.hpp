@@ -14,6 +14,8 @@ struct RowBelief {
     bool present = true;  ///< False: left out of the belief with all its links.
 };
 
+/// Every vehicle where it was last seen, with held_sigma_m of kinematic.hpp.
+void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs);
 /// Dead-reckoned states with the sigma of kinematic.hpp; those past the end of their route are absent.
 void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs);
 

@@ -112,6 +112,17 @@ void Plot::vertical(double value) {
                    x_.place(value), y_.from, y_.to);
 }
 
+void Plot::horizontal(double value) {
+    fmt::format_to(std::back_inserter(svg_), "<path class=\"zero\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", x_.from,
+                   y_.place(value), x_.to);
+}
+
+void Plot::whisker(double x, std::pair<double, double> bounds, std::size_t series) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<path class=\"bar s{}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
+                   series % palette_size, x_.place(x) - 3.0, y_.place(bounds.first), y_.place(bounds.second));
+}
+
 void Plot::text(double x, double y, const std::string& words, Anchor anchor, const char* style) {
     const char* const where = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
     fmt::format_to(std::back_inserter(svg_),

@@ -73,6 +73,9 @@ class Plot {
     void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
     void point(double value, double y, std::size_t series);
     void vertical(double value);
+    void horizontal(double value);
+    /// A vertical interval at `x`.
+    void whisker(double x, std::pair<double, double> bounds, std::size_t series);
     enum class Anchor { start, middle, end };
     void text(double x, double y, const std::string& words, Anchor anchor, const char* style);
     /// The finished `<svg>` element.

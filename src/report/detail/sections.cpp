@@ -43,11 +43,16 @@ bool has_curves(const StudyFacts& study) {
     return !study.curves.empty();
 }
 
-constexpr std::array<Section, 8> all_sections = {{
+bool has_failure_curves(const StudyFacts& study) {
+    return !study.failure_curves.empty();
+}
+
+constexpr std::array<Section, 9> all_sections = {{
     {"verdict", "Verdict", always, verdict_section},
     {"tables", "Tables", always, tables_section},
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
+    {"failure", "Benefit against failure", has_failure_curves, failure_section},
     {"networks", "Networks", has_pictures, networks_section},
     {"training", "Training of GraphSAGE", has_curves, training_section},
     {"outcomes", "Outcomes and failed runs", always, outcomes_section},

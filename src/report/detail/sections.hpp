@@ -23,6 +23,7 @@ std::string verdict_section(const StudyFacts& study);
 std::string tables_section(const StudyFacts& study);
 std::string forest_section(const StudyFacts& study);
 std::string distribution_section(const StudyFacts& study);
+std::string failure_section(const StudyFacts& study);
 std::string networks_section(const StudyFacts& study);
 std::string training_section(const StudyFacts& study);
 std::string outcomes_section(const StudyFacts& study);

@@ -13,6 +13,9 @@ namespace {
 /// Slack for step times that are sums of decimals, s.
 constexpr double time_slack_s = 1e-6;
 
+/// Reaches from a front bumper beyond any vehicle's centre, m.
+constexpr double longest_vehicle_m = 30.0;
+
 /// Who of two neighbours detects the other: emergency vehicles before automated ones before human drivers.
 bool detects_first(traffic::VehicleClass one, traffic::VehicleClass other) {
     return static_cast<int>(one) >= static_cast<int>(other);
@@ -23,15 +26,17 @@ bool detects_first(traffic::VehicleClass one, traffic::VehicleClass other) {
 ReportSensor::ReportSensor(const FailureConfig& config, const core::KeyedRandom& random,
                            const SensorContext& context)
     : config_(config),
+      equipment_(config, random),
       loss_(config, random),
       noise_(config, random, context.network),
       detection_(config, random),
+      observers_(config, context.network),
       rules_(context.rules) {}
 
 void ReportSensor::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                            traffic::Observation& observation) {
     const double time_s = snapshot.time.value;
-    if (round_is_due(time_s)) measure(snapshot);
+    if (round_is_due(time_s)) measure(snapshot, roster);
     observation.is_report = deliver(roster, time_s);
     drop_gone_and_forgotten(snapshot);
     write(snapshot, roster, observation);
@@ -45,7 +50,22 @@ bool ReportSensor::round_is_due(double time_s) {
     return true;
 }
 
-void ReportSensor::measure(const truth::Snapshot& snapshot) {
+/// Whose reports arrive, who is seen by others, and who cannot be reached.
+void ReportSensor::find_reporting(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    reports_.resize(snapshot.size());
+    unreachable_.clear();
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        const core::VehicleKey key = snapshot.key[row];
+        const bool reports =
+            equipment_.equipped(key, snapshot.vehicle_class[row]) && !loss_.lost(key, *report_);
+        reports_[row] = reports ? 1 : 0;
+        if (!reports && config_.dark_commands == DarkCommands::lost) unreachable_.push_back(key);
+    }
+    if (!observers_.none() || observers_.considers_occlusion()) observers_.take(snapshot, roster);
+    observers_.look(snapshot, reports_, seen_sigma_m_);
+}
+
+void ReportSensor::measure(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     Round round;
     if (!spare_rounds_.empty()) {
         round = std::move(spare_rounds_.back());
@@ -54,14 +74,20 @@ void ReportSensor::measure(const truth::Snapshot& snapshot) {
     round.measured_s = snapshot.time.value;
     round.reports.clear();
     round.detected_links.clear();
-    lost_.resize(snapshot.size());
+    find_reporting(snapshot, roster);
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (seen_sigma_m_[row] < 0.0F) continue;
         const core::VehicleKey key = snapshot.key[row];
-        lost_[row] = loss_.lost(key, *report_) ? 1 : 0;
-        if (lost_[row] != 0) continue;
-        Report& report = round.reports.emplace_back(
-            Report{key, snapshot.vehicle_class[row], round.measured_s, snapshot.motion(row)});
-        noise_.apply(key, *report_, report.state);
+        Report& report = round.reports.emplace_back(Report{key, snapshot.vehicle_class[row], round.measured_s,
+                                                           static_cast<float>(config_.position_sigma_m),
+                                                           Source::itself, snapshot.motion(row)});
+        if (reports_[row] != 0) {
+            noise_.apply(key, *report_, report.state);
+        } else {
+            report.source = Source::others;
+            report.position_sigma_m = seen_sigma_m_[row];
+            noise_.blur(key, *report_, seen_sigma_m_[row], report.state);
+        }
     }
     if (!detection_.none()) detect_links(snapshot, round);
     on_their_way_.push_back(std::move(round));
@@ -69,15 +95,21 @@ void ReportSensor::measure(const truth::Snapshot& snapshot) {
 
 void ReportSensor::detect_links(const truth::Snapshot& snapshot, Round& round) {
     builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
+    if (observers_.considers_occlusion())
+        builder_.build_all_pairs({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class},
+                                 std::min(1000.0, rules_.radius_m + longest_vehicle_m), near_);
     for (core::VehicleIndex left = 0; left < snapshot.size(); ++left) {
         const auto neighbours = true_graph_.neighbours_of(left);
         const auto distances_m = true_graph_.distances_of(left);
         for (std::size_t at = 0; at < neighbours.size(); ++at) {
             const core::VehicleIndex right = neighbours[at];
-            if (right < left || (lost_[left] == 0 && lost_[right] == 0)) continue;
+            if (right < left || (seen_sigma_m_[left] >= 0.0F && seen_sigma_m_[right] >= 0.0F)) continue;
             const core::VehicleKey left_key = snapshot.key[left];
             const core::VehicleKey right_key = snapshot.key[right];
-            if (!detection_.detected(left_key, right_key, *report_)) continue;
+            if (!detection_.in_range(distances_m[at]) || !detection_.detected(left_key, right_key, *report_))
+                continue;
+            if (observers_.considers_occlusion() && observers_.hidden(left, right, near_.neighbours_of(left)))
+                continue;
             const bool from_left = detects_first(snapshot.vehicle_class[left], snapshot.vehicle_class[right]);
             round.detected_links.push_back(
                 {.from = from_left ? left_key : right_key,
@@ -95,7 +127,8 @@ bool ReportSensor::deliver(const traffic::Roster& roster, double time_s) {
         Round round = std::move(on_their_way_.front());
         on_their_way_.pop_front();
         for (const Report& report : round.reports) {
-            register_vehicle(roster, report.key);
+            report.source == Source::itself ? register_vehicle(roster, report.key)
+                                            : register_seen(roster, report.key);
         }
         merge(round.reports);
         newest_measured_s_ = round.measured_s;
@@ -138,6 +171,20 @@ void ReportSensor::register_vehicle(const traffic::Roster& roster, core::Vehicle
     }
 }
 
+void ReportSensor::register_seen(const traffic::Roster& roster, core::VehicleKey key) {
+    if (roster_.find(key) != nullptr) return;
+    const traffic::VehicleInfo* info = roster.find(key);
+    assert(info != nullptr);  // A roster keeps whoever left.
+    traffic::VehicleInfo seen;
+    seen.key = info->key;
+    seen.id = info->id;
+    seen.vehicle_class = info->vehicle_class;
+    seen.kind = info->kind;
+    seen.length_m = info->length_m;
+    seen.width_m = info->width_m;
+    roster_.add(std::move(seen));
+}
+
 void ReportSensor::drop_gone_and_forgotten(const truth::Snapshot& snapshot) {
     const double oldest_s = snapshot.time.value - config_.forget_after_s;
     auto present = snapshot.key.begin();
@@ -163,7 +210,7 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
              .vehicle_class = report.vehicle_class,
              .freshness = is_fresh(report) ? traffic::Freshness::fresh : traffic::Freshness::stale,
              .age_s = static_cast<float>(snapshot.time.value - report.measured_s),
-             .position_sigma_m = static_cast<float>(config_.position_sigma_m),
+             .position_sigma_m = report.position_sigma_m,
              .state = report.state});
     }
     write_own_states(snapshot, observation.own_states);

@@ -3,16 +3,19 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "sensing/observers.hpp"
 #include "sensing/processes.hpp"
 #include "sensing/sensor.hpp"
 
 namespace clearway::sensing::detail {
 
 /// Vehicles report in rounds; reports get lost, delayed and wrong as the configuration says; the last one of
-/// each vehicle stays known.
+/// each vehicle stays known. What others see of a vehicle that does not report counts as its report, with a
+/// stated error.
 class ReportSensor final : public SensorModel {
   public:
     ReportSensor(const FailureConfig& config, const core::KeyedRandom& random, const SensorContext& context);
@@ -21,12 +24,19 @@ class ReportSensor final : public SensorModel {
                  traffic::Observation& observation) override;
     void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
                       FailureLog& log) const override;
+    std::span<const core::VehicleKey> unreachable() const override { return unreachable_; }
 
   private:
+    enum class Source : std::uint8_t {
+        itself,  ///< Tells its route as well.
+        others,
+    };
     struct Report {
         core::VehicleKey key;
         traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
         double measured_s = 0.0;
+        float position_sigma_m = 0.0F;
+        Source source = Source::itself;
         traffic::MotionState state;
     };
     /// The reports of one round that were not lost, on their way. Ordered by key.
@@ -37,11 +47,15 @@ class ReportSensor final : public SensorModel {
     };
 
     bool round_is_due(double time_s);
-    void measure(const truth::Snapshot& snapshot);
+    void measure(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    void find_reporting(const truth::Snapshot& snapshot, const traffic::Roster& roster);
     void detect_links(const truth::Snapshot& snapshot, Round& round);
     bool deliver(const traffic::Roster& roster, double time_s);
     void merge(const std::vector<Report>& reports);
+    /// One that reports, or an emergency vehicle, which knows itself.
     void register_vehicle(const traffic::Roster& roster, core::VehicleKey key);
+    /// One that others see: what can be seen of it, without a route.
+    void register_seen(const traffic::Roster& roster, core::VehicleKey key);
     void drop_gone_and_forgotten(const truth::Snapshot& snapshot);
     void write(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                traffic::Observation& observation);
@@ -51,9 +65,11 @@ class ReportSensor final : public SensorModel {
     bool was_detected(core::VehicleKey left, core::VehicleKey right) const;
 
     FailureConfig config_;
+    EquipmentProcess equipment_;
     LossProcess loss_;
     NoiseProcess noise_;
     DetectionProcess detection_;
+    Observers observers_;
     graph::LinkRules rules_;
 
     std::optional<ReportNumber> report_;  ///< Number of the latest round.
@@ -61,8 +77,10 @@ class ReportSensor final : public SensorModel {
     std::vector<Round> spare_rounds_;  ///< Their buffers are used again.
     std::vector<Report> last_reports_, merged_;
     std::vector<traffic::DetectedLink> detected_links_;
-    double newest_measured_s_ = -1.0;  ///< When the newest round that arrived was measured.
-    std::vector<std::uint8_t> lost_;   ///< By row of the snapshot of a round.
+    double newest_measured_s_ = -1.0;    ///< When the newest round that arrived was measured.
+    std::vector<std::uint8_t> reports_;  ///< 1 where the report arrives. By row of the snapshot of a round.
+    std::vector<float> seen_sigma_m_;    ///< Likewise; negative where nothing arrives.
+    std::vector<core::VehicleKey> unreachable_;
 
     traffic::Roster roster_;  ///< Of those that reported, and of all emergency vehicles.
     struct KnownRoute {
@@ -71,7 +89,7 @@ class ReportSensor final : public SensorModel {
     std::unordered_map<core::VehicleKey, KnownRoute> known_routes_;
 
     graph::ProximityBuilder builder_;
-    graph::ProximityGraph true_graph_;
+    graph::ProximityGraph true_graph_, near_;
 };
 
 }  // namespace clearway::sensing::detail

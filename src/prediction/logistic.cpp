@@ -1,0 +1,60 @@
+#include "prediction/logistic.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "prediction/detail/pairwise.hpp"
+#include "prediction/graphsage.hpp"
+#include "prediction/kinematic.hpp"
+#include "prediction/shipped_models.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using detail::PairwisePredictor;
+using detail::RowBelief;
+
+class Logistic final : public PairwisePredictor {
+  public:
+    Logistic(const PredictorContext& context, const Weights& weights) : PairwisePredictor(context) {
+        weights.require(logistic_architecture, pair_feature_schema());
+        std::ranges::copy(weights.tensor("weight", {1, pair_feature_count}).values, weight_.begin());
+        bias_ = weights.tensor("bias", {1}).values[0];
+    }
+    std::string_view name() const override { return "logistic"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        detail::believe_dead_reckoned(tracks, beliefs);
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            beliefs[row].present = !tracks.has_left(row);
+        }
+    }
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const RowPair pair = scene.candidates.rows[at];
+            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
+            const PairFeatures features = pair_features(scene, at, static_cast<float>(rules().radius_m));
+            float logit = bias_;
+            for (std::size_t i = 0; i < pair_feature_count; ++i) {
+                logit += weight_[i] * features[i];
+            }
+            probabilities[at] = probability_from_logit(logit);
+        }
+    }
+
+    PairFeatures weight_{};
+    float bias_ = 0.0F;
+};
+
+}  // namespace
+
+std::unique_ptr<Predictor> make_logistic(const PredictorContext& context) {
+    return std::make_unique<Logistic>(
+        context, context.model_file.empty() ? shipped_model("logistic") : read_weights(context.model_file));
+}
+
+}  // namespace clearway::prediction

@@ -1,0 +1,247 @@
+#include "prediction/planar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "prediction/detail/pairwise.hpp"
+#include "prediction/disc_probability.hpp"
+#include "prediction/kinematic.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using detail::PairwisePredictor;
+using detail::RowBelief;
+
+/// Below this speed a velocity has no direction worth reporting, m/s.
+constexpr float least_directed_mps = 0.1F;
+/// Reports are at least 0.1 s apart; times closer than this are one, s.
+constexpr double same_time_s = 0.01;
+
+float offset_m(const std::vector<RowBelief>& beliefs, RowPair pair) {
+    const traffic::MotionState& left = beliefs[pair.left].state;
+    const traffic::MotionState& right = beliefs[pair.right].state;
+    return std::hypot(left.x_m - right.x_m, left.y_m - right.y_m);
+}
+
+class HeadingReckoning final : public PairwisePredictor {
+  public:
+    HeadingReckoning(const PredictorContext& context, const HeadingConfig& config)
+        : PairwisePredictor(context), speed_change_mps_(static_cast<float>(config.speed_change_mps)) {}
+    std::string_view name() const override { return "dead_reckoning_heading"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            RowBelief& belief = beliefs[row];
+            const traffic::MotionState& last = tracks.last[row];
+            const float moved_m = last.speed_mps * tracks.age_s[row];
+            belief.state = tracks.state[row];
+            belief.state.x_m = last.x_m + std::cos(last.heading_rad) * moved_m;
+            belief.state.y_m = last.y_m + std::sin(last.heading_rad) * moved_m;
+            belief.state.heading_rad = last.heading_rad;
+            belief.sigma_m = std::hypot(tracks.sensor_sigma_m[row], speed_change_mps_ * tracks.age_s[row]);
+            belief.present = !tracks.has_left(row);
+        }
+    }
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const RowPair pair = scene.candidates.rows[at];
+            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
+            const float sigma_m = std::hypot(beliefs[pair.left].sigma_m, beliefs[pair.right].sigma_m);
+            probabilities[at] =
+                probability_within(static_cast<float>(rules().radius_m), offset_m(beliefs, pair), sigma_m);
+        }
+    }
+
+    float speed_change_mps_;
+};
+
+/// One vehicle's filter: mean and covariance of (x, y, vx, vy).
+struct Filter {
+    core::VehicleKey key;
+    double measured_s = 0.0;
+    std::array<float, 4> mean{};
+    std::array<std::array<float, 4>, 4> covariance{};
+};
+
+/// The same four numbers, measured, with the variance of each.
+struct Measurement {
+    std::array<float, 4> value;
+    std::array<float, 4> variance;
+};
+
+struct Noise {
+    float along_psd, across_psd;
+};
+
+void start(const Measurement& seen, Filter& filter) {
+    filter.mean = seen.value;
+    filter.covariance = {};
+    for (std::size_t i = 0; i < 4; ++i) {
+        filter.covariance[i][i] = seen.variance[i];
+    }
+}
+
+/// x += vx t; P = F P F' + Q, Q the noise of a direction times (t^3 / 3, t^2 / 2; t^2 / 2, t).
+void elapse(float elapsed_s, float heading_rad, const Noise& noise, Filter& filter) {
+    auto& mean = filter.mean;
+    auto& p = filter.covariance;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        mean[axis] += mean[axis + 2] * elapsed_s;
+        for (std::size_t i = 0; i < 4; ++i) {
+            p[axis][i] += elapsed_s * p[axis + 2][i];
+        }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            p[i][axis] += elapsed_s * p[i][axis + 2];
+        }
+    }
+    const std::array<float, 2> ahead = {std::cos(heading_rad), std::sin(heading_rad)};
+    const float square = elapsed_s * elapsed_s;
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 2; ++j) {
+            const float psd = (noise.along_psd - noise.across_psd) * ahead[i] * ahead[j] +
+                              (i == j ? noise.across_psd : 0.0F);
+            p[i][j] += psd * square * elapsed_s / 3.0F;
+            p[i][j + 2] += psd * square / 2.0F;
+            p[i + 2][j] += psd * square / 2.0F;
+            p[i + 2][j + 2] += psd * elapsed_s;
+        }
+    }
+}
+
+/// The four measurements one after the other: their errors are independent. A position without a stated error
+/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
+/// gain across the heading, where the filter itself is certain.
+void correct(const Measurement& seen, Filter& filter) {
+    constexpr float least_position_var_m2 = 0.01F;
+    auto& p = filter.covariance;
+    for (std::size_t at = 0; at < 4; ++at) {
+        const float variance =
+            at < 2 ? std::max(seen.variance[at], least_position_var_m2) : seen.variance[at];
+        const float total = p[at][at] + variance;
+        const float innovation = seen.value[at] - filter.mean[at];
+        const std::array<float, 4> row = p[at];
+        for (std::size_t i = 0; i < 4; ++i) {
+            filter.mean[i] += row[i] / total * innovation;
+            for (std::size_t j = 0; j < 4; ++j) {
+                p[i][j] -= row[i] * row[j] / total;
+            }
+        }
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        if (seen.variance[axis] == 0.0F) filter.mean[axis] = seen.value[axis];
+    }
+}
+
+class Kalman final : public PairwisePredictor {
+  public:
+    Kalman(const PredictorContext& context, const KalmanConfig& config)
+        : PairwisePredictor(context),
+          noise_{static_cast<float>(config.along_psd), static_cast<float>(config.across_psd)},
+          speed_var_(static_cast<float>(config.speed_sigma_mps * config.speed_sigma_mps)) {}
+    std::string_view name() const override { return "kalman"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        follow(scene.tracks);
+        const Tracks& tracks = scene.tracks;
+        now_ = filters_;
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            Filter& now = now_[row];
+            if (tracks.age_s[row] > 0.0F)
+                elapse(tracks.age_s[row], tracks.last[row].heading_rad, noise_, now);
+            RowBelief& belief = beliefs[row];
+            belief.state = tracks.state[row];
+            belief.state.x_m = now.mean[0];
+            belief.state.y_m = now.mean[1];
+            belief.state.speed_mps = std::hypot(now.mean[2], now.mean[3]);
+            if (belief.state.speed_mps > least_directed_mps)
+                belief.state.heading_rad = std::atan2(now.mean[3], now.mean[2]);
+            belief.sigma_m = sigma_along(now, tracks.last[row].heading_rad);
+            belief.present = !tracks.has_left(row);
+        }
+    }
+
+    static float sigma_along(const Filter& filter, float heading_rad) {
+        const float cosine = std::cos(heading_rad);
+        const float sine = std::sin(heading_rad);
+        const auto& p = filter.covariance;
+        return std::sqrt(std::max(
+            0.0F, cosine * cosine * p[0][0] + 2.0F * cosine * sine * p[0][1] + sine * sine * p[1][1]));
+    }
+
+    /// Brings the filters to the newest report of each vehicle, one filter a row. Both lists are ordered by
+    /// key.
+    void follow(const Tracks& tracks) {
+        next_.clear();
+        auto old = filters_.begin();
+        for (std::size_t row = 0; row < tracks.size(); ++row) {
+            while (old != filters_.end() && old->key < tracks.key[row]) {
+                ++old;
+            }
+            const bool known = old != filters_.end() && old->key == tracks.key[row];
+            next_.push_back(known ? *old : Filter{.key = tracks.key[row], .measured_s = -1.0});
+            take_report(tracks, row, next_.back());
+        }
+        std::swap(filters_, next_);
+    }
+
+    void take_report(const Tracks& tracks, std::size_t row, Filter& filter) const {
+        const double measured_s = tracks.time_s - tracks.age_s[row];
+        const double elapsed_s = measured_s - filter.measured_s;
+        if (filter.measured_s >= 0.0 && std::abs(elapsed_s) < same_time_s) return;
+        const traffic::MotionState& last = tracks.last[row];
+        const float position_var = tracks.sensor_sigma_m[row] * tracks.sensor_sigma_m[row];
+        const Measurement seen{{last.x_m, last.y_m, last.speed_mps * std::cos(last.heading_rad),
+                                last.speed_mps * std::sin(last.heading_rad)},
+                               {position_var, position_var, speed_var_, speed_var_}};
+        if (filter.measured_s < 0.0 || elapsed_s < 0.0) {
+            start(seen, filter);
+        } else {
+            elapse(static_cast<float>(elapsed_s), last.heading_rad, noise_, filter);
+            correct(seen, filter);
+        }
+        filter.measured_s = measured_s;
+    }
+
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const RowPair pair = scene.candidates.rows[at];
+            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
+            const Filter& left = now_[pair.left];
+            const Filter& right = now_[pair.right];
+            probabilities[at] =
+                probability_in_disc(static_cast<float>(rules().radius_m),
+                                    {right.mean[0] - left.mean[0], right.mean[1] - left.mean[1],
+                                     left.covariance[0][0] + right.covariance[0][0],
+                                     left.covariance[0][1] + right.covariance[0][1],
+                                     left.covariance[1][1] + right.covariance[1][1]});
+        }
+    }
+
+    Noise noise_;
+    float speed_var_;
+    std::vector<Filter> filters_, next_, now_;
+};
+
+}  // namespace
+
+std::unique_ptr<Predictor> make_dead_reckoning_heading(const PredictorContext& context,
+                                                       const HeadingConfig& config) {
+    return std::make_unique<HeadingReckoning>(context, config);
+}
+std::unique_ptr<Predictor> make_kalman(const PredictorContext& context, const KalmanConfig& config) {
+    return std::make_unique<Kalman>(context, config);
+}
+
+}  // namespace clearway::prediction

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <tuple>
+
+#include "core/fields.hpp"
+#include "prediction/predictor.hpp"
+
+namespace clearway::prediction {
+
+// Opponents that know no roads: they move vehicles in the plane, and judge links there. The place on the map
+// (lane, lane position, position in the route) that a policy needs beside it is that of dead reckoning along
+// the route. Where exits are not known, a vehicle that its speed took past the end of its route has left.
+
+struct HeadingConfig {
+    double speed_change_mps = 2.5;
+
+    static constexpr auto fields() {
+        using C = HeadingConfig;
+        return std::make_tuple(
+            core::Field{"speed_change_mps", "m/s", &C::speed_change_mps, 0.0, 50.0,
+                        "Growth of a position's standard deviation with the age of its report",
+                        "as dead_reckoning: half of the usual change of speed between two signals"});
+    }
+};
+
+/// Vehicles go straight on by their reported heading and speed. P(d < r) as kinematic.hpp has it.
+std::unique_ptr<Predictor> make_dead_reckoning_heading(const PredictorContext& context,
+                                                       const HeadingConfig& config = {});
+
+struct KalmanConfig {
+    double along_psd = 1.0;
+    double across_psd = 0.01;
+    double speed_sigma_mps = 0.1;
+
+    static constexpr auto fields() {
+        using C = KalmanConfig;
+        return std::make_tuple(
+            core::Field{"along_psd", "m2/s3", &C::along_psd, 1e-6, 1000.0,
+                        "Process noise: power spectral density of the white acceleration along the heading",
+                        "tuned: of 0.3, 1, 2.5, 6 the best AP in B10"},
+            core::Field{"across_psd", "m2/s3", &C::across_psd, 1e-6, 1000.0, "The same across the heading",
+                        "tuned: flat from 0.003 to 0.03"},
+            core::Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 1e-3, 50.0,
+                        "Measurement noise of a reported velocity, along each axis",
+                        "tuned: flat from 0.05 to 0.2; the presets have no speed noise"});
+    }
+};
+
+/// A constant-velocity Kalman filter for each vehicle over its reports (position, and velocity from speed and
+/// heading): state (x, y, vx, vy), continuous white noise acceleration (Bar-Shalom, Li, Kirubarajan 2001,
+/// "Estimation with Applications to Tracking and Navigation", 6.2.2) that is stronger along the heading than
+/// across it, measurement noise the sensor's stated position error and `speed_sigma_mps`. P(d < r) from the
+/// covariances of both ends (disc_probability.hpp). A report older than the one before (another run) starts a
+/// vehicle's filter anew.
+std::unique_ptr<Predictor> make_kalman(const PredictorContext& context, const KalmanConfig& config = {});
+
+}  // namespace clearway::prediction

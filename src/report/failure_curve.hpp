@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/summary.hpp"
+
+namespace clearway::report {
+
+/// What a repair makes of a share of time dark.
+struct FailurePoint {
+    double dark_share = 0.0;
+    /// EV time loss of the condition less that of the baseline, s: below 0 is a benefit.
+    std::optional<analysis::Estimate> time_loss;
+    /// F1 of the believed links end to end: links of vehicles that nobody ever saw count as missed.
+    std::optional<analysis::Estimate> link_f1;
+};
+
+/// One repair over the share of time dark.
+struct FailureLine {
+    std::string repair;
+    std::vector<FailurePoint> points;  ///< By rising share, at least one.
+    /// The point from which on no benefit is shown: the first whose interval of the difference reaches 0.
+    /// Nothing where each point shows a benefit; a point without an interval shows none.
+    std::optional<std::size_t> break_even;
+};
+
+/// Benefit against failure: what is left of a policy's benefit when vehicles are dark a share of the time.
+struct FailureCurve {
+    std::string scenario;
+    std::string policy;   ///< Parts, joined by ` + `.
+    std::string failure;  ///< What the failures of all points have in common, as `mean_outage_s=10`.
+    std::vector<FailureLine> lines;  ///< In the order of the study; `perfect` sensing last, at every share.
+};
+
+/// The curves of a study: conditions of one engine that differ in nothing but their predictor and the
+/// `dark_share` that their failure states. Curves of fewer than two shares are left out. A condition of the
+/// same policy with failure `perfect` becomes the line `perfect`, the same at every share.
+std::vector<FailureCurve> failure_curves(const analysis::Summary& summary);
+
+/// Table for a terminal of 110 columns; empty text without curves.
+std::string failure_table(const std::vector<FailureCurve>& curves);
+
+}  // namespace clearway::report

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "graph/proximity.hpp"
+#include "roads/network.hpp"
+#include "sensing/failure_config.hpp"
+#include "sensing/line_of_sight.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::sensing {
+
+/// Who is seen by others although it does not report: by units at signals, and from automated and emergency
+/// vehicles that do. Keeps buffers; one thread.
+///
+/// A roadside unit stands in the middle of the stop lines of its signal, above the traffic: nothing hides a
+/// vehicle from it. A vehicle looks from its centre to the centres of others; with occlusion, the box of a
+/// third vehicle that the line meets hides them. Who is seen is recognised: trackers keep its identity.
+class Observers {
+  public:
+    Observers(const FailureConfig& config, const roads::Network& network);
+    bool none() const { return units_.empty() && onboard_range_m_ == 0.0; }
+    bool considers_occlusion() const { return occlusion_ == Occlusion::considered; }
+
+    /// Takes the boxes of a snapshot, for `hidden` and `look`.
+    void take(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    /// Standard error of the position of each row, m, that is seen; negative where nobody sees it. Rows that
+    /// `reports` are 0. The better of two sensors counts.
+    void look(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
+              std::vector<float>& sigma_m);
+    /// Whether another vehicle stands between two rows of the snapshot. `near` has at least all vehicles
+    /// within their distance of the first.
+    bool hidden(core::VehicleIndex from, core::VehicleIndex to,
+                std::span<const core::VehicleIndex> near) const;
+
+  private:
+    void look_from_roadside(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
+                            std::vector<float>& sigma_m) const;
+    void look_from_vehicles(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
+                            std::vector<float>& sigma_m);
+
+    double onboard_range_m_;
+    float onboard_sigma_m_;
+    float roadside_range_m_;
+    float roadside_sigma_m_;
+    Occlusion occlusion_;
+    std::vector<Place> units_;
+    std::vector<Box> boxes_;  ///< By row.
+    std::vector<float> centre_x_m_, centre_y_m_;
+    graph::ProximityBuilder builder_;
+    graph::ProximityGraph near_;
+};
+
+}  // namespace clearway::sensing
