@@ -109,7 +109,8 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
     }
     if (!any) return {};
     return to_html(Figure{"Precision over recall", plot.finish(), legend_of(drawn),
-                          "The quarter where both are above 0.5.", data});
+                          "The quarter where both are above 0.5; a predictor without a line stays below it.",
+                          data});
 }
 
 std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
