@@ -224,13 +224,14 @@ double best_f1_threshold(const LinkSummary& summary) {
     double predicted = 0.0;
     double best = 0.0;
     double threshold = 0.5;
-    for (auto bin = summary.bins.rbegin(); bin != summary.bins.rend(); ++bin) {
-        found += static_cast<double>(bin->linked);
-        predicted += static_cast<double>(bin->linked + bin->unlinked);
+    for (std::size_t at = summary.bins.size(); at-- > 0;) {
+        const LinkSummary::Bin& bin = summary.bins[at];
+        found += static_cast<double>(bin.linked);
+        predicted += static_cast<double>(bin.linked + bin.unlinked);
         const double f1 = all == 0.0 ? 0.0 : 2.0 * found / (predicted + all);
         if (f1 <= best) continue;
         best = f1;
-        threshold = LinkGrid::lower_edge(bin->bin);
+        threshold = LinkGrid::lower_edge(bin.bin);
     }
     return threshold;
 }
@@ -241,10 +242,11 @@ std::vector<PrecisionRecall> precision_recall(const LinkSummary& summary) {
     if (all == 0.0) return curve;
     double found = 0.0;
     double predicted = 0.0;
-    for (auto bin = summary.bins.rbegin(); bin != summary.bins.rend(); ++bin) {
-        found += static_cast<double>(bin->linked);
-        predicted += static_cast<double>(bin->linked + bin->unlinked);
-        curve.push_back({LinkGrid::lower_edge(bin->bin), found / predicted, found / all});
+    for (std::size_t at = summary.bins.size(); at-- > 0;) {
+        const LinkSummary::Bin& bin = summary.bins[at];
+        found += static_cast<double>(bin.linked);
+        predicted += static_cast<double>(bin.linked + bin.unlinked);
+        curve.push_back({LinkGrid::lower_edge(bin.bin), found / predicted, found / all});
     }
     return curve;
 }
