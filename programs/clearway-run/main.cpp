@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "loop/dataset.hpp"
+#include "loop/link_evaluation.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
 
@@ -14,6 +15,7 @@ constexpr const char* usage =
     "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
     "  clearway-run --unit FILE      run the conditions of a unit file\n"
     "  clearway-run --dataset FILE   record a data set as a dataset file says\n"
+    "  clearway-run --links FILE     judge predictors as a links file says\n"
     "  clearway-run --version\n";
 
 int fail_usage() {
@@ -35,6 +37,7 @@ int main(int argument_count, char** arguments) {
         if (argument_count != 3) return fail_usage();
         if (order == "--unit") return static_cast<int>(loop::run_unit(arguments[2]));
         if (order == "--dataset") return static_cast<int>(loop::record_dataset(arguments[2]));
+        if (order == "--links") return static_cast<int>(loop::evaluate_links(arguments[2]));
         return fail_usage();
     } catch (const core::Error& error) {
         fmt::print(stderr, "clearway-run: {}\n", error.what());

@@ -35,6 +35,8 @@ constexpr std::array all_verbs = {
          "clearway dataset city --out data/city", configure_dataset},
     Verb{"train", "Train link prediction, as published or corrected",
          "clearway train --data data/city --out models/mine", configure_train},
+    Verb{"links", "Judge link prediction: links evaluate",
+         "clearway links evaluate --benchmark eval_v1 --quick", configure_links},
     Verb{"list", "List scenarios, conditions, failures, predictors and policy parts", "clearway list --json",
          configure_list},
     Verb{"init", "Copy a scenario into a folder of your own to edit",
@@ -101,9 +103,13 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 /// The message of a command line that cannot be parsed, with the nearest name where one is unknown.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    const CLI::App& command = chosen.empty() ? app : *chosen.front();
-    const std::string name = chosen.empty() ? "clearway" : "clearway " + command.get_name();
+    const CLI::App* deepest = &app;
+    std::string name = "clearway";
+    while (!deepest->get_subcommands().empty()) {
+        deepest = deepest->get_subcommands().front();
+        name += " " + deepest->get_name();
+    }
+    const CLI::App& command = *deepest;
     std::string text = fmt::format("{}: {}", name, error.what());
     const std::vector<std::string> unknown = command.remaining();
     if (!unknown.empty()) {

@@ -83,7 +83,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.order.failures);
-    const RecordResult result = record_orders(make_orders(arguments), arguments.jobs);
+    const WorkerResult result = record_orders(make_orders(arguments), arguments.jobs);
     print_files(result.lines, arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,

@@ -40,6 +40,7 @@ Action configure_replay(CLI::App& app);
 Action configure_verify(CLI::App& app);
 Action configure_dataset(CLI::App& app);
 Action configure_train(CLI::App& app);
+Action configure_links(CLI::App& app);
 Action configure_list(CLI::App& app);
 Action configure_init(CLI::App& app);
 Action configure_doctor(CLI::App& app);

@@ -7,29 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "loop/detail/work_folder.hpp"
 #include "loop/recording.hpp"
 #include "loop/unit_run.hpp"
 
 namespace clearway::loop {
 namespace {
-
-/// Removes its folder in the end.
-class WorkFolder {
-  public:
-    explicit WorkFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-        core::make_folder(folder_);
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-    const std::filesystem::path& path() const { return folder_; }
-
-  private:
-    std::filesystem::path folder_;
-};
 
 /// Passes every step on to several listeners.
 class Listeners : public StepListener {
@@ -148,7 +131,8 @@ void record_pair_samples(const results::DatasetOrder& order, UnitRun& run, const
 core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     const results::DatasetOrder order = results::read_dataset_order(order_file);
     core::make_folder(order.output);
-    const WorkFolder work(order.output / fmt::format("work-{}-{}", order.scenario, order.replication));
+    const detail::WorkFolder work(order.output /
+                                  fmt::format("work-{}-{}", order.scenario, order.replication));
     results::UnitSpec unit;
     unit.scenario = order.scenario;
     unit.scenario_file = order.scenario_file;

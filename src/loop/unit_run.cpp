@@ -95,11 +95,17 @@ UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& dem
     if (unit_.engine != results::Engine::solo) warm_up();
 }
 
-void UnitRun::warm_up() {
-    double first = prepared_.time.horizon_s;
+core::Seconds UnitRun::first_emergency() const {
+    if (prepared_.emergency.empty()) return core::Seconds(prepared_.time.warm_up_s);
+    double first_s = prepared_.time.horizon_s;
     for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
-        first = std::min(first, departure.depart.value);
+        first_s = std::min(first_s, departure.depart.value);
     }
+    return core::Seconds(first_s);
+}
+
+void UnitRun::warm_up() {
+    const double first = first_emergency().value;
     while (session_->time().value + prepared_.time.step_length_s <= first - lead_before_emergency.value) {
         session_->step();
         recorder_.step(session_->snapshot(), session_->events(), {});

@@ -37,6 +37,9 @@ class UnitRun {
 
     const roads::Network& network() const { return network_.network; }
     const LoopConfig& loop_config() const { return loop_; }
+    /// When the first emergency vehicle departs; the end of the warm-up without any.
+    core::Seconds first_emergency() const;
+    std::string configuration_hash() const { return scenario::configuration_hash(config_); }
 
   private:
     void warm_up();

@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 const std::vector<std::string> every_verb = {"reproduce", "run",  "study",  "report", "dataset", "train",
-                                             "list",      "init", "doctor", "replay", "verify"};
+                                             "list",      "init", "doctor", "replay", "verify",  "links"};
 
 class HelpTest : public UserTest {};
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/estimate.hpp"
+
+namespace clearway::analysis {
+
+/// A number with its interval.
+struct Measured {
+    std::optional<double> value;
+    std::optional<Interval> interval;
+};
+
+/// Bootstrap over runs within strata (scenarios): each resample draws as many runs of every stratum as there
+/// are, with replacement. One set of resamples serves all measures, so differences and ratios between
+/// predictors are paired.
+class RunResampling {
+  public:
+    struct Config {
+        std::size_t resamples = 1000;  ///< 1000: Efron and Tibshirani 1993, chapter 13, for percentiles.
+        std::uint64_t seed = 1;
+        double level = usual_level;
+    };
+    /// `stratum_sizes` runs in each stratum; runs are numbered stratum by stratum.
+    explicit RunResampling(const std::vector<std::size_t>& stratum_sizes)
+        : RunResampling(stratum_sizes, Config()) {}
+    RunResampling(const std::vector<std::size_t>& stratum_sizes, const Config& config);
+
+    std::size_t runs() const { return runs_; }
+    std::size_t resamples() const { return config_.resamples; }
+    /// How often each run was drawn in a resample.
+    std::span<const double> weights(std::size_t resample) const {
+        return std::span(weights_).subspan(resample * runs_, runs_);
+    }
+    /// Percentile interval of the values of all resamples, its shares moved outwards for few runs as
+    /// SmallSample::expanded says (with the degrees of freedom of all strata). Nothing when a stratum has
+    /// fewer than two runs, or when a value is not finite.
+    std::optional<Interval> interval(std::vector<double> values) const;
+
+  private:
+    Config config_;
+    std::size_t runs_ = 0;
+    std::optional<double> outside_;  ///< Share below the lower end; nothing where there can be no interval.
+    std::vector<double> weights_;
+};
+
+}  // namespace clearway::analysis

@@ -1,0 +1,296 @@
+#include "report/links.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/common_options.hpp"
+#include "cli/link_plan.hpp"
+#include "cli/names.hpp"
+#include "cli/scenario_options.hpp"
+#include "cli/shipped_files.hpp"
+#include "cli/verb.hpp"
+#include "core/files.hpp"
+#include "prediction/predictor.hpp"
+
+namespace clearway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<std::string> scenarios;
+    std::string benchmark;
+    std::vector<std::string> failures;
+    std::vector<std::string> predictors;
+    std::vector<std::string> settings;  ///< `link_threshold=0.4`, `kalman.link_threshold=0.4`.
+    std::vector<std::string> models;    ///< `graphsage=FILE`.
+    std::string exits = "both";
+    std::uint64_t study_seed = 1;
+    study::SeedRange test{0, 10};
+    study::SeedRange validation{1000, 5};
+    bool quick = false;
+    LinkSplit split = LinkSplit::test;
+    std::string against;
+    std::string folder;
+    unsigned jobs = 0;
+    Printing printing = Printing::text;
+    scenario::Options options;
+};
+
+/// Seeds of `--quick`.
+constexpr std::uint32_t quick_test = 3;
+constexpr std::uint32_t quick_validation = 2;
+
+/// `NAME=VALUE`; the value of a setting is a number.
+std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words) {
+    const std::size_t equals = words.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
+        throw core::InputError({option, fmt::format("`{}` is no assignment", words), "NAME=VALUE", ""});
+    return {words.substr(0, equals), words.substr(equals + 1)};
+}
+
+double number_from(const std::string& option, const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw core::InputError({option, fmt::format("`{}` is no number", text), "NAME=NUMBER", ""});
+    return value;
+}
+
+LinkPredictor& predictor_named(const std::string& option, const std::string& name,
+                               std::vector<LinkPredictor>& predictors) {
+    const auto found = std::ranges::find(predictors, name, &LinkPredictor::name);
+    if (found != predictors.end()) return *found;
+    std::vector<std::string> names;
+    for (const LinkPredictor& predictor : predictors)
+        names.push_back(predictor.name);
+    throw core::InputError(unknown_name(option, name, names));
+}
+
+std::vector<LinkPredictor> predictors_of(const Arguments& arguments) {
+    std::vector<LinkPredictor> predictors;
+    const std::vector<std::string> names =
+        arguments.predictors.empty() ? prediction::predictor_names() : arguments.predictors;
+    for (const std::string& name : names) {
+        if (std::ranges::find(predictors, name, &LinkPredictor::name) == predictors.end())
+            predictors.push_back({.name = name, .model_file = {}, .settings = {}});
+    }
+    for (const std::string& words : arguments.settings) {
+        const auto [target, text] = assignment("--set", words);
+        const double value = number_from("--set " + target, text);
+        const std::size_t dot = target.find('.');
+        if (dot == std::string::npos) {
+            for (LinkPredictor& predictor : predictors)
+                predictor.settings[target] = value;
+        } else {
+            predictor_named("--set", target.substr(0, dot), predictors).settings[target.substr(dot + 1)] =
+                value;
+        }
+    }
+    for (const std::string& words : arguments.models) {
+        const auto [name, file] = assignment("--model", words);
+        predictor_named("--model", name, predictors).model_file = file;
+    }
+    return predictors;
+}
+
+fs::path benchmark_file(const std::string& name) {
+    if (fs::is_regular_file(name)) return name;
+    const auto found = shipped(fs::path("studies") / "links" / (name + ".toml"));
+    if (found) return *found;
+    throw core::InputError({"--benchmark", fmt::format("`{}` is neither a benchmark nor a file", name),
+                            "eval_v1, or a TOML file", "docs/link-prediction.md describes both"});
+}
+
+/// The benchmark's scenarios of these names; all of them for none.
+void keep_scenarios(const std::vector<std::string>& names, study::LinkBenchmark& benchmark) {
+    if (names.empty()) return;
+    std::vector<std::string> known;
+    for (const scenario::ScenarioConfig& config : benchmark.scenarios)
+        known.push_back(config.name);
+    for (const std::string& name : names) {
+        if (std::ranges::find(known, name) == known.end())
+            throw core::InputError(unknown_name("scenario of " + benchmark.name, name, known));
+    }
+    std::erase_if(benchmark.scenarios, [&](const scenario::ScenarioConfig& config) {
+        return std::ranges::find(names, config.name) == names.end();
+    });
+}
+
+study::LinkBenchmark named_benchmark(const Arguments& arguments) {
+    study::LinkBenchmark benchmark = study::read_link_benchmark(benchmark_file(arguments.benchmark));
+    const std::size_t all = benchmark.scenarios.size();
+    keep_scenarios(arguments.scenarios, benchmark);
+    const bool part = benchmark.scenarios.size() < all || arguments.quick || !arguments.failures.empty();
+    if (part) benchmark.name += " (a part of it)";
+    return benchmark;
+}
+
+study::LinkBenchmark own_benchmark(const Arguments& arguments) {
+    study::LinkBenchmark benchmark;
+    std::vector<core::Problem> problems =
+        study::problems_of(arguments.test, arguments.validation, "--seeds, --validation-seeds");
+    if (arguments.scenarios.empty())
+        problems.push_back(
+            {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v1"});
+    for (const std::string& name : arguments.scenarios) {
+        try {
+            benchmark.scenarios.push_back(scenario::load(name, arguments.options));
+        } catch (const core::InputError& error) {
+            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        }
+    }
+    std::vector<std::string> names;
+    for (const scenario::ScenarioConfig& config : benchmark.scenarios) {
+        if (std::ranges::find(names, config.name) != names.end())
+            problems.push_back(
+                {"SCENARIO", fmt::format("`{}` is there twice", config.name), "each once", ""});
+        names.push_back(config.name);
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    benchmark.name = joined(names);
+    benchmark.study_seed = arguments.study_seed;
+    benchmark.test = arguments.test;
+    benchmark.validation = arguments.validation;
+    benchmark.failures = failure_names();
+    benchmark.exits = {"known", "unknown"};
+    return benchmark;
+}
+
+LinkPlan plan_of(const Arguments& arguments) {
+    LinkPlan plan;
+    plan.benchmark = arguments.benchmark.empty() ? own_benchmark(arguments) : named_benchmark(arguments);
+    if (!arguments.failures.empty()) plan.benchmark.failures = arguments.failures;
+    if (arguments.exits != "both") plan.benchmark.exits = {arguments.exits};
+    if (arguments.quick) {
+        plan.benchmark.test.count = std::min(plan.benchmark.test.count, quick_test);
+        plan.benchmark.validation.count = std::min(plan.benchmark.validation.count, quick_validation);
+    }
+    plan.predictors = predictors_of(arguments);
+    plan.split = arguments.split;
+    plan.against = arguments.against;
+    const std::string name =
+        arguments.benchmark.empty() ? "links" : fs::path(arguments.benchmark).stem().string();
+    plan.folder = arguments.folder.empty() ? fs::path("runs") / name : fs::path(arguments.folder);
+    plan.jobs = arguments.jobs;
+    check(plan);
+    return plan;
+}
+
+core::ExitCode evaluate(const Arguments& arguments, const Invocation& invocation) {
+    const LinkPlan plan = plan_of(arguments);
+    core::make_folder(plan.folder);
+    const core::ExitCode code = complete_runs(plan);
+    if (code != core::ExitCode::ok) {
+        fmt::print(stderr, "clearway: incomplete; what is done is kept in {}. To go on:\n  {}\n",
+                   plan.folder.string(), invocation.command);
+        return code;
+    }
+    report::LinkFacts facts = judge(plan);
+    facts.command = invocation.command;
+    const std::string json = report::links_json(facts);
+    core::write_atomically(plan.folder / "evaluation.json", json);
+    core::write_atomically(plan.folder / "evaluation.csv", report::links_csv(facts));
+    std::ostringstream page;
+    report::write_links_page(facts, page);
+    core::write_atomically(plan.folder / "links.html", page.str());
+    fmt::print(stderr, "{}\n", (plan.folder / "links.html").string());
+    fmt::print("{}", arguments.printing == Printing::json ? json : report::links_console(facts));
+    return core::ExitCode::ok;
+}
+
+void add_what(CLI::App& app, Arguments& arguments) {
+    app.add_option("scenario", arguments.scenarios,
+                   "Names (clearway list), folders or TOML files; with --benchmark, names of its scenarios")
+        ->option_text("SCENARIO ... [those of the benchmark]");
+    app.add_option("--benchmark", arguments.benchmark,
+                   "Scenarios, seeds and failures of a benchmark: eval_v1 or a TOML file")
+        ->option_text("NAME|FILE [none]");
+    app.add_option("--failure", arguments.failures, "Sensor failures (clearway list)")
+        ->option_text("NAME ... [all]");
+    app.add_option("--exits", arguments.exits, "Whether it is known when a vehicle leaves the network")
+        ->check(CLI::IsMember({"known", "unknown", "both"}))
+        ->option_text("known|unknown|both [both]");
+    app.add_option("--predictor", arguments.predictors, "Predictors (clearway list)")
+        ->option_text("NAME ... [all]");
+    app.add_option("--model", arguments.models, "Model file of a learned predictor")
+        ->option_text("PREDICTOR=FILE ... [as shipped]");
+    app.add_option("--set", arguments.settings, "A setting of all predictors, or of one")
+        ->option_text("[PREDICTOR.]NAME=NUMBER ... [defaults]");
+    app.add_option("--against", arguments.against,
+                   "The opponent that errors are compared with; by default the best kinematic one present")
+        ->option_text("PREDICTOR [route_rule, kalman, ...]");
+}
+
+void add_seeds(CLI::App& app, Arguments& arguments) {
+    const char* const group = "Seeds (a benchmark has its own)";
+    const auto declare = [&](const char* name, std::uint32_t& value, const char* doc, std::uint32_t least) {
+        app.add_option(name, value, doc)
+            ->check(CLI::Range(least, 4000000000U))
+            ->option_text(fmt::format("N, from {} [{}]", least, value))
+            ->excludes("--benchmark")
+            ->group(group);
+    };
+    app.add_option("--seed", arguments.study_seed, "Study seed: equal seeds, equal results")
+        ->option_text(fmt::format("N, 0 to 2^64-1 [{}]", arguments.study_seed))
+        ->excludes("--benchmark")
+        ->group(group);
+    declare("--seeds", arguments.test.count, "Replications to test on", 0U);
+    declare("--first-seed", arguments.test.first, "Number of the first of them", 0U);
+    declare("--validation-seeds", arguments.validation.count,
+            "Replications on which thresholds of F1 are chosen", 0U);
+    declare("--first-validation-seed", arguments.validation.first, "Number of the first of them", 0U);
+    app.add_flag("--quick", arguments.quick,
+                 fmt::format("At most {} test and {} validation seeds [all]", quick_test, quick_validation))
+        ->group(group);
+    app.add_option_function<std::string>(
+           "--split",
+           [&arguments](const std::string& name) {
+               arguments.split = name == "test" ? LinkSplit::test : LinkSplit::validation;
+           },
+           "Seeds to print figures of; tune settings on `validation` alone")
+        ->check(CLI::IsMember({"test", "validation"}))
+        ->option_text("test|validation [test]")
+        ->group(group);
+}
+
+Action configure_evaluate(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    add_what(app, *arguments);
+    app.add_option("--out", arguments->folder,
+                   "Folder of runs and results; runs that it has are not repeated")
+        ->option_text("DIR [runs/eval_v1, or runs/links]");
+    add_jobs_option(app, arguments->jobs);
+    add_json_option(app, arguments->printing, "all figures");
+    add_seeds(app, *arguments);
+    const std::size_t own_options = app.get_options().size();
+    add_scenario_options(app, arguments->options);
+    const std::vector<CLI::Option*> options = app.get_options();
+    for (std::size_t i = own_options; i < options.size(); ++i)
+        options[i]->excludes("--benchmark");
+    app.footer(
+        "Examples:\n  clearway links evaluate --benchmark eval_v1\n"
+        "  clearway links evaluate city --dense --failure B10 B20 --predictor dead_reckoning last_seen "
+        "--json\n"
+        "  clearway links evaluate --benchmark eval_v1 --split validation --failure B10 --set "
+        "link_threshold=0.4");
+    return [arguments](const Invocation& invocation) { return evaluate(*arguments, invocation); };
+}
+
+}  // namespace
+
+Action configure_links(CLI::App& app) {
+    app.require_subcommand(1);
+    CLI::App* const command =
+        app.add_subcommand("evaluate", "Judge predictors by their links, on seeds kept apart for it");
+    return configure_evaluate(*command);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <filesystem>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/named_numbers.hpp"
+#include "loop/detail/work_folder.hpp"
+#include "loop/link_evaluation.hpp"
+#include "loop/unit_run.hpp"
+#include "results/link_order.hpp"
+#include "sensing/failure_config.hpp"
+
+namespace clearway::loop {
+namespace {
+
+sensing::Exits exits_from(const std::string& word) {
+    for (const auto& [value, spelling] : sensing::spellings(sensing::Exits{})) {
+        if (word == spelling) return value;
+    }
+    throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
+}
+
+std::unique_ptr<prediction::Predictor> make(const results::LinkPredictorOrder& order,
+                                            const roads::Network& network, const graph::LinkRules& rules) {
+    prediction::PredictorContext context{.network = network, .rules = rules, .model_file = order.model_file};
+    std::vector<core::Problem> problems;
+    core::set_numbers(order.settings, order.name, context.config, problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return prediction::make_predictor(order.name, context);
+}
+
+void add_trials(const results::LinkOrder& order, const roads::Network& network, const graph::LinkRules& rules,
+                LinkEvaluator& evaluator) {
+    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    for (const std::string& exits : order.exits) {
+        for (const std::string& failure : order.failures) {
+            sensing::FailureConfig config = sensing::failure_from(failure);
+            config.exits = exits_from(exits);
+            LinkTrial::Setup setup{
+                .failure = failure,
+                .exits = exits,
+                .sensor = sensing::make_sensor(config, random, {.network = network, .rules = rules}),
+                .predictors = {}};
+            for (const results::LinkPredictorOrder& predictor : order.predictors)
+                setup.predictors.push_back(make(predictor, network, rules));
+            evaluator.add(std::move(setup));
+        }
+    }
+}
+
+void check_scored(const results::LinkOrder& order, const LinkEvaluator& evaluator) {
+    for (const LinkTrial& trial : evaluator.trials()) {
+        if (trial.result(0).truth.reports > 0) continue;
+        throw core::InputError(
+            {order.scenario,
+             "the run ended before a report was scored: no vehicle is on the road once the "
+             "first emergency vehicle departs or the warm-up ends",
+             "at least one report", "Give the scenario a longer window or horizon"});
+    }
+}
+
+void write_results(const results::LinkOrder& order, const std::string& configuration_hash,
+                   const LinkEvaluator& evaluator) {
+    for (std::size_t number = 0; number < order.predictors.size(); ++number) {
+        const results::LinkPredictorOrder& predictor = order.predictors[number];
+        results::LinkRun run{.scenario = order.scenario,
+                             .configuration_hash = configuration_hash,
+                             .study_seed = order.study_seed,
+                             .replication = order.replication,
+                             .predictor = predictor.name,
+                             .cases = {}};
+        results::LinkTiming timing;
+        for (const LinkTrial& trial : evaluator.trials()) {
+            run.cases.push_back(trial.result(number));
+            timing.cases.push_back(trial.timing(number));
+        }
+        core::make_folder(predictor.output.parent_path());
+        results::write_link_run(predictor.output, run, timing);
+    }
+}
+
+}  // namespace
+
+core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
+    const results::LinkOrder order = results::read_link_order(order_file);
+    const detail::WorkFolder work(order.work_folder);
+    results::UnitSpec unit;
+    unit.scenario = order.scenario;
+    unit.scenario_file = order.scenario_file;
+    unit.network_folder = order.network_folder;
+    unit.study_seed = order.study_seed;
+    unit.replication = order.replication;
+    UnitRun run(unit, work.path(), work.path());
+    graph::LinkRules rules;
+    rules.radius_m = run.loop_config().link_radius_m;
+    LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
+    add_trials(order, run.network(), rules, evaluator);
+    results::ConditionSpec plain_traffic;
+    plain_traffic.name = "links";
+    run.record(plain_traffic, evaluator);
+    check_scored(order, evaluator);
+    write_results(order, run.configuration_hash(), evaluator);
+    return core::ExitCode::ok;
+}
+
+}  // namespace clearway::loop

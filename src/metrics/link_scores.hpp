@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+
+#include "core/fields.hpp"
+#include "metrics/link_histogram.hpp"
+
+namespace clearway::metrics {
+
+/// Which candidate pairs are scored.
+enum class LinkSubset : std::uint8_t {
+    all,     ///< Every candidate.
+    hard,    ///< See `is_hard`.
+    policy,  ///< See PairTraits::ahead_of_emergency.
+};
+inline constexpr std::array link_subsets = {LinkSubset::all, LinkSubset::hard, LinkSubset::policy};
+std::string_view name(LinkSubset subset);
+
+/// A pair is hard when simple kinematics does not settle it: dead reckoning puts it within half a link radius
+/// of the radius (25 to 75 m for 50 m), or the last reports and dead reckoning disagree on whether it is
+/// linked. Depends on no predictor.
+bool is_hard(float last_seen_m, float dead_reckoned_m, float radius_m);
+
+/// Upper ends of the age classes, s: the older report of the two counts. The last class has no end.
+inline constexpr std::array age_ends_s = {1.0F, 2.0F, 5.0F, 10.0F, 20.0F, 40.0F};
+inline constexpr std::size_t age_classes = age_ends_s.size() + 1;
+/// Ends belong to the class below them.
+std::size_t age_class_of(float age_s);
+
+/// What a candidate pair is like, by the reports alone.
+struct PairTraits {
+    std::size_t age_class = 0;
+    bool hard = false;
+    /// One end is an emergency vehicle, and by last seen or dead-reckoned place the other is ahead on its
+    /// route, within the policies' horizon.
+    bool ahead_of_emergency = false;
+};
+
+/// Summaries of one predictor's scores under one failure in one run.
+struct LinkScoreSummary {
+    std::array<LinkSummary, 2 * age_classes> cells;  ///< By age class; each first easy, then hard.
+    LinkSummary policy;
+
+    LinkSummary of(LinkSubset subset) const;
+    /// All pairs of an age class.
+    LinkSummary of_age(std::size_t age_class) const;
+    void add(const LinkScoreSummary& other);
+    bool operator==(const LinkScoreSummary&) const = default;
+};
+
+/// Counts pairs one by one into a LinkScoreSummary.
+class LinkScores {
+  public:
+    void add(float probability, bool linked, const PairTraits& traits);
+    LinkScoreSummary summary() const;
+
+  private:
+    std::array<LinkHistogram, 2 * age_classes> cells_;
+    LinkHistogram policy_;
+};
+
+/// What there was to find under one failure, over the scored reports of a run; the same for every predictor.
+struct LinkTruth {
+    std::uint64_t reports = 0;
+    std::uint64_t vehicles = 0;
+    std::uint64_t true_links = 0;
+    std::uint64_t never_seen = 0;
+    std::uint64_t outside = 0;
+    std::uint64_t policy_links = 0;
+
+    bool operator==(const LinkTruth&) const = default;
+    static constexpr auto fields() {
+        using T = LinkTruth;
+        using core::Field;
+        return std::make_tuple(
+            Field{"reports", "1", &T::reports, 0.0, 1e15, "Scored report rounds", ""},
+            Field{"vehicles", "1", &T::vehicles, 0.0, 1e15, "Vehicles on the road, summed over rounds", ""},
+            Field{"true_links", "1", &T::true_links, 0.0, 1e15, "True links, summed over rounds", ""},
+            Field{"never_seen", "1", &T::never_seen, 0.0, 1e15,
+                  "Of them: an end never reported, or was forgotten", ""},
+            Field{"outside", "1", &T::outside, 0.0, 1e15,
+                  "Of them: both ends are known of, but the pair is neither known, detected nor a candidate",
+                  ""},
+            Field{"policy_links", "1", &T::policy_links, 0.0, 1e15,
+                  "Of them: between an emergency vehicle and one ahead on its route", ""});
+    }
+};
+
+/// What a predictor's believed graph made of it, at the predictor's own link threshold.
+struct LinkBelief {
+    std::uint64_t listed_true = 0;
+    std::uint64_t listed_false = 0;
+    std::uint64_t policy_found = 0;
+    std::uint64_t believed_vehicles = 0;
+    std::uint64_t ghosts = 0;
+
+    bool operator==(const LinkBelief&) const = default;
+    static constexpr auto fields() {
+        using B = LinkBelief;
+        using core::Field;
+        return std::make_tuple(
+            Field{"listed_true", "1", &B::listed_true, 0.0, 1e15, "Believed links that are true", ""},
+            Field{"listed_false", "1", &B::listed_false, 0.0, 1e15, "Believed links that are not", ""},
+            Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy's links that are believed", ""},
+            Field{"believed_vehicles", "1", &B::believed_vehicles, 0.0, 1e15, "Believed vehicles", ""},
+            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: not on the road any more", ""});
+    }
+};
+
+/// Adds every count of a field table.
+template <class Counts>
+void add_counts(Counts& total, const Counts& other) {
+    core::for_each_field<Counts>([&](const auto& field) { total.*field.member += other.*field.member; });
+}
+
+}  // namespace clearway::metrics

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "analysis/link_judgement.hpp"
+
+namespace clearway::report {
+
+/// What `clearway links evaluate` found. Texts may come from files of others; printers escape them.
+struct LinkFacts {
+    std::string title;  ///< `eval_v1`, or the scenarios.
+    std::string command;
+    std::string split;  ///< `test` or `validation`.
+    std::uint64_t study_seed = 0;
+    std::string seeds;  ///< `replications 0 to 9; thresholds chosen on 100 to 104`.
+    std::vector<std::string> scenarios;
+    std::vector<std::string> failures;
+    std::vector<std::string> exits;
+    std::vector<std::string> predictors;
+    std::string against;  ///< The opponent of the gains; empty without one.
+    std::vector<std::pair<std::string, std::string>> provenance;  ///< Names and values, as shown.
+    std::vector<analysis::LinkResult> results;
+    std::vector<analysis::LinkGain> gains;
+};
+
+/// AP and F1 by failure and predictor, and errors against the opponent.
+std::string links_console(const LinkFacts& facts);
+
+/// Everything but curves, as one JSON object. Intervals are `_low_95` and `_high_95` beside each measure.
+std::string links_json(const LinkFacts& facts);
+
+/// One row a result: the same fields as CSV.
+std::string links_csv(const LinkFacts& facts);
+
+/// One self-contained page, as write_html of html.hpp: tables, precision-recall, reliability and age curves.
+void write_links_page(const LinkFacts& facts, std::ostream& page);
+
+}  // namespace clearway::report

@@ -1,0 +1,287 @@
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "report/detail/axes.hpp"
+#include "report/detail/link_figures.hpp"
+#include "report/detail/markup.hpp"
+#include "report/detail/style.hpp"
+#include "report/links.hpp"
+#include "report/text.hpp"
+
+namespace clearway::report {
+namespace {
+
+using analysis::LinkGain;
+using analysis::LinkResult;
+using analysis::Measured;
+using detail::DataTable;
+using metrics::LinkSubset;
+
+std::string decimal(const std::optional<double>& value, int decimals) {
+    return value ? number(*value, {decimals, Script::typeset}) : missing(Script::typeset);
+}
+
+/// `0.985 [0.981, 0.988]`, times `factor`.
+std::string with_interval(const Measured& measured, int decimals, double factor = 1.0) {
+    if (!measured.value) return missing(Script::typeset);
+    const NumberStyle style{decimals, Script::typeset};
+    std::string text = number(factor * *measured.value, style);
+    if (measured.interval) {
+        text += fmt::format(" [{}, {}]", number(factor * measured.interval->low, style),
+                            number(factor * measured.interval->high, style));
+    }
+    return text;
+}
+
+bool is_pooled(const LinkFacts& facts, const LinkResult& result) {
+    return result.scenario.empty() || facts.scenarios.size() == 1;
+}
+
+/// Pooled results of one failure, in the order of the predictors.
+std::vector<const LinkResult*> pooled(const LinkFacts& facts, const std::string& exits,
+                                      const std::string& failure) {
+    std::vector<const LinkResult*> found;
+    for (const LinkResult& result : facts.results) {
+        if (is_pooled(facts, result) && result.exits == exits && result.failure == failure)
+            found.push_back(&result);
+    }
+    return found;
+}
+
+/// Style of each predictor that is drawn: as many as there are styles, the best by mean AP.
+std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
+    std::map<std::string, double> sums;
+    for (const LinkResult& result : facts.results) {
+        if (is_pooled(facts, result))
+            sums[result.predictor] += result.of(LinkSubset::all).ap.value.value_or(0.0);
+    }
+    std::vector<std::string> names = facts.predictors;
+    std::ranges::stable_sort(names, std::greater{}, [&](const std::string& name) { return sums[name]; });
+    if (names.size() > detail::palette_size) names.resize(detail::palette_size);
+    std::map<std::string, std::size_t> series;
+    for (const std::string& name : facts.predictors) {
+        if (std::ranges::find(names, name) != names.end()) series.emplace(name, series.size());
+    }
+    return series;
+}
+
+/// Failures by predictors.
+std::string matrix(const LinkFacts& facts, const std::string& exits, const std::string& left_out,
+                   const std::function<std::string(const std::string&, const std::string&)>& cell) {
+    DataTable table{{"Failure"}, {}};
+    for (const std::string& predictor : facts.predictors) {
+        if (predictor != left_out) table.head.push_back(predictor);
+    }
+    for (const std::string& failure : facts.failures) {
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row.push_back(failure);
+        for (const std::string& predictor : facts.predictors) {
+            if (predictor != left_out) row.push_back(cell(failure, predictor));
+        }
+    }
+    return fmt::format("<h3>Exits {}</h3>\n{}", escaped(exits), detail::to_html(table));
+}
+
+std::string measure_section(const LinkFacts& facts, int decimals,
+                            const std::function<Measured(const LinkResult&)>& measure) {
+    std::string html;
+    for (const std::string& exits : facts.exits) {
+        html += matrix(facts, exits, "", [&](const std::string& failure, const std::string& predictor) {
+            for (const LinkResult* const result : pooled(facts, exits, failure)) {
+                if (result->predictor == predictor) return with_interval(measure(*result), decimals);
+            }
+            return missing(Script::typeset);
+        });
+    }
+    return html;
+}
+
+std::string gains_section(const LinkFacts& facts, Measured LinkGain::*measure) {
+    std::string html;
+    for (const std::string& exits : facts.exits) {
+        html += matrix(
+            facts, exits, facts.against, [&](const std::string& failure, const std::string& predictor) {
+                for (const LinkGain& gain : facts.gains) {
+                    if (gain.exits == exits && gain.failure == failure && gain.predictor == predictor)
+                        return with_interval(gain.*measure, 0, 100.0);
+                }
+                return missing(Script::typeset);
+            });
+    }
+    return html;
+}
+
+std::string curves_of(const LinkFacts& facts, const std::string& exits, const std::string& failure,
+                      const std::map<std::string, std::size_t>& series) {
+    std::vector<detail::DrawnResult> drawn;
+    for (const LinkResult* const result : pooled(facts, exits, failure)) {
+        const auto found = series.find(result->predictor);
+        if (found != series.end()) drawn.push_back({result, found->second});
+    }
+    const std::string figures = detail::precision_recall_figure(drawn) + detail::reliability_figure(drawn) +
+                                detail::age_figure(drawn);
+    if (figures.empty()) return {};
+    return fmt::format("<h3>{}</h3>\n<div class=\"figures\">\n{}</div>\n", escaped(failure), figures);
+}
+
+std::string curves_section(const LinkFacts& facts) {
+    const std::map<std::string, std::size_t> series = series_of(facts);
+    std::string html;
+    if (series.size() < facts.predictors.size()) {
+        html += fmt::format("<p class=\"note\">The {} predictors with the best mean AP are drawn.</p>\n",
+                            series.size());
+    }
+    for (const std::string& exits : facts.exits) {
+        std::string figures;
+        for (const std::string& failure : facts.failures)
+            figures += curves_of(facts, exits, failure, series);
+        html += fmt::format("<details{}><summary>Exits {}</summary>\n{}</details>\n",
+                            &exits == &facts.exits.front() ? " open" : "", escaped(exits), figures);
+    }
+    return html;
+}
+
+std::string grouped_share(std::uint64_t part, std::uint64_t whole) {
+    if (whole == 0) return missing(Script::typeset);
+    return number(100.0 * static_cast<double>(part) / static_cast<double>(whole), {1, Script::typeset});
+}
+
+std::string end_to_end_section(const LinkFacts& facts) {
+    std::string html;
+    for (const std::string& exits : facts.exits) {
+        DataTable table{{"Failure, predictor", "precision", "recall", "F1", "policy\u2019s links found, %",
+                         "lost: never seen, %", "outside, %", "predicted away, %", "ghosts a report",
+                         "\u00b5s a report", "vehicles"},
+                        {}};
+        for (const std::string& failure : facts.failures) {
+            for (const LinkResult* const result : pooled(facts, exits, failure)) {
+                const analysis::LinkEndToEnd& all = result->end_to_end;
+                table.rows.push_back({failure + ", " + result->predictor, decimal(all.precision.value, 3),
+                                      decimal(all.recall.value, 3), decimal(all.f1.value, 3),
+                                      with_interval(all.policy_recall, 1, 100.0),
+                                      grouped_share(all.truth.never_seen, all.truth.true_links),
+                                      grouped_share(all.truth.outside, all.truth.true_links),
+                                      grouped_share(all.predicted_away(), all.truth.true_links),
+                                      decimal(all.ghosts_per_report(), 1), decimal(result->report_us, 0),
+                                      decimal(result->report_vehicles, 0)});
+            }
+        }
+        html += fmt::format("<details><summary>Exits {}</summary>\n{}</details>\n", escaped(exits),
+                            detail::to_html(table));
+    }
+    return html;
+}
+
+std::string scenarios_section(const LinkFacts& facts) {
+    std::string html;
+    for (const std::string& scenario : facts.scenarios) {
+        for (const std::string& exits : facts.exits) {
+            DataTable table{{"Failure, predictor", "pairs", "true links", "AP", "AUC", "F1", "log loss, nat",
+                             "ECE", "AP, hard", "AP, policy\u2019s"},
+                            {}};
+            for (const LinkResult& result : facts.results) {
+                if (result.scenario != scenario || result.exits != exits) continue;
+                const analysis::LinkMeasures& all = result.of(LinkSubset::all);
+                table.rows.push_back({result.failure + ", " + result.predictor, grouped(all.pairs),
+                                      grouped(all.true_links), with_interval(all.ap, 4),
+                                      decimal(all.auc.value, 4), with_interval(all.f1, 4),
+                                      decimal(all.log_loss.value, 3), decimal(all.ece.value, 4),
+                                      decimal(result.of(LinkSubset::hard).ap.value, 4),
+                                      decimal(result.of(LinkSubset::policy).ap.value, 4)});
+            }
+            html += fmt::format("<details><summary>{}, exits {}</summary>\n{}</details>\n", escaped(scenario),
+                                escaped(exits), detail::to_html(table));
+        }
+    }
+    return html;
+}
+
+std::string reproduction_section(const LinkFacts& facts) {
+    std::string html;
+    if (!facts.command.empty()) html += fmt::format("<pre><code>{}</code></pre>\n", escaped(facts.command));
+    html += fmt::format("<dl class=\"facts\">\n<dt>Seeds</dt><dd>{}</dd>\n", escaped(facts.seeds));
+    for (const auto& [name, value] : facts.provenance)
+        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
+    return html + "</dl>\n";
+}
+
+const char* const definitions =
+    "<p>Candidates are the pairs that may be linked, with at least one end not known, within reach of each "
+    "other by the "
+    "last reports or by dead reckoning; the rule is the same for every predictor. F1 is taken at a threshold "
+    "chosen on "
+    "other seeds. Hard pairs are those near the link radius by dead reckoning, or on which last reports and "
+    "dead "
+    "reckoning disagree. The policy\u2019s links join an emergency vehicle with one ahead on its route. "
+    "Brackets hold 95 % "
+    "percentile intervals of a bootstrap over runs within scenarios.</p>\n";
+
+struct Section {
+    const char* id;
+    const char* title;
+    std::string body;
+};
+
+std::vector<Section> sections_of(const LinkFacts& facts) {
+    std::vector<Section> sections;
+    sections.push_back(
+        {"ap", "Average precision", definitions + measure_section(facts, 4, [](const LinkResult& result) {
+                                        return result.of(LinkSubset::all).ap;
+                                    })});
+    sections.push_back({"f1", "F1", measure_section(facts, 4, [](const LinkResult& result) {
+                            return result.of(LinkSubset::all).f1;
+                        })});
+    if (!facts.gains.empty()) {
+        const std::string against = escaped(facts.against);
+        sections.push_back({"ap-error", "Error of AP against the opponent",
+                            fmt::format("<p>How far 1 \u2212 AP lies below that of {}, %.</p>\n", against) +
+                                gains_section(facts, &LinkGain::ap_error_reduction)});
+        sections.push_back({"f1-error", "Error of F1 against the opponent",
+                            fmt::format("<p>How far 1 \u2212 F1 lies below that of {}, %.</p>\n", against) +
+                                gains_section(facts, &LinkGain::f1_error_reduction)});
+    }
+    sections.push_back({"hard", "AP of hard pairs", measure_section(facts, 4, [](const LinkResult& result) {
+                            return result.of(LinkSubset::hard).ap;
+                        })});
+    sections.push_back(
+        {"calibration", "Calibration error (ECE)",
+         measure_section(facts, 4, [](const LinkResult& result) { return result.of(LinkSubset::all).ece; })});
+    sections.push_back({"curves", "Curves", curves_section(facts)});
+    sections.push_back({"end-to-end", "Links end to end", end_to_end_section(facts)});
+    if (facts.scenarios.size() > 1)
+        sections.push_back({"scenarios", "Scenario by scenario", scenarios_section(facts)});
+    sections.push_back({"reproduce", "How to reproduce", reproduction_section(facts)});
+    return sections;
+}
+
+}  // namespace
+
+void write_links_page(const LinkFacts& facts, std::ostream& page) {
+    const std::string title = escaped("Link prediction: " + facts.title);
+    page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+            "'unsafe-inline'; img-src data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>"
+         << title << "</title>\n<style>" << detail::style_sheet << "</style>\n</head>\n<body>\n<header>\n<h1>"
+         << title << "</h1>\n<p class=\"lead\">"
+         << escaped(fmt::format("{} predictors under {} sensor failures in {}, on {} seeds.",
+                                facts.predictors.size(), facts.failures.size(),
+                                fmt::join(facts.scenarios, ", "), facts.split))
+         << "</p>\n<nav aria-label=\"Sections\">";
+    const std::vector<Section> sections = sections_of(facts);
+    for (const Section& section : sections)
+        page << "<a href=\"#" << section.id << "\">" << section.title << "</a>";
+    page << "</nav>\n</header>\n<main>\n";
+    for (const Section& section : sections) {
+        page << "<section id=\"" << section.id << "\">\n<h2>" << section.title << "</h2>\n"
+             << section.body << "</section>\n";
+    }
+    page << "</main>\n<footer>AP: average precision. F1: harmonic mean of precision and recall.</footer>\n"
+            "</body>\n</html>\n";
+}
+
+}  // namespace clearway::report

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <functional>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "report/links.hpp"
+#include "report/text.hpp"
+
+namespace clearway::report {
+namespace {
+
+using analysis::LinkGain;
+using analysis::LinkMeasures;
+using analysis::LinkResult;
+using analysis::Measured;
+using Json = nlohmann::ordered_json;
+using metrics::LinkSubset;
+
+constexpr std::size_t failure_width = 9;
+
+const LinkResult* pooled(const LinkFacts& facts, const std::string& exits, const std::string& failure,
+                         const std::string& predictor) {
+    const auto found = std::ranges::find_if(facts.results, [&](const LinkResult& result) {
+        return result.exits == exits && result.failure == failure && result.predictor == predictor &&
+               (result.scenario.empty() || facts.scenarios.size() == 1);
+    });
+    return found == facts.results.end() ? nullptr : &*found;
+}
+
+/// `.984`, `1.000`; a dash where undefined.
+std::string share(const std::optional<double>& value, int decimals = 4) {
+    if (!value) return "-";
+    std::string text = fmt::format("{:.{}f}", *value, decimals);
+    return text.starts_with("0.") ? text.substr(1) : text;
+}
+
+std::string percent(const Measured& measured) {
+    if (!measured.value) return "-";
+    if (*measured.value < -9.99) return "below -999";
+    std::string text = fmt::format("{:.0f}", 100.0 * *measured.value);
+    if (measured.interval) {
+        text +=
+            fmt::format(" [{:.0f}, {:.0f}]", 100.0 * measured.interval->low, 100.0 * measured.interval->high);
+    }
+    return text;
+}
+
+/// A table of failures by predictors.
+void append_matrix(const LinkFacts& facts, const std::vector<std::string>& predictors, std::size_t width,
+                   const std::function<std::string(const std::string&, const std::string&)>& cell,
+                   std::string& text) {
+    auto out = std::back_inserter(text);
+    fmt::format_to(out, "{:<{}}", "", failure_width);
+    for (const std::string& predictor : predictors)
+        fmt::format_to(out, "  {:>{}}", predictor, std::max(width, predictor.size()));
+    text += '\n';
+    for (const std::string& failure : facts.failures) {
+        fmt::format_to(out, "{:<{}}", failure, failure_width);
+        for (const std::string& predictor : predictors)
+            fmt::format_to(out, "  {:>{}}", cell(failure, predictor), std::max(width, predictor.size()));
+        text += '\n';
+    }
+}
+
+void append_gains(const LinkFacts& facts, const std::string& exits, const char* what,
+                  Measured LinkGain::*measure, std::string& text) {
+    std::vector<std::string> others;
+    std::ranges::copy_if(facts.predictors, std::back_inserter(others),
+                         [&](const std::string& name) { return name != facts.against; });
+    if (facts.against.empty() || others.empty()) return;
+    fmt::format_to(std::back_inserter(text), "\n{} below that of {}, %, exits {}\n", what, facts.against,
+                   exits);
+    append_matrix(
+        facts, others, 14,
+        [&](const std::string& failure, const std::string& predictor) {
+            const auto found = std::ranges::find_if(facts.gains, [&](const LinkGain& gain) {
+                return gain.exits == exits && gain.failure == failure && gain.predictor == predictor;
+            });
+            return found == facts.gains.end() ? "-" : percent((*found).*measure);
+        },
+        text);
+}
+
+void append_exits(const LinkFacts& facts, const std::string& exits, std::string& text) {
+    fmt::format_to(std::back_inserter(text), "AP / F1, exits {}\n", exits);
+    append_matrix(
+        facts, facts.predictors, 13,
+        [&](const std::string& failure, const std::string& predictor) -> std::string {
+            const LinkResult* const result = pooled(facts, exits, failure, predictor);
+            if (result == nullptr) return "-";
+            const LinkMeasures& all = result->of(LinkSubset::all);
+            return share(all.ap.value) + " / " + share(all.f1.value);
+        },
+        text);
+    append_gains(facts, exits, "1 - AP", &LinkGain::ap_error_reduction, text);
+    append_gains(facts, exits, "1 - F1", &LinkGain::f1_error_reduction, text);
+}
+
+void put(Json& object, const std::string& name, const Measured& measured) {
+    object[name] = measured.value ? Json(*measured.value) : Json(nullptr);
+    object[name + "_low_95"] = measured.interval ? Json(measured.interval->low) : Json(nullptr);
+    object[name + "_high_95"] = measured.interval ? Json(measured.interval->high) : Json(nullptr);
+}
+
+void put_measures(Json& object, const std::string& prefix, const LinkMeasures& measures) {
+    object[prefix + "pairs"] = measures.pairs;
+    object[prefix + "true_links"] = measures.true_links;
+    put(object, prefix + "ap", measures.ap);
+    put(object, prefix + "auc", measures.auc);
+    put(object, prefix + "f1", measures.f1);
+    put(object, prefix + "log_loss", measures.log_loss);
+    put(object, prefix + "ece", measures.ece);
+}
+
+void put_end_to_end(Json& object, const analysis::LinkEndToEnd& end_to_end) {
+    object["reports"] = end_to_end.truth.reports;
+    object["all_true_links"] = end_to_end.truth.true_links;
+    put(object, "end_to_end_precision", end_to_end.precision);
+    put(object, "end_to_end_recall", end_to_end.recall);
+    put(object, "end_to_end_f1", end_to_end.f1);
+    object["lost_never_seen"] = end_to_end.truth.never_seen;
+    object["lost_outside_candidates"] = end_to_end.truth.outside;
+    object["lost_predicted_away"] = end_to_end.predicted_away();
+    object["policy_links"] = end_to_end.truth.policy_links;
+    put(object, "policy_recall", end_to_end.policy_recall);
+    const auto ghosts = end_to_end.ghosts_per_report();
+    object["ghosts_per_report"] = ghosts ? Json(*ghosts) : Json(nullptr);
+}
+
+/// Every field of a result, flat.
+Json row_of(const LinkResult& result) {
+    Json row = {{"scenario", result.scenario.empty() ? Json(nullptr) : Json(result.scenario)},
+                {"failure", result.failure},
+                {"exits", result.exits},
+                {"predictor", result.predictor}};
+    put_measures(row, "", result.of(LinkSubset::all));
+    row["f1_threshold"] = result.threshold;
+    put_measures(row, "hard_", result.of(LinkSubset::hard));
+    put_measures(row, "policy_", result.of(LinkSubset::policy));
+    put_end_to_end(row, result.end_to_end);
+    row["us_per_report"] = result.report_us;
+    row["vehicles_per_report"] = result.report_vehicles;
+    return row;
+}
+
+Json gain_of(const LinkGain& gain) {
+    Json row = {{"failure", gain.failure},
+                {"exits", gain.exits},
+                {"predictor", gain.predictor},
+                {"against", gain.against}};
+    put(row, "ap_difference", gain.ap_difference);
+    put(row, "ap_error_reduction", gain.ap_error_reduction);
+    put(row, "f1_error_reduction", gain.f1_error_reduction);
+    return row;
+}
+
+std::string csv_cell(const Json& value) {
+    if (value.is_null()) return "";
+    if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+    if (!value.is_string()) return value.dump();
+    std::string text = value.get<std::string>();
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char letter : text)
+        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+    return quoted + "\"";
+}
+
+}  // namespace
+
+std::string links_console(const LinkFacts& facts) {
+    std::string text = fmt::format("{}: {} seeds ({})\n\n", facts.title, facts.split, facts.seeds);
+    for (const std::string& exits : facts.exits) {
+        append_exits(facts, exits, text);
+        text += '\n';
+    }
+    return text;
+}
+
+std::string links_json(const LinkFacts& facts) {
+    Json document = {{"title", facts.title}, {"split", facts.split},         {"study_seed", facts.study_seed},
+                     {"seeds", facts.seeds}, {"scenarios", facts.scenarios}, {"against", facts.against}};
+    Json& results = document["results"] = Json::array();
+    for (const LinkResult& result : facts.results)
+        results.push_back(row_of(result));
+    Json& gains = document["gains"] = Json::array();
+    for (const LinkGain& gain : facts.gains)
+        gains.push_back(gain_of(gain));
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string links_csv(const LinkFacts& facts) {
+    std::string text;
+    for (const LinkResult& result : facts.results) {
+        const Json row = row_of(result);
+        std::string head;
+        std::string cells;
+        for (const auto& [name, value] : row.items()) {
+            const char* const comma = head.empty() ? "" : ",";
+            head += comma + name;
+            cells += comma + csv_cell(value);
+        }
+        if (text.empty()) text = head + "\n";
+        text += cells + "\n";
+    }
+    return text;
+}
+
+}  // namespace clearway::report

@@ -1,0 +1,188 @@
+// Judging predictors, from the command line to the files.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class LinksTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario("human = 5\nautomated = 3", "human = 20\nautomated = 20");
+    }
+    static std::vector<std::string> evaluate(std::vector<std::string> more) {
+        std::vector<std::string> words = {"links", "evaluate", "line", "--seeds", "2", "--validation-seeds",
+                                          "1",     "--out",    "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    /// The one file of finished work below `out` that ends so.
+    std::vector<std::filesystem::path> files(const std::string& ending) const {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / "out")) {
+            if (entry.path().string().ends_with(ending)) found.push_back(entry.path());
+        }
+        std::ranges::sort(found);
+        return found;
+    }
+};
+
+TEST_F(LinksTest, judges_predictors_and_does_no_run_twice) {
+    const std::vector<std::string> words =
+        evaluate({"--failure", "B10", "perfect", "--predictor", "last_seen", "dead_reckoning", "--json"});
+    const Ended ended = clearway(words);
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("3/3"));
+    const auto judged = nlohmann::json::parse(ended.out);
+    ASSERT_EQ(judged.at("results").size(), 8U);  // predictors x failures x exits
+    for (const auto& result : judged.at("results")) {
+        EXPECT_GT(result.at("all_true_links").get<int>(), 0);
+        if (result.at("failure") == "perfect") {
+            EXPECT_EQ(result.at("pairs"), 0);
+            EXPECT_TRUE(result.at("ap").is_null());
+            EXPECT_DOUBLE_EQ(result.at("end_to_end_f1"), 1.0);
+        } else {
+            for (const char* const measure :
+                 {"ap", "auc", "f1", "log_loss", "ece", "ap_low_95", "policy_recall"})
+                EXPECT_TRUE(result.at(measure).is_number()) << measure;
+            EXPECT_GT(result.at("end_to_end_recall"), 0.5);
+        }
+    }
+    EXPECT_EQ(judged.at("against"), "dead_reckoning");
+    EXPECT_EQ(judged.at("gains").size(), 4U);
+    EXPECT_EQ(read("out/evaluation.json"), ended.out);
+    EXPECT_THAT(read("out/evaluation.csv"), HasSubstr("line,B10,known,last_seen,"));
+    EXPECT_EQ(files(".links").size(), 6U);
+
+    const auto before = std::filesystem::last_write_time(files(".links").front());
+    const Ended again = clearway(words);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.err, Not(HasSubstr("3/3")));
+    EXPECT_EQ(std::filesystem::last_write_time(files(".links").front()), before);
+    EXPECT_EQ(nlohmann::json::parse(again.out), judged);
+}
+
+TEST_F(LinksTest, one_and_two_jobs_give_the_same_files) {
+    const auto run = [&](const char* jobs, const char* out) {
+        return clearway({"links", "evaluate", "line", "--seeds", "2", "--validation-seeds", "2", "--failure",
+                         "B5", "--exits", "known", "--predictor", "dead_reckoning", "--jobs", jobs, "--out",
+                         out});
+    };
+    ASSERT_EQ(run("1", "one").code, 0);
+    ASSERT_EQ(run("2", "two").code, 0);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / "one" / "runs")) {
+        if (entry.path().extension() != ".links") continue;
+        const auto relative = std::filesystem::relative(entry.path(), folder() / "one");
+        EXPECT_EQ(core::read_file(entry.path()), core::read_file(folder() / "two" / relative)) << relative;
+    }
+}
+
+TEST_F(LinksTest, prints_tables_of_the_split_that_is_asked_for) {
+    const Ended test = clearway(evaluate({"--failure", "B10", "--predictor", "last_seen"}));
+    ASSERT_EQ(test.code, 0) << test.err;
+    EXPECT_THAT(test.out, AllOf(HasSubstr("line: test seeds"), HasSubstr("replications 0 to 1"),
+                                HasSubstr("AP / F1, exits unknown"), HasSubstr("B10")));
+    const Ended validation =
+        clearway(evaluate({"--failure", "B10", "--predictor", "last_seen", "--split", "validation"}));
+    EXPECT_THAT(validation.out, AllOf(HasSubstr("validation seeds"), HasSubstr("replications 1000 to 1000")));
+}
+
+TEST_F(LinksTest, names_the_damaged_file_of_a_run_and_goes_on_once_it_is_gone) {
+    const std::vector<std::string> words = evaluate({"--failure", "B10", "--predictor", "none"});
+    ASSERT_EQ(clearway(words).code, 0);
+    const std::filesystem::path damaged = files(".links").front();
+    std::string bytes = core::read_file(damaged);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    core::write_atomically(damaged, bytes);
+    const Ended refused = clearway(words);
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err,
+                AllOf(HasSubstr(damaged.filename().string()), HasSubstr("damaged"), HasSubstr("Remove it")));
+    std::filesystem::remove(damaged);
+    EXPECT_EQ(clearway(words).code, 0);
+}
+
+TEST_F(LinksTest, settings_reach_the_predictor_and_make_runs_of_their_own) {
+    const auto recall = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--failure",      "B10",   "--exits", "known", "--predictor",
+                                          "dead_reckoning", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = clearway(evaluate(words));
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return nlohmann::json::parse(ended.out).at("results").at(0).at("end_to_end_recall").get<double>();
+    };
+    const double usual = recall({});
+    const double generous = recall({"--set", "dead_reckoning.link_threshold=0.001"});
+    EXPECT_GT(generous, usual);
+    EXPECT_EQ(files(".links").size(), 6U);
+}
+
+TEST_F(LinksTest, unknown_names_are_told_with_the_nearest_before_anything_runs) {
+    const Ended ended = clearway(evaluate({"--failure", "B11", "--predictor", "last_sen", "none", "--against",
+                                           "kalmann", "--set", "none.link_treshold=1"}));
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean `last_seen`?"),
+                                 HasSubstr("kalmann"), HasSubstr("Did you mean `link_threshold`?")));
+    EXPECT_THAT(ended.out, IsEmpty());
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    EXPECT_EQ(clearway({"links", "evaluate", "lime"}).code, 3);
+    EXPECT_EQ(clearway({"links", "evaluate", "--benchmark", "eval_v0"}).code, 3);
+    EXPECT_EQ(clearway({"links", "evaluate", "bologna", "--benchmark", "eval_v1"}).code, 3);
+}
+
+TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refused) {
+    const auto message = [&](const std::vector<std::string>& more) {
+        const Ended ended = clearway(evaluate(more));
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        return ended.err;
+    };
+    EXPECT_THAT(message({"--set", "link_threshold=2"}),
+                AllOf(HasSubstr("2 is out of range"), HasSubstr("0 to 1")));
+    EXPECT_THAT(message({"--set", "link_threshold=high"}), HasSubstr("`high` is no number"));
+    EXPECT_THAT(message({"--set", "link_threshold"}), HasSubstr("NAME=VALUE"));
+    EXPECT_THAT(message({"--predictor", "none", "--set", "last_seen.link_threshold=0.5"}),
+                HasSubstr("last_seen"));
+    EXPECT_THAT(message({"--model", "graphsage_corrected=none.weights"}), HasSubstr("none.weights"));
+    EXPECT_EQ(clearway(evaluate({"--exits", "knwon"})).code, 2);
+    EXPECT_EQ(clearway(evaluate({"--split", "train"})).code, 2);
+    EXPECT_EQ(clearway({"links", "evaluate", "--benchmark", "eval_v1", "--density", "2"}).code, 2);
+    EXPECT_EQ(clearway({"links", "evaluate", "--benchmark", "eval_v1", "--seeds", "2"}).code, 2);
+    EXPECT_EQ(clearway({"links"}).code, 2);
+    EXPECT_THAT(clearway({"links", "evaluate", "line", "--predicto", "none"}).err,
+                AllOf(HasSubstr("clearway links evaluate"), HasSubstr("did you mean --predictor?")));
+}
+
+TEST_F(LinksTest, seeds_must_suffice_and_not_overlap) {
+    const auto message = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"links", "evaluate", "line", "--out", "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        return ended.err;
+    };
+    EXPECT_THAT(message({"--seeds", "0"}), HasSubstr("no seeds to test on"));
+    EXPECT_THAT(message({"--validation-seeds", "0"}), HasSubstr("no seeds to validate on"));
+    EXPECT_THAT(message({"--seeds", "5", "--first-validation-seed", "4"}), HasSubstr("overlap"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(LinksTest, a_folder_that_cannot_be_made_is_the_environments_fault) {
+    write("plain.txt", "");
+    const Ended ended = clearway({"links", "evaluate", "line", "--out", "plain.txt/out"});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.err, HasSubstr("plain.txt"));
+}
+
+}  // namespace
+}  // namespace clearway::cli

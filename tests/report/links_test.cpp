@@ -1,0 +1,128 @@
+#include "report/links.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace clearway::report {
+namespace {
+
+using analysis::Interval;
+using analysis::Measured;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Measured measured(double value) {
+    return {value, Interval{value - 0.01, value + 0.01}};
+}
+
+analysis::LinkResult result_of(const std::string& predictor, const std::string& scenario, double ap) {
+    metrics::LinkScores scores;
+    for (int i = 0; i < 2000; ++i) {
+        const float probability = static_cast<float>(i) / 1999.0F;
+        scores.add(probability, i % 2 == 0 && i > 600, {.age_class = static_cast<std::size_t>(i % 3)});
+    }
+    analysis::LinkResult result;
+    result.scenario = scenario;
+    result.failure = "B10";
+    result.exits = "known";
+    result.predictor = predictor;
+    result.threshold = 0.4;
+    result.subsets[0] = {2000,          700,           measured(ap),  measured(0.9),
+                         measured(0.8), measured(0.3), measured(0.02)};
+    result.end_to_end.truth = {10, 100, 50, 5, 2, 8};
+    result.end_to_end.belief = {30, 6, 4, 90, 20};
+    result.end_to_end.policy_recall = measured(0.5);
+    result.scores = scores.summary();
+    return result;
+}
+
+LinkFacts sample(const std::string& odd = "city") {
+    LinkFacts facts;
+    facts.title = "merge, " + odd;
+    facts.command = "clearway links evaluate merge '" + odd + "'";
+    facts.split = "test";
+    facts.study_seed = 8101;
+    facts.seeds = "replications 0 to 9";
+    facts.scenarios = {"merge", odd};
+    facts.failures = {"B10"};
+    facts.exits = {"known"};
+    facts.predictors = {"graphsage", "route_rule"};
+    facts.against = "route_rule";
+    for (const char* const predictor : {"graphsage", "route_rule"}) {
+        facts.results.push_back(result_of(predictor, "", 0.95));
+        facts.results.push_back(result_of(predictor, odd, 0.9));
+    }
+    facts.gains.push_back(
+        {"B10", "known", "graphsage", "route_rule", measured(0.05), measured(0.65), measured(0.33)});
+    return facts;
+}
+
+std::string page_of(const LinkFacts& facts) {
+    std::ostringstream page;
+    write_links_page(facts, page);
+    return page.str();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
+TEST(LinksConsole, prints_measures_and_errors_against_the_opponent) {
+    const std::string text = links_console(sample());
+    EXPECT_THAT(text, AllOf(HasSubstr("AP / F1, exits known"), HasSubstr(".9500 / .8000"),
+                            HasSubstr("1 - AP below that of route_rule"), HasSubstr("65 [64, 66]")));
+}
+
+TEST(LinksJson, holds_every_measure_with_its_interval) {
+    const auto document = nlohmann::json::parse(links_json(sample()));
+    const auto& result = document.at("results").at(0);
+    EXPECT_TRUE(result.at("scenario").is_null());
+    EXPECT_DOUBLE_EQ(result.at("ap"), 0.95);
+    EXPECT_DOUBLE_EQ(result.at("ap_low_95"), 0.94);
+    EXPECT_DOUBLE_EQ(result.at("ap_high_95"), 0.96);
+    EXPECT_DOUBLE_EQ(result.at("f1_threshold"), 0.4);
+    EXPECT_EQ(result.at("lost_never_seen"), 5);
+    EXPECT_EQ(result.at("lost_outside_candidates"), 2);
+    EXPECT_EQ(result.at("lost_predicted_away"), 13);
+    EXPECT_TRUE(result.at("hard_ap").is_null());
+    EXPECT_DOUBLE_EQ(document.at("gains").at(0).at("ap_error_reduction"), 0.65);
+}
+
+TEST(LinksCsv, is_a_row_a_result_under_one_head_with_odd_names_quoted) {
+    const std::string text = links_csv(sample("my \"city\", east"));
+    EXPECT_EQ(count(text, "\n"), 5U);
+    EXPECT_TRUE(text.starts_with("scenario,failure,exits,predictor,pairs,true_links,ap,ap_low_95,"));
+    EXPECT_THAT(text, HasSubstr("\n\"my \"\"city\"\", east\",B10,known,graphsage,2000,700,0.9,"));
+}
+
+TEST(LinksPage, draws_three_curves_with_their_data) {
+    const std::string page = page_of(sample());
+    EXPECT_EQ(count(page, "<figure"), 3U);
+    EXPECT_THAT(page, AllOf(HasSubstr("Precision over recall"), HasSubstr("Reliability"),
+                            HasSubstr("Average precision by age"), HasSubstr("0.9500 [0.9400, 0.9600]")));
+    EXPECT_GE(count(page, "<polyline"), 6U);
+}
+
+TEST(LinksPage, is_self_contained_and_escapes_what_others_named) {
+    const std::string page = page_of(sample("<script>alert(1)</script>"));
+    EXPECT_THAT(page, AllOf(Not(HasSubstr("<script")), HasSubstr("&lt;script&gt;"), Not(HasSubstr("http://")),
+                            Not(HasSubstr("src=")), HasSubstr("default-src 'none'")));
+}
+
+TEST(LinksPage, of_nothing_scored_has_no_curves) {
+    LinkFacts facts = sample();
+    for (analysis::LinkResult& result : facts.results) {
+        result.scores = {};
+        result.subsets = {};
+    }
+    EXPECT_EQ(count(page_of(facts), "<figure"), 0U);
+}
+
+}  // namespace
+}  // namespace clearway::report
