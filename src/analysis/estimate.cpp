@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -67,21 +68,6 @@ std::optional<Estimate> relative_difference(std::span<const double> condition,
     return estimate;
 }
 
-double median(std::span<const double> values) {
-    return quantile(values, 0.5);
-}
-
-double quantile(std::span<const double> values, double share) {
-    assert(!values.empty() && share >= 0.0 && share <= 1.0);
-    std::vector<double> sorted(values.begin(), values.end());
-    std::ranges::sort(sorted);
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    const double part = place - static_cast<double>(below);
-    return sorted[below] + part * (sorted[above] - sorted[below]);
-}
-
 std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline) {
     const auto estimate = estimate_difference(condition, baseline);
     if (!estimate || !(estimate->deviation > 0.0)) return std::nullopt;
@@ -95,6 +81,13 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
     const boost::math::students_t distribution(n - 1.0);
     const double t = std::abs(*effect) * std::sqrt(n);
     return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+double geh(double modelled_per_hour, double counted_per_hour) {
+    const double sum = modelled_per_hour + counted_per_hour;
+    if (!(sum > 0.0)) return 0.0;
+    const double difference = modelled_per_hour - counted_per_hour;
+    return std::sqrt(2.0 * difference * difference / sum);
 }
 
 }  // namespace clearway::analysis

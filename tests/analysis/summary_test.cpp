@@ -142,6 +142,28 @@ TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
     EXPECT_EQ(summary.find("nobody"), nullptr);
 }
 
+TEST_F(SmallStudy, GivesTheTailOfAllEmergencyVehiclesWithThoseThatDidNotArriveLast) {
+    add_all();
+    const TravelTimeTail before = scenario().find("solo")->travel_time;
+    EXPECT_EQ(before.median.value, 60.0);
+    EXPECT_EQ(before.percentile_95.value, 80.0);
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition == "solo" && run.key.replication == 1)
+            run.vehicles[1].outcome = VehicleOutcome::running_at_end;
+    }
+    EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95.value);
+}
+
+TEST_F(SmallStudy, GivesCountsIntervalsThatDoNotReachBelowZero) {
+    add_all();
+    const ScenarioSummary summary = scenario();
+    const MetricSummary& collisions = summary.find("treated")->metric("collisions");
+    EXPECT_EQ(collisions.metric.kind, MetricKind::count);
+    EXPECT_GE(collisions.estimate->interval->low, 0.0);
+    EXPECT_FALSE(collisions.comparison->t_p);
+    EXPECT_EQ(summary.find("treated")->metric("links_f1").metric.kind, MetricKind::quantity);
+}
+
 TEST(AllMetrics, CanBeAskedForByName) {
     metrics::RunMetrics run;
     run.collisions = 3;
