@@ -33,6 +33,14 @@ std::vector<double> differences(std::span<const double> condition, std::span<con
 
 }  // namespace
 
+double half_width(double deviation, std::size_t n, double level) {
+    assert(n >= 2);
+    const auto count = static_cast<double>(n);
+    const boost::math::students_t distribution(count - 1.0);
+    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
+    return t * deviation / std::sqrt(count);
+}
+
 std::optional<Estimate> estimate_mean(std::span<const double> values, double level) {
     if (values.empty()) return std::nullopt;
     Estimate estimate;
@@ -40,11 +48,8 @@ std::optional<Estimate> estimate_mean(std::span<const double> values, double lev
     estimate.mean = mean_of(values);
     estimate.deviation = deviation_of(values, estimate.mean);
     if (estimate.n < 2) return estimate;
-    const auto n = static_cast<double>(estimate.n);
-    const boost::math::students_t distribution(n - 1.0);
-    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
-    const double half_width = t * estimate.deviation / std::sqrt(n);
-    estimate.interval = Interval{estimate.mean - half_width, estimate.mean + half_width};
+    const double reach = half_width(estimate.deviation, estimate.n, level);
+    estimate.interval = Interval{estimate.mean - reach, estimate.mean + reach};
     return estimate;
 }
 
@@ -81,6 +86,27 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
     const boost::math::students_t distribution(n - 1.0);
     const double t = std::abs(*effect) * std::sqrt(n);
     return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+std::size_t replications_needed(double deviation, double half_width, double level) {
+    assert(half_width > 0.0);
+    constexpr std::size_t most = 100000000;  // beyond any study
+    const auto suffices = [&](std::size_t n) {
+        return clearway::analysis::half_width(deviation, n, level) <= half_width;
+    };
+    std::size_t high = fewest_replications;
+    while (high < most && !suffices(high))
+        high *= 2;
+    std::size_t low = std::max(fewest_replications, high / 2);
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (suffices(middle)) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
 }
 
 double geh(double modelled_per_hour, double counted_per_hour) {

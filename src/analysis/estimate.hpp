@@ -73,6 +73,15 @@ std::optional<Estimate> estimate_count_difference(std::span<const double> condit
 /// pairs or without variation.
 std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline);
 
+/// t(n - 1) s / sqrt(n): half the width of the interval of a mean of `n` >= 2 values that scatter with
+/// `deviation`.
+double half_width(double deviation, std::size_t n, double level = usual_level);
+
+/// Replications for a half width of `half_width` > 0 at `level` when differences scatter with `deviation`:
+/// FHWA's n = (t(n - 1) s / e)^2, Traffic Analysis Toolbox III (2019), and never below its minimum of 10.
+std::size_t replications_needed(double deviation, double half_width, double level = usual_level);
+inline constexpr std::size_t fewest_replications = 10;
+
 /// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros left out, ties at mean
 /// rank; exact up to 25 differences without ties, else normal with continuity and tie correction. Nothing
 /// when every difference is zero.

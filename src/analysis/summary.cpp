@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <functional>
 #include <map>
 #include <stdexcept>
 
 #include "analysis/detail/pairing.hpp"
+#include "core/error.hpp"
 #include "core/fields.hpp"
 
 namespace clearway::analysis {
@@ -63,7 +63,8 @@ struct Pairs {
 
 Pairs pairs_of(const Values& condition, const Values& baseline) {
     Pairs pairs;
-    for (std::size_t replication = 0; replication < condition.size(); ++replication)
+    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
+         ++replication)
         pairs.add(condition[replication], baseline[replication]);
     return pairs;
 }
@@ -72,7 +73,8 @@ Pairs pairs_of(const Values& condition, const Values& baseline) {
 Pairs pairs_of_common_vehicles(detail::VehicleNumber number, const Runs& condition, const Runs& baseline,
                                Comparison& comparison) {
     Pairs pairs;
-    for (std::size_t replication = 0; replication < condition.size(); ++replication) {
+    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
+         ++replication) {
         const std::array runs = {condition[replication], baseline[replication]};
         const auto common = detail::common_means(runs, number);
         if (!common) continue;
@@ -188,14 +190,28 @@ void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
     }
 }
 
+/// All but the emergency vehicles, from the metrics: their rows need not have been read.
+void count_others(const metrics::RunMetrics& all, const OutcomeCounts& emergency, OutcomeCounts& others) {
+    const auto rest = [](std::uint64_t whole, std::uint64_t part) { return whole - std::min(whole, part); };
+    const std::uint64_t teleported =
+        rest(all.vehicle_count, all.arrived + all.unfinished + all.not_inserted + all.removed);
+    others.arrived += rest(all.arrived, emergency.arrived);
+    others.running_at_end += rest(all.unfinished, emergency.running_at_end);
+    others.teleported += rest(teleported, emergency.teleported);
+    others.not_inserted += rest(all.not_inserted, emergency.not_inserted);
+    others.removed += rest(all.removed, emergency.removed);
+}
+
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         ++summary.complete_runs;
+        OutcomeCounts emergency;
         for (const metrics::VehicleRow& vehicle : run->vehicles) {
-            const bool emergency = vehicle.vehicle_class == traffic::VehicleClass::emergency;
-            count(vehicle, emergency ? summary.emergency : summary.others);
+            if (vehicle.vehicle_class == traffic::VehicleClass::emergency) count(vehicle, emergency);
         }
+        summary.emergency += emergency;
+        count_others(run->metrics, emergency, summary.others);
     }
 }
 
@@ -274,10 +290,8 @@ class Index {
 };
 
 /// Compares a condition with its baseline, which is summarised.
-void compare_conditions(const Index& index, const std::string& scenario, const ConditionSummary& baseline,
+void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
                         ResampleCache& resamples, ConditionSummary& summary) {
-    const Runs runs = index.runs(scenario, summary.condition.name);
-    const Runs baseline_runs = index.runs(scenario, baseline.condition.name);
     for (std::size_t metric = 0; metric < summary.metrics.size(); ++metric) {
         MetricSummary& one = summary.metrics[metric];
         Comparison& comparison = one.comparison.emplace();
@@ -285,8 +299,12 @@ void compare_conditions(const Index& index, const std::string& scenario, const C
         const Pairs pairs = number ? pairs_of_common_vehicles(*number, runs, baseline_runs, comparison)
                                    : pairs_of(one.values, baseline.metrics[metric].values);
         compare(pairs, one.metric.kind, resamples, comparison);
-        comparison.incomplete_pairs = runs.size() - comparison.complete_pairs;
+        comparison.incomplete_pairs = std::max(runs.size(), baseline_runs.size()) - comparison.complete_pairs;
+        comparison.condition_values = pairs.condition;
+        comparison.baseline_values = pairs.baseline;
     }
+    summary.approaches = approach_costs(runs, baseline_runs, resamples.level());
+    summary.recovery = recovery_after(runs, baseline_runs, resamples.level());
 }
 
 ConditionSummary describe_condition(const Index& index, const std::string& scenario,
@@ -305,6 +323,14 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     return summary;
 }
 
+[[noreturn]] void refuse_pair(const std::string& what, const results::Results& first,
+                              const results::Results& second) {
+    throw core::InputError({first.manifest.study + " and " + second.manifest.study,
+                            "cannot be paired: another " + what,
+                            "two folders of the same scenarios, seed and conditions",
+                            "Run both with the same --seed and scenario options"});
+}
+
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
                                    const std::vector<ConditionSpec>& conditions, ResampleCache& resamples) {
     ScenarioSummary scenario{entry.name, entry.title, {}};
@@ -315,10 +341,11 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
-        compare_conditions(index, entry.name, *scenario.find(baseline->name), resamples, summary);
+        const Runs runs = index.runs(entry.name, summary.condition.name);
+        const Runs baseline_runs = index.runs(entry.name, baseline->name);
+        compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end()) continue;
-        close_gap(index.runs(entry.name, summary.condition.name), index.runs(entry.name, baseline->name),
-                  index.runs(entry.name, solo->name), resamples, summary);
+        close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     adjust(scenario);
     return scenario;
@@ -342,7 +369,6 @@ std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, d
 
 std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
                                         double level) {
-    assert(condition.size() == baseline.size());
     return difference_of(pairs_of(condition, baseline), kind, level);
 }
 
@@ -369,6 +395,39 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     const auto found = std::ranges::find_if(
         conditions, [&](const ConditionSummary& summary) { return summary.condition.name == condition; });
     return found == conditions.end() ? nullptr : &*found;
+}
+
+Summary compare_studies(const results::Results& first, const results::Results& second, double level) {
+    Summary summary;
+    summary.manifest = second.manifest;
+    summary.level = level;
+    const Index first_index(first);
+    const Index second_index(second);
+    ResampleCache resamples(level);
+    if (first.manifest.study_seed != second.manifest.study_seed) refuse_pair("seed", first, second);
+    for (const results::ScenarioEntry& entry : second.manifest.scenarios) {
+        const auto same =
+            std::ranges::find(first.manifest.scenarios, entry.name, &results::ScenarioEntry::name);
+        if (same == first.manifest.scenarios.end()) continue;
+        if (same->configuration_hash != entry.configuration_hash)
+            refuse_pair("configuration of scenario " + entry.name, first, second);
+        ScenarioSummary scenario{entry.name, entry.title, {}};
+        for (const ConditionSpec& condition : second.manifest.conditions) {
+            if (std::ranges::find(first.manifest.conditions, condition.name, &ConditionSpec::name) ==
+                first.manifest.conditions.end())
+                continue;
+            const ConditionSummary before = describe_condition(first_index, entry.name, condition, resamples);
+            ConditionSummary& after = scenario.conditions.emplace_back(
+                describe_condition(second_index, entry.name, condition, resamples));
+            after.baseline = condition.name;
+            compare_conditions(second_index.runs(entry.name, condition.name),
+                               first_index.runs(entry.name, condition.name), before, resamples, after);
+        }
+        adjust(scenario);
+        if (!scenario.conditions.empty()) summary.scenarios.push_back(std::move(scenario));
+    }
+    if (summary.scenarios.empty()) refuse_pair("set of scenarios and conditions", first, second);
+    return summary;
 }
 
 Summary summarise(const results::Results& results, double level) {

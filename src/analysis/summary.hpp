@@ -7,6 +7,7 @@
 
 #include "analysis/bootstrap.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/traffic.hpp"
 #include "results/store.hpp"
 
 namespace clearway::analysis {
@@ -30,7 +31,7 @@ using Values = std::vector<std::optional<double>>;
 
 /// Mean of the values that there are, with the interval of the metric's kind.
 std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level = usual_level);
-/// Mean of the paired differences where both have a value. The two have one length.
+/// Mean of the paired differences of the replications where both have a value.
 std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
                                         double level = usual_level);
 /// All metrics of a run that are numbers, in the order of their field table.
@@ -48,6 +49,8 @@ struct Comparison {
     std::size_t incomplete_pairs = 0;
     /// Emergency vehicles of complete pairs that arrived in only one condition or in none.
     std::size_t vehicles_left_out = 0;
+    std::vector<double> condition_values;     ///< Of complete pairs, in the order of the replications.
+    std::vector<double> baseline_values;      ///< Of the same pairs.
     std::optional<Estimate> difference;       ///< Condition - baseline, in the metric's unit.
     std::optional<Estimate> relative;         ///< As a share of the baseline's mean.
     std::optional<Interval> bootstrap;        ///< BCa interval of the mean difference; not for counts.
@@ -80,6 +83,14 @@ struct OutcomeCounts {
     std::uint64_t not_inserted = 0;
     std::uint64_t removed = 0;
 
+    OutcomeCounts& operator+=(const OutcomeCounts& more) {
+        arrived += more.arrived;
+        running_at_end += more.running_at_end;
+        teleported += more.teleported;
+        not_inserted += more.not_inserted;
+        removed += more.removed;
+        return *this;
+    }
     std::uint64_t total() const { return arrived + running_at_end + teleported + not_inserted + removed; }
 };
 
@@ -98,8 +109,10 @@ struct ConditionSummary {
     OutcomeCounts emergency;
     OutcomeCounts others;
     TravelTimeTail travel_time;
-    std::vector<MetricSummary> metrics;   ///< In the order of `all_metrics()`.
-    std::optional<GapClosed> gap_closed;  ///< Nothing without a solo condition, and for baselines.
+    std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
+    std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
+    std::optional<Recovery> recovery;      ///< Likewise.
+    std::optional<GapClosed> gap_closed;   ///< Nothing without a solo condition, and for baselines.
     /// Replications behind `gap_closed`: at least one emergency vehicle arrived in all three conditions.
     std::size_t gap_replications = 0;
 
@@ -121,6 +134,13 @@ struct Summary {
     double level = usual_level;
     std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
 };
+
+/// The conditions of `second`, each compared with the condition of the same name in `first`: equal units, so
+/// the same scenario, seed and condition, run twice. The summary is that of `second`, without scenarios and
+/// conditions that only one of the two has; `baseline` names the condition. Throws core::InputError when the
+/// two share no run that was made from the same seed and configuration.
+Summary compare_studies(const results::Results& first, const results::Results& second,
+                        double level = usual_level);
 
 /// A condition's baseline is the first condition of the same engine without policy parts; its solo times are
 /// those of the first condition with engine solo. Deterministic.

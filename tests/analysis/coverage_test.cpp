@@ -144,6 +144,7 @@ CountCoverage coverage_of_counts(std::size_t n, double mean, int size) {
 }
 
 TEST(Coverage, OfTheIntervalsOfCountsIsNominalAndOfRareOnesOnTheSafeSide) {
+    constexpr double within_sampling_error_of_94 = 0.94 - 0.0043;  // one standard error of 3,000 samples
     for (const std::size_t n : {std::size_t{20}, std::size_t{30}}) {
         for (const double mean : {0.1, 0.3, 1.0, 4.0, 20.0}) {
             for (const int size : {0, 1}) {
@@ -151,9 +152,9 @@ TEST(Coverage, OfTheIntervalsOfCountsIsNominalAndOfRareOnesOnTheSafeSide) {
                 const bool rare = mean < 1.0;
                 const std::string which = "n " + std::to_string(n) + ", mean " + std::to_string(mean) +
                                           (size == 0 ? ", Poisson" : ", overdispersed");
-                EXPECT_GE(coverage.mean, 0.94) << which;
+                EXPECT_GE(coverage.mean, within_sampling_error_of_94) << which;
                 EXPECT_LE(coverage.mean, rare ? 1.0 : 0.975) << which;
-                EXPECT_GE(coverage.difference, 0.94) << which;
+                EXPECT_GE(coverage.difference, within_sampling_error_of_94) << which;
                 EXPECT_LE(coverage.difference, rare ? 1.0 : 0.98) << which;
                 EXPECT_FALSE(coverage.ever_below_zero) << which;
             }

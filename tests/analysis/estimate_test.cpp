@@ -120,5 +120,12 @@ TEST(Geh, AgreesWithTheWorkedExample) {
     EXPECT_LT(geh(1100.0, 1000.0), geh_limit);
 }
 
+TEST(ReplicationsNeeded, IsTheSmallestNumberWhoseIntervalIsNarrowEnough) {
+    // s = 10, half width 3: n = 46 has t(45) 10 / sqrt(46) = 2.970, n = 45 has 3.004.
+    EXPECT_EQ(replications_needed(10.0, 3.0), 46U);
+    EXPECT_EQ(replications_needed(0.1, 3.0), fewest_replications);
+    EXPECT_GT(replications_needed(10.0, 0.3), 4200U);
+}
+
 }  // namespace
 }  // namespace clearway::analysis
