@@ -1,43 +1,34 @@
+#include "analysis/bootstrap.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "analysis/estimate.hpp"
 #include "core/random.hpp"
 
 namespace clearway::analysis {
 namespace {
 
 const boost::math::normal standard_normal;
+constexpr std::size_t fewest_rows = 3;
 
-/// The statistic of every resample, ascending.
-std::vector<double> resample(std::size_t rows, const RowStatistic& statistic, const BootstrapConfig& config) {
-    const core::KeyedRandom random(core::StudySeed{config.seed}, core::Replication{0});
-    std::vector<std::size_t> drawn(rows);
-    std::vector<double> values(config.resamples);
-    for (std::size_t number = 0; number < config.resamples; ++number) {
-        for (std::size_t row = 0; row < rows; ++row)
-            drawn[row] = random.below(rows, core::Purpose::bootstrap, number, row);
-        values[number] = statistic(drawn);
-    }
-    std::ranges::sort(values);
-    return values;
-}
+/// A statistic of the sample, of each resample, and of the sample without each row.
+struct Replicates {
+    double observed = 0.0;
+    std::vector<double> resampled;
+    std::vector<double> without;
+};
 
 /// Efron and Tibshirani 1993, equation (14.15).
-double acceleration_of(std::size_t rows, const RowStatistic& statistic) {
-    std::vector<double> without(rows);
-    std::vector<std::size_t> others(rows - 1);
-    for (std::size_t left_out = 0; left_out < rows; ++left_out) {
-        for (std::size_t row = 0; row + 1 < rows; ++row)
-            others[row] = row < left_out ? row : row + 1;
-        without[left_out] = statistic(others);
-    }
-    const double mean = std::accumulate(without.begin(), without.end(), 0.0) / static_cast<double>(rows);
+double acceleration_of(const std::vector<double>& without) {
+    const auto rows = static_cast<double>(without.size());
+    const double mean = std::accumulate(without.begin(), without.end(), 0.0) / rows;
     double squares = 0.0;
     double cubes = 0.0;
     for (const double value : without) {
@@ -73,43 +64,146 @@ double outside_share(std::size_t rows, const BootstrapConfig& config) {
     return boost::math::cdf(standard_normal, t * std::sqrt(n / (n - 1.0)));
 }
 
-double mean_of(std::span<const double> values, std::span<const std::size_t> rows) {
-    double sum = 0.0;
-    for (const std::size_t row : rows)
-        sum += values[row];
-    return sum / static_cast<double>(rows.size());
+std::optional<Interval> bca_interval(Replicates replicates, const BootstrapConfig& config) {
+    std::vector<double>& values = replicates.resampled;
+    if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return std::nullopt;
+    std::ranges::sort(values);
+    if (values.front() == values.back()) return std::nullopt;
+    const double bias = bias_of(values, replicates.observed);
+    const double acceleration = acceleration_of(replicates.without);
+    const double outside = outside_share(replicates.without.size(), config);
+    return Interval{quantile_of_sorted(values, corrected_share(outside, bias, acceleration)),
+                    quantile_of_sorted(values, corrected_share(1.0 - outside, bias, acceleration))};
+}
+
+double sum_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Sum of values, each as often as its row was drawn. Four sums, so that additions need not wait for each
+/// other: this is where the time of a bootstrap goes.
+double sum_of(std::span<const double> values, RowCounts counts) {
+    std::array<double, 4> sums = {};
+    std::size_t row = 0;
+    for (; row + sums.size() <= values.size(); row += sums.size()) {
+        for (std::size_t lane = 0; lane < sums.size(); ++lane)
+            sums[lane] += static_cast<double>(counts[row + lane]) * values[row + lane];
+    }
+    for (; row < values.size(); ++row)
+        sums[0] += static_cast<double>(counts[row]) * values[row];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Values of all members with the cluster of each, ascending.
+struct Pool {
+    std::vector<std::pair<double, std::uint32_t>> members;
+    std::vector<double> sizes;  ///< Members of each cluster, with and without a value.
+};
+
+Pool pool_of(std::span<const Cluster> clusters) {
+    Pool pool;
+    for (std::uint32_t number = 0; number < clusters.size(); ++number) {
+        const Cluster& cluster = clusters[number];
+        for (const double value : cluster.values)
+            pool.members.emplace_back(value, number);
+        pool.sizes.push_back(static_cast<double>(cluster.values.size() + cluster.without_value));
+    }
+    std::ranges::sort(pool.members);
+    return pool;
+}
+
+/// Infinite where the quantile falls among the members without a value.
+double quantile_of(const Pool& pool, double share, RowCounts counts) {
+    const double wanted = share * sum_of(pool.sizes, counts) * (1.0 - 1e-12);
+    std::uint64_t passed = 0;
+    for (const auto& [value, cluster] : pool.members) {
+        passed += counts[cluster];
+        if (static_cast<double>(passed) >= wanted && passed > 0) return value;
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-std::optional<Interval> bootstrap_bca(std::size_t rows, const RowStatistic& statistic,
-                                      const BootstrapConfig& config) {
-    constexpr std::size_t fewest_rows = 3;
+Resamples::Resamples(std::size_t rows, const BootstrapConfig& config)
+    : rows_(rows), config_(config), counts_(rows * config.resamples) {
+    const core::KeyedRandom random(core::StudySeed{config.seed}, core::Replication{0});
+    for (std::size_t number = 0; number < config.resamples; ++number) {
+        std::uint8_t* const counts = counts_.data() + number * rows;
+        for (std::size_t draw = 0; draw < rows; ++draw)
+            ++counts[random.below(rows, core::Purpose::bootstrap, number, draw)];
+    }
+}
+
+std::optional<Interval> bootstrap_bca(const Resamples& resamples, const RowStatistic& statistic) {
+    const std::size_t rows = resamples.rows();
     if (rows < fewest_rows) return std::nullopt;
-    const std::vector<double> values = resample(rows, statistic, config);
-    if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return std::nullopt;
-    if (values.front() == values.back()) return std::nullopt;
-    std::vector<std::size_t> all(rows);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const double bias = bias_of(values, statistic(all));
-    const double acceleration = acceleration_of(rows, statistic);
-    const double outside = outside_share(rows, config);
-    return Interval{quantile(values, corrected_share(outside, bias, acceleration)),
-                    quantile(values, corrected_share(1.0 - outside, bias, acceleration))};
+    Replicates replicates;
+    std::vector<std::uint8_t> counts(rows, 1);
+    replicates.observed = statistic(counts);
+    for (std::size_t number = 0; number < resamples.config().resamples; ++number)
+        replicates.resampled.push_back(statistic(resamples.counts(number)));
+    for (std::uint8_t& left_out : counts) {
+        left_out = 0;
+        replicates.without.push_back(statistic(counts));
+        left_out = 1;
+    }
+    return bca_interval(std::move(replicates), resamples.config());
+}
+
+std::optional<Interval> bootstrap_bca(const Resamples& resamples,
+                                      std::span<const std::span<const double>> columns,
+                                      const MeansStatistic& statistic) {
+    const std::size_t rows = resamples.rows();
+    if (rows < fewest_rows) return std::nullopt;
+    const auto n = static_cast<double>(rows);
+    Replicates replicates;
+    std::vector<double> totals;
+    for (const std::span<const double> column : columns) {
+        assert(column.size() == rows);
+        totals.push_back(sum_of(column));
+    }
+    std::vector<double> means(columns.size());
+    const auto evaluate = [&](auto&& mean) {
+        for (std::size_t column = 0; column < columns.size(); ++column)
+            means[column] = mean(column);
+        return statistic(means);
+    };
+    replicates.observed = evaluate([&](std::size_t column) { return totals[column] / n; });
+    for (std::size_t number = 0; number < resamples.config().resamples; ++number) {
+        const RowCounts counts = resamples.counts(number);
+        replicates.resampled.push_back(
+            evaluate([&](std::size_t column) { return sum_of(columns[column], counts) / n; }));
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+        replicates.without.push_back(evaluate(
+            [&](std::size_t column) { return (totals[column] - columns[column][row]) / (n - 1.0); }));
+    return bca_interval(std::move(replicates), resamples.config());
+}
+
+std::optional<Interval> bootstrap_bca_of_mean(const Resamples& resamples, std::span<const double> values) {
+    return bootstrap_bca(resamples, {{values}}, [](std::span<const double> means) { return means[0]; });
 }
 
 std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span<const double> baseline,
-                                    std::span<const double> solo, const BootstrapConfig& config) {
+                                    std::span<const double> solo, const Resamples& resamples) {
     assert(condition.size() == baseline.size() && solo.size() == baseline.size());
-    const auto share = [&](std::span<const std::size_t> rows) {
-        const double from = mean_of(baseline, rows);
-        return (from - mean_of(condition, rows)) / (from - mean_of(solo, rows));
+    if (baseline.empty() || !(sum_of(baseline) > sum_of(solo))) return std::nullopt;
+    const std::array columns = {condition, baseline, solo};
+    const auto share = [](std::span<const double> means) {
+        return (means[1] - means[0]) / (means[1] - means[2]);
     };
-    if (baseline.empty()) return std::nullopt;
-    std::vector<std::size_t> all(baseline.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    if (!(mean_of(baseline, all) > mean_of(solo, all))) return std::nullopt;
-    return GapClosed{share(all), bootstrap_bca(baseline.size(), share, config)};
+    const std::array totals = {sum_of(condition), sum_of(baseline), sum_of(solo)};
+    return GapClosed{share(totals), bootstrap_bca(resamples, columns, share)};
+}
+
+PooledQuantile pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples) {
+    assert(clusters.size() == resamples.rows());
+    const Pool pool = pool_of(clusters);
+    const double observed = quantile_of(pool, share, std::vector<std::uint8_t>(clusters.size(), 1));
+    if (!std::isfinite(observed)) return {};
+    return {observed,
+            bootstrap_bca(resamples, [&](RowCounts counts) { return quantile_of(pool, share, counts); })};
 }
 
 }  // namespace clearway::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -32,6 +33,14 @@ std::vector<double> differences(std::span<const double> condition, std::span<con
 
 }  // namespace
 
+double half_width(double deviation, std::size_t n, double level) {
+    assert(n >= 2);
+    const auto count = static_cast<double>(n);
+    const boost::math::students_t distribution(count - 1.0);
+    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
+    return t * deviation / std::sqrt(count);
+}
+
 std::optional<Estimate> estimate_mean(std::span<const double> values, double level) {
     if (values.empty()) return std::nullopt;
     Estimate estimate;
@@ -39,11 +48,8 @@ std::optional<Estimate> estimate_mean(std::span<const double> values, double lev
     estimate.mean = mean_of(values);
     estimate.deviation = deviation_of(values, estimate.mean);
     if (estimate.n < 2) return estimate;
-    const auto n = static_cast<double>(estimate.n);
-    const boost::math::students_t distribution(n - 1.0);
-    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
-    const double half_width = t * estimate.deviation / std::sqrt(n);
-    estimate.interval = Interval{estimate.mean - half_width, estimate.mean + half_width};
+    const double reach = half_width(estimate.deviation, estimate.n, level);
+    estimate.interval = Interval{estimate.mean - reach, estimate.mean + reach};
     return estimate;
 }
 
@@ -67,21 +73,6 @@ std::optional<Estimate> relative_difference(std::span<const double> condition,
     return estimate;
 }
 
-double median(std::span<const double> values) {
-    return quantile(values, 0.5);
-}
-
-double quantile(std::span<const double> values, double share) {
-    assert(!values.empty() && share >= 0.0 && share <= 1.0);
-    std::vector<double> sorted(values.begin(), values.end());
-    std::ranges::sort(sorted);
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    const double part = place - static_cast<double>(below);
-    return sorted[below] + part * (sorted[above] - sorted[below]);
-}
-
 std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline) {
     const auto estimate = estimate_difference(condition, baseline);
     if (!estimate || !(estimate->deviation > 0.0)) return std::nullopt;
@@ -95,6 +86,34 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
     const boost::math::students_t distribution(n - 1.0);
     const double t = std::abs(*effect) * std::sqrt(n);
     return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+std::size_t replications_needed(double deviation, double half_width, double level) {
+    assert(half_width > 0.0);
+    constexpr std::size_t most = 100000000;  // beyond any study
+    const auto suffices = [&](std::size_t n) {
+        return clearway::analysis::half_width(deviation, n, level) <= half_width;
+    };
+    std::size_t high = fewest_replications;
+    while (high < most && !suffices(high))
+        high *= 2;
+    std::size_t low = std::max(fewest_replications, high / 2);
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (suffices(middle)) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+double geh(double modelled_per_hour, double counted_per_hour) {
+    const double sum = modelled_per_hour + counted_per_hour;
+    if (!(sum > 0.0)) return 0.0;
+    const double difference = modelled_per_hour - counted_per_hour;
+    return std::sqrt(2.0 * difference * difference / sum);
 }
 
 }  // namespace clearway::analysis

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,10 +47,40 @@ double median(std::span<const double> values);
 /// Quantile `share` in [0, 1] by linear interpolation between order statistics (Hyndman and Fan 1996, type
 /// 7). `values` not empty.
 double quantile(std::span<const double> values, double share);
+/// The same of values that are ascending already.
+double quantile_of_sorted(std::span<const double> sorted, double share);
+
+/// Interval of the population's quantile from order statistics, without assuming a distribution: interpolated
+/// so that it keeps its level (Nyblom 1992; for the median Hettmansperger and Sheather 1986). `share` in
+/// (0, 1). Nothing for a sample too small to bound it: at 95 % a median takes 6 values, a 95th percentile 72.
+std::optional<Interval> quantile_interval(std::span<const double> values, double share,
+                                          double level = usual_level);
+
+/// Mean of counts (0, 1, 2, ...) with an interval that never reaches below 0: Garwood's exact Poisson
+/// interval (1936) of total / phi, scaled by phi = max(1, variance / mean), with t instead of normal tails
+/// where phi is estimated. Simulated coverage: tests/analysis/coverage_test.cpp. Nothing for an empty sample.
+std::optional<Estimate> estimate_count(std::span<const double> counts, double level = usual_level);
+
+/// Mean of `condition[i] - baseline[i]` of counts; the interval follows from those of the two means by the
+/// method of variance estimates recovery with their correlation (Zou and Donner 2008), so rare events are not
+/// taken for certain differences. A bootstrap, like a t interval, is too narrow there: four collisions
+/// against none excluded 0.
+std::optional<Estimate> estimate_count_difference(std::span<const double> condition,
+                                                  std::span<const double> baseline,
+                                                  double level = usual_level);
 
 /// Mean of the paired differences over their standard deviation (Cohen's d for pairs, d_z). Nothing below two
 /// pairs or without variation.
 std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline);
+
+/// t(n - 1) s / sqrt(n): half the width of the interval of a mean of `n` >= 2 values that scatter with
+/// `deviation`.
+double half_width(double deviation, std::size_t n, double level = usual_level);
+
+/// Replications for a half width of `half_width` > 0 at `level` when differences scatter with `deviation`:
+/// FHWA's n = (t(n - 1) s / e)^2, Traffic Analysis Toolbox III (2019), and never below its minimum of 10.
+std::size_t replications_needed(double deviation, double half_width, double level = usual_level);
+inline constexpr std::size_t fewest_replications = 10;
 
 /// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros left out, ties at mean
 /// rank; exact up to 25 differences without ties, else normal with continuity and tie correction. Nothing
@@ -65,36 +93,10 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
 /// Holm's step-down adjustment, in the order of `p_values`; each at most 1.
 std::vector<double> holm(std::span<const double> p_values);
 
-/// Statistic of a resample: receives row numbers, with repetitions.
-using RowStatistic = std::function<double(std::span<const std::size_t>)>;
-
-/// Bootstrap distributions of small samples are too narrow, by sqrt((n - 1) / n) and by normal instead of t
-/// tails.
-enum class SmallSample : std::uint8_t {
-    as_published,  ///< Efron 1987.
-    expanded,  ///< End points moved outwards to make up for both (expanded percentile interval, Hesterberg
-               ///< 2015).
-};
-
-struct BootstrapConfig {
-    std::size_t resamples = 2000;  ///< 2000: Efron and Tibshirani 1993, section 14.3, for BCa end points.
-    std::uint64_t seed = 1;        ///< Equal seeds give equal intervals.
-    double level = usual_level;
-    SmallSample small_sample = SmallSample::expanded;
-};
-/// Bias-corrected and accelerated bootstrap interval (Efron 1987) of a statistic over `rows` independent
-/// rows, the acceleration by jackknife. Nothing below three rows, or when the statistic does not vary.
-std::optional<Interval> bootstrap_bca(std::size_t rows, const RowStatistic& statistic,
-                                      const BootstrapConfig& config = {});
-
-/// Gap closed = (sum of baseline - sum of condition) / (sum of baseline - sum of solo) over replications. The
-/// spans have one length.
-struct GapClosed {
-    double value = 0.0;
-    std::optional<Interval> interval;  ///< BCa over replications.
-};
-/// Nothing for empty spans, or where baseline is not slower than solo on average: no gap to close.
-std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span<const double> baseline,
-                                    std::span<const double> solo, const BootstrapConfig& config = {});
+/// GEH statistic of a modelled against a counted flow, both in vehicles an hour and >= 0:
+/// sqrt(2 (m - c)^2 / (m + c)), 0 when both are 0 (DMRB volume 12, section 2, part 1, 4.4.42). Below 5 a flow
+/// counts as met; the usual criterion asks that of 85 % of the places.
+double geh(double modelled_per_hour, double counted_per_hour);
+inline constexpr double geh_limit = 5.0;
 
 }  // namespace clearway::analysis

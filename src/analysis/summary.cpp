@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <stdexcept>
 
 #include "analysis/detail/pairing.hpp"
+#include "core/error.hpp"
 #include "core/fields.hpp"
 
 namespace clearway::analysis {
@@ -31,80 +33,141 @@ std::optional<detail::VehicleNumber> vehicle_number_of(const std::string& metric
     return std::nullopt;
 }
 
+/// Resamples by number of rows: metrics of as many pairs share them.
+class ResampleCache {
+  public:
+    explicit ResampleCache(double level) { config_.level = level; }
+    const Resamples& of(std::size_t rows) {
+        auto found = cache_.find(rows);
+        if (found == cache_.end()) found = cache_.emplace(rows, Resamples(rows, config_)).first;
+        return found->second;
+    }
+    double level() const { return config_.level; }
+
+  private:
+    BootstrapConfig config_;
+    std::map<std::size_t, Resamples> cache_;
+};
+
 /// Values of a condition and its baseline, one a complete pair.
 struct Pairs {
     std::vector<double> condition;
     std::vector<double> baseline;
+
+    void add(const std::optional<double>& with, const std::optional<double>& without) {
+        if (!with || !without) return;
+        condition.push_back(*with);
+        baseline.push_back(*without);
+    }
 };
 
-Pairs pair_up(const std::string& metric, const Runs& condition, const Runs& baseline,
-              Comparison& comparison) {
+Pairs pairs_of(const Values& condition, const Values& baseline) {
     Pairs pairs;
-    const auto number = vehicle_number_of(metric);
-    for (std::size_t replication = 0; replication < condition.size(); ++replication) {
-        const std::array<const results::RunRecord*, 2> runs = {condition[replication], baseline[replication]};
-        std::optional<double> with;
-        std::optional<double> without;
-        if (number) {
-            if (const auto common = detail::common_means(runs, *number)) {
-                with = common->means[0];
-                without = common->means[1];
-                comparison.vehicles_left_out += common->left_out;
-            }
-        } else if (runs[0] != nullptr && runs[1] != nullptr) {
-            with = metric_value(runs[0]->metrics, metric);
-            without = metric_value(runs[1]->metrics, metric);
-        }
-        if (with && without) {
-            pairs.condition.push_back(*with);
-            pairs.baseline.push_back(*without);
-        }
-    }
-    comparison.complete_pairs = pairs.condition.size();
-    comparison.incomplete_pairs = condition.size() - pairs.condition.size();
+    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
+         ++replication)
+        pairs.add(condition[replication], baseline[replication]);
     return pairs;
 }
 
-/// BCa interval of the mean difference. For durations alone: counts are mostly small and often all zero.
-std::optional<Interval> bootstrap_difference(const MetricInfo& metric, const Pairs& pairs, double level) {
-    if (metric.unit != "s") return std::nullopt;
-    BootstrapConfig config;
-    config.level = level;
-    const auto mean_difference = [&](std::span<const std::size_t> rows) {
-        double sum = 0.0;
-        for (const std::size_t row : rows)
-            sum += pairs.condition[row] - pairs.baseline[row];
-        return sum / static_cast<double>(rows.size());
-    };
-    return bootstrap_bca(pairs.condition.size(), mean_difference, config);
+/// Means over the vehicles that arrived in both conditions.
+Pairs pairs_of_common_vehicles(detail::VehicleNumber number, const Runs& condition, const Runs& baseline,
+                               Comparison& comparison) {
+    Pairs pairs;
+    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
+         ++replication) {
+        const std::array runs = {condition[replication], baseline[replication]};
+        const auto common = detail::common_means(runs, number);
+        if (!common) continue;
+        pairs.add(common->means[0], common->means[1]);
+        comparison.vehicles_left_out += common->left_out;
+    }
+    return pairs;
 }
 
-Comparison compare(const MetricInfo& metric, const Runs& condition, const Runs& baseline, double level) {
-    Comparison comparison;
-    const Pairs pairs = pair_up(metric.name, condition, baseline, comparison);
-    comparison.difference = estimate_difference(pairs.condition, pairs.baseline, level);
+std::optional<Estimate> difference_of(const Pairs& pairs, MetricKind kind, double level) {
+    return kind == MetricKind::count ? estimate_count_difference(pairs.condition, pairs.baseline, level)
+                                     : estimate_difference(pairs.condition, pairs.baseline, level);
+}
+
+std::vector<double> differences_of(const Pairs& pairs) {
+    std::vector<double> differences(pairs.condition.size());
+    std::ranges::transform(pairs.condition, pairs.baseline, differences.begin(), std::minus<>());
+    return differences;
+}
+
+void compare(const Pairs& pairs, MetricKind kind, ResampleCache& resamples, Comparison& comparison) {
+    const double level = resamples.level();
+    comparison.complete_pairs = pairs.condition.size();
+    comparison.difference = difference_of(pairs, kind, level);
     comparison.relative = relative_difference(pairs.condition, pairs.baseline, level);
-    comparison.bootstrap = bootstrap_difference(metric, pairs, level);
     comparison.effect_size = effect_size(pairs.condition, pairs.baseline);
-    comparison.t_p = paired_t_p(pairs.condition, pairs.baseline);
     comparison.wilcoxon_p = wilcoxon_p(pairs.condition, pairs.baseline);
-    return comparison;
+    if (pairs.condition.empty()) return;
+    const std::vector<double> differences = differences_of(pairs);
+    comparison.median = median(differences);
+    comparison.median_interval = quantile_interval(differences, 0.5, level);
+    if (kind == MetricKind::count) return;
+    comparison.t_p = paired_t_p(pairs.condition, pairs.baseline);
+    comparison.bootstrap = bootstrap_bca_of_mean(resamples.of(differences.size()), differences);
 }
 
-MetricSummary describe(const MetricInfo& metric, const Runs& runs, double level) {
+/// All metrics of all runs of a condition, each by replication.
+std::vector<Values> values_of(const Runs& runs) {
+    std::vector<Values> values(all_metrics().size(), Values(runs.size()));
+    for (std::size_t replication = 0; replication < runs.size(); ++replication) {
+        if (runs[replication] == nullptr) continue;
+        std::size_t metric = 0;
+        core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
+            values[metric++][replication] = as_number(runs[replication]->metrics.*field.member);
+        });
+    }
+    return values;
+}
+
+std::vector<double> present_in(const Values& values) {
+    std::vector<double> present;
+    for (const std::optional<double>& value : values) {
+        if (value) present.push_back(*value);
+    }
+    return present;
+}
+
+std::optional<Estimate> mean_of(const std::vector<double>& present, MetricKind kind, double level) {
+    return kind == MetricKind::count ? estimate_count(present, level) : estimate_mean(present, level);
+}
+
+MetricSummary describe(const MetricInfo& metric, Values values, double level) {
     MetricSummary summary;
     summary.metric = metric;
-    std::vector<double> present;
-    for (const results::RunRecord* run : runs) {
-        summary.values.push_back(run == nullptr ? std::nullopt : metric_value(run->metrics, metric.name));
-        if (summary.values.back()) present.push_back(*summary.values.back());
-    }
-    summary.estimate = estimate_mean(present, level);
-    if (!present.empty()) {
-        summary.median = median(present);
-        summary.percentile_95 = quantile(present, 0.95);
-    }
+    const std::vector<double> present = present_in(values);
+    summary.values = std::move(values);
+    summary.estimate = mean_of(present, metric.kind, level);
+    if (present.empty()) return summary;
+    constexpr double tail = 0.95;
+    summary.median = median(present);
+    summary.median_interval = quantile_interval(present, 0.5, level);
+    summary.percentile_95 = quantile(present, tail);
+    summary.percentile_95_interval = quantile_interval(present, tail, level);
     return summary;
+}
+
+TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
+    std::vector<Cluster> clusters;
+    for (const results::RunRecord* run : runs) {
+        if (run == nullptr) continue;
+        Cluster& cluster = clusters.emplace_back();
+        for (const metrics::VehicleRow& vehicle : run->vehicles) {
+            if (vehicle.vehicle_class != traffic::VehicleClass::emergency) continue;
+            if (vehicle.outcome == metrics::VehicleOutcome::arrived && vehicle.travel_time_s) {
+                cluster.values.push_back(*vehicle.travel_time_s);
+            } else {
+                ++cluster.without_value;
+            }
+        }
+    }
+    if (clusters.empty()) return {};
+    const Resamples& drawn = resamples.of(clusters.size());
+    return {pooled_quantile(clusters, 0.5, drawn), pooled_quantile(clusters, 0.95, drawn)};
 }
 
 void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
@@ -127,18 +190,32 @@ void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
     }
 }
 
+/// All but the emergency vehicles, from the metrics: their rows need not have been read.
+void count_others(const metrics::RunMetrics& all, const OutcomeCounts& emergency, OutcomeCounts& others) {
+    const auto rest = [](std::uint64_t whole, std::uint64_t part) { return whole - std::min(whole, part); };
+    const std::uint64_t teleported =
+        rest(all.vehicle_count, all.arrived + all.unfinished + all.not_inserted + all.removed);
+    others.arrived += rest(all.arrived, emergency.arrived);
+    others.running_at_end += rest(all.unfinished, emergency.running_at_end);
+    others.teleported += rest(teleported, emergency.teleported);
+    others.not_inserted += rest(all.not_inserted, emergency.not_inserted);
+    others.removed += rest(all.removed, emergency.removed);
+}
+
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         ++summary.complete_runs;
+        OutcomeCounts emergency;
         for (const metrics::VehicleRow& vehicle : run->vehicles) {
-            const bool emergency = vehicle.vehicle_class == traffic::VehicleClass::emergency;
-            count(vehicle, emergency ? summary.emergency : summary.others);
+            if (vehicle.vehicle_class == traffic::VehicleClass::emergency) count(vehicle, emergency);
         }
+        summary.emergency += emergency;
+        count_others(run->metrics, emergency, summary.others);
     }
 }
 
-void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, double level,
+void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, ResampleCache& resamples,
                ConditionSummary& summary) {
     std::vector<double> with;
     std::vector<double> without;
@@ -152,9 +229,7 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, do
         alone.push_back(common->means[2]);
     }
     summary.gap_replications = with.size();
-    BootstrapConfig config;
-    config.level = level;
-    summary.gap_closed = gap_closed(with, without, alone, config);
+    summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
 }
 
 /// The condition that `condition` is compared with, or nothing for baselines and solo.
@@ -173,8 +248,11 @@ void adjust(ScenarioSummary& scenario) {
         std::vector<Comparison*> owners;
         for (ConditionSummary& condition : scenario.conditions) {
             auto& comparison = condition.metrics[metric].comparison;
-            if (!comparison || !comparison->t_p) continue;
-            p_values.push_back(*comparison->t_p);
+            if (!comparison) continue;
+            const bool counted = condition.metrics[metric].metric.kind == MetricKind::count;
+            const std::optional<double> p = counted ? comparison->wilcoxon_p : comparison->t_p;
+            if (!p) continue;
+            p_values.push_back(*p);
             owners.push_back(&*comparison);
         }
         const std::vector<double> adjusted = holm(p_values);
@@ -211,37 +289,87 @@ class Index {
     std::map<Cell, std::size_t> failures_;
 };
 
-ConditionSummary summarise_condition(const Index& index, const std::string& scenario,
-                                     const ConditionSpec& condition, const std::vector<ConditionSpec>& all,
-                                     double level) {
+/// Compares a condition with its baseline, which is summarised.
+void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
+                        ResampleCache& resamples, ConditionSummary& summary) {
+    for (std::size_t metric = 0; metric < summary.metrics.size(); ++metric) {
+        MetricSummary& one = summary.metrics[metric];
+        Comparison& comparison = one.comparison.emplace();
+        const auto number = vehicle_number_of(one.metric.name);
+        const Pairs pairs = number ? pairs_of_common_vehicles(*number, runs, baseline_runs, comparison)
+                                   : pairs_of(one.values, baseline.metrics[metric].values);
+        compare(pairs, one.metric.kind, resamples, comparison);
+        comparison.incomplete_pairs = std::max(runs.size(), baseline_runs.size()) - comparison.complete_pairs;
+        comparison.condition_values = pairs.condition;
+        comparison.baseline_values = pairs.baseline;
+    }
+    summary.approaches = approach_costs(runs, baseline_runs, resamples.level());
+    summary.recovery = recovery_after(runs, baseline_runs, resamples.level());
+}
+
+ConditionSummary describe_condition(const Index& index, const std::string& scenario,
+                                    const ConditionSpec& condition, ResampleCache& resamples) {
     ConditionSummary summary;
     summary.condition = condition;
     const Runs runs = index.runs(scenario, condition.name);
     count_outcomes(runs, summary);
     summary.failed_runs = index.failures(scenario, condition.name);
     summary.missing_runs = runs.size() - summary.complete_runs - summary.failed_runs;
-    for (const MetricInfo& metric : all_metrics())
-        summary.metrics.push_back(describe(metric, runs, level));
-
-    const ConditionSpec* baseline = baseline_of(condition, all);
-    if (baseline == nullptr) return summary;
-    summary.baseline = baseline->name;
-    const Runs baseline_runs = index.runs(scenario, baseline->name);
-    for (MetricSummary& metric : summary.metrics)
-        metric.comparison = compare(metric.metric, runs, baseline_runs, level);
-    const auto solo = std::ranges::find(all, Engine::solo, &ConditionSpec::engine);
-    if (solo != all.end()) close_gap(runs, baseline_runs, index.runs(scenario, solo->name), level, summary);
+    summary.travel_time = tail_of(runs, resamples);
+    std::vector<Values> values = values_of(runs);
+    const std::vector<MetricInfo> metrics = all_metrics();
+    for (std::size_t metric = 0; metric < metrics.size(); ++metric)
+        summary.metrics.push_back(describe(metrics[metric], std::move(values[metric]), resamples.level()));
     return summary;
+}
+
+[[noreturn]] void refuse_pair(const std::string& what, const results::Results& first,
+                              const results::Results& second) {
+    throw core::InputError({first.manifest.study + " and " + second.manifest.study,
+                            "cannot be paired: another " + what,
+                            "two folders of the same scenarios, seed and conditions",
+                            "Run both with the same --seed and scenario options"});
+}
+
+ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
+                                   const std::vector<ConditionSpec>& conditions, ResampleCache& resamples) {
+    ScenarioSummary scenario{entry.name, entry.title, {}};
+    for (const ConditionSpec& condition : conditions)
+        scenario.conditions.push_back(describe_condition(index, entry.name, condition, resamples));
+    const auto solo = std::ranges::find(conditions, Engine::solo, &ConditionSpec::engine);
+    for (ConditionSummary& summary : scenario.conditions) {
+        const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
+        if (baseline == nullptr) continue;
+        summary.baseline = baseline->name;
+        const Runs runs = index.runs(entry.name, summary.condition.name);
+        const Runs baseline_runs = index.runs(entry.name, baseline->name);
+        compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
+        if (solo == conditions.end()) continue;
+        close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
+    }
+    adjust(scenario);
+    return scenario;
 }
 
 }  // namespace
 
 std::vector<MetricInfo> all_metrics() {
-    std::vector<MetricInfo> metrics;
+    std::vector<MetricInfo> infos;
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
-        metrics.push_back({field.name, field.unit, field.doc});
+        using Member = std::decay_t<decltype(std::declval<metrics::RunMetrics>().*field.member)>;
+        const MetricKind kind = std::is_integral_v<Member> ? MetricKind::count : MetricKind::quantity;
+        infos.push_back({field.name, field.unit, field.doc, kind});
     });
-    return metrics;
+    return infos;
+}
+
+std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level) {
+    return mean_of(present_in(values), kind, level);
+}
+
+std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
+                                        double level) {
+    return difference_of(pairs_of(condition, baseline), kind, level);
 }
 
 std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name) {
@@ -269,19 +397,47 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     return found == conditions.end() ? nullptr : &*found;
 }
 
+Summary compare_studies(const results::Results& first, const results::Results& second, double level) {
+    Summary summary;
+    summary.manifest = second.manifest;
+    summary.level = level;
+    const Index first_index(first);
+    const Index second_index(second);
+    ResampleCache resamples(level);
+    if (first.manifest.study_seed != second.manifest.study_seed) refuse_pair("seed", first, second);
+    for (const results::ScenarioEntry& entry : second.manifest.scenarios) {
+        const auto same =
+            std::ranges::find(first.manifest.scenarios, entry.name, &results::ScenarioEntry::name);
+        if (same == first.manifest.scenarios.end()) continue;
+        if (same->configuration_hash != entry.configuration_hash)
+            refuse_pair("configuration of scenario " + entry.name, first, second);
+        ScenarioSummary scenario{entry.name, entry.title, {}};
+        for (const ConditionSpec& condition : second.manifest.conditions) {
+            if (std::ranges::find(first.manifest.conditions, condition.name, &ConditionSpec::name) ==
+                first.manifest.conditions.end())
+                continue;
+            const ConditionSummary before = describe_condition(first_index, entry.name, condition, resamples);
+            ConditionSummary& after = scenario.conditions.emplace_back(
+                describe_condition(second_index, entry.name, condition, resamples));
+            after.baseline = condition.name;
+            compare_conditions(second_index.runs(entry.name, condition.name),
+                               first_index.runs(entry.name, condition.name), before, resamples, after);
+        }
+        adjust(scenario);
+        if (!scenario.conditions.empty()) summary.scenarios.push_back(std::move(scenario));
+    }
+    if (summary.scenarios.empty()) refuse_pair("set of scenarios and conditions", first, second);
+    return summary;
+}
+
 Summary summarise(const results::Results& results, double level) {
     Summary summary;
     summary.manifest = results.manifest;
     summary.level = level;
     const Index index(results);
-    for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
-        ScenarioSummary scenario{entry.name, entry.title, {}};
-        for (const ConditionSpec& condition : results.manifest.conditions)
-            scenario.conditions.push_back(
-                summarise_condition(index, entry.name, condition, results.manifest.conditions, level));
-        adjust(scenario);
-        summary.scenarios.push_back(std::move(scenario));
-    }
+    ResampleCache resamples(level);
+    for (const results::ScenarioEntry& entry : results.manifest.scenarios)
+        summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples));
     return summary;
 }
 

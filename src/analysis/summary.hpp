@@ -5,17 +5,35 @@
 #include <string>
 #include <vector>
 
+#include "analysis/bootstrap.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/traffic.hpp"
 #include "results/store.hpp"
 
 namespace clearway::analysis {
+
+/// What a metric's values are, which decides its interval.
+enum class MetricKind : std::uint8_t {
+    quantity,  ///< Durations, shares: t interval.
+    count,     ///< 0, 1, 2, ...: `estimate_count`, never below 0.
+};
 
 /// A metric as tables show it. All come from the field table of metrics::RunMetrics.
 struct MetricInfo {
     std::string name;
     std::string unit;
     std::string doc;
+    MetricKind kind = MetricKind::quantity;
 };
+
+/// One value for each replication; nothing where there is none.
+using Values = std::vector<std::optional<double>>;
+
+/// Mean of the values that there are, with the interval of the metric's kind.
+std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level = usual_level);
+/// Mean of the paired differences of the replications where both have a value.
+std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
+                                        double level = usual_level);
 /// All metrics of a run that are numbers, in the order of their field table.
 std::vector<MetricInfo> all_metrics();
 /// Value of a metric by name; nothing where the run has none. Throws std::out_of_range for an unknown name.
@@ -31,22 +49,29 @@ struct Comparison {
     std::size_t incomplete_pairs = 0;
     /// Emergency vehicles of complete pairs that arrived in only one condition or in none.
     std::size_t vehicles_left_out = 0;
-    std::optional<Estimate> difference;  ///< Condition - baseline, in the metric's unit.
-    std::optional<Estimate> relative;    ///< As a share of the baseline's mean.
-    std::optional<Interval> bootstrap;   ///< BCa interval of the mean difference; for metrics in s alone.
-    std::optional<double> effect_size;
-    std::optional<double> t_p;
+    std::vector<double> condition_values;     ///< Of complete pairs, in the order of the replications.
+    std::vector<double> baseline_values;      ///< Of the same pairs.
+    std::optional<Estimate> difference;       ///< Condition - baseline, in the metric's unit.
+    std::optional<Estimate> relative;         ///< As a share of the baseline's mean.
+    std::optional<Interval> bootstrap;        ///< BCa interval of the mean difference; not for counts.
+    std::optional<double> median;             ///< Of the paired differences.
+    std::optional<Interval> median_interval;  ///< From order statistics.
+    std::optional<double> effect_size;        ///< Cohen's d for pairs, d_z.
+    std::optional<double> t_p;                ///< Not for counts, which are far from normal.
     std::optional<double> wilcoxon_p;
-    std::optional<double> holm_p;  ///< `t_p` adjusted over all comparisons of a scenario in this metric.
+    /// Adjusted over all comparisons of a scenario in this metric: `t_p`, of counts `wilcoxon_p`.
+    std::optional<double> holm_p;
 };
 
 /// One cell of a table: a metric in a condition of a scenario.
 struct MetricSummary {
     MetricInfo metric;
-    std::vector<std::optional<double>> values;  ///< By replication; nothing where there is none.
-    std::optional<Estimate> estimate;           ///< Over the replications that have a value.
+    Values values;                     ///< By replication.
+    std::optional<Estimate> estimate;  ///< Over the replications that have a value.
     std::optional<double> median;
+    std::optional<Interval> median_interval;
     std::optional<double> percentile_95;
+    std::optional<Interval> percentile_95_interval;  ///< Takes 72 replications.
     std::optional<Comparison> comparison;  ///< Nothing for the baseline itself and for the solo condition.
 };
 
@@ -58,7 +83,21 @@ struct OutcomeCounts {
     std::uint64_t not_inserted = 0;
     std::uint64_t removed = 0;
 
+    OutcomeCounts& operator+=(const OutcomeCounts& more) {
+        arrived += more.arrived;
+        running_at_end += more.running_at_end;
+        teleported += more.teleported;
+        not_inserted += more.not_inserted;
+        removed += more.removed;
+        return *this;
+    }
     std::uint64_t total() const { return arrived + running_at_end + teleported + not_inserted + removed; }
+};
+
+/// Travel times of all emergency vehicles of a condition, those that did not arrive ranked last.
+struct TravelTimeTail {
+    PooledQuantile median;
+    PooledQuantile percentile_95;
 };
 
 struct ConditionSummary {
@@ -69,8 +108,11 @@ struct ConditionSummary {
     std::size_t missing_runs = 0;
     OutcomeCounts emergency;
     OutcomeCounts others;
-    std::vector<MetricSummary> metrics;   ///< In the order of `all_metrics()`.
-    std::optional<GapClosed> gap_closed;  ///< Nothing without a solo condition, and for baselines.
+    TravelTimeTail travel_time;
+    std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
+    std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
+    std::optional<Recovery> recovery;      ///< Likewise.
+    std::optional<GapClosed> gap_closed;   ///< Nothing without a solo condition, and for baselines.
     /// Replications behind `gap_closed`: at least one emergency vehicle arrived in all three conditions.
     std::size_t gap_replications = 0;
 
@@ -92,6 +134,13 @@ struct Summary {
     double level = usual_level;
     std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
 };
+
+/// The conditions of `second`, each compared with the condition of the same name in `first`: equal units, so
+/// the same scenario, seed and condition, run twice. The summary is that of `second`, without scenarios and
+/// conditions that only one of the two has; `baseline` names the condition. Throws core::InputError when the
+/// two share no run that was made from the same seed and configuration.
+Summary compare_studies(const results::Results& first, const results::Results& second,
+                        double level = usual_level);
 
 /// A condition's baseline is the first condition of the same engine without policy parts; its solo times are
 /// those of the first condition with engine solo. Deterministic.

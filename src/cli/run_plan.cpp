@@ -13,9 +13,11 @@
 #include "cli/shipped_trainings.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
+#include "metrics/counts.hpp"
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
+#include "results/table_reader.hpp"
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
 #include "scenario/prepare.hpp"
@@ -36,8 +38,33 @@ std::string wide_edges_json(const roads::Network& network) {
     return rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Street names of edges outside junctions, as read_facts expects them.
+std::string streets_json(const roads::Network& network) {
+    nlohmann::ordered_json names = nlohmann::ordered_json::object();
+    for (const roads::Edge& edge : network.edges()) {
+        if (!edge.internal && !edge.name.empty()) names[edge.id] = edge.name;
+    }
+    return names.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Counted flows of a scenario, where it has them, as read_facts expects them. Throws core::InputError for
+/// edges that the network has not.
+void write_counts(const scenario::ScenarioConfig& config, const roads::Network& network,
+                  const std::filesystem::path& file) {
+    if (config.demand.counts.empty()) return;
+    const std::filesystem::path source = scenario::resolve(config, config.demand.counts);
+    std::vector<core::Problem> problems;
+    for (const metrics::EdgeCount& count : metrics::read_counts(source)) {
+        if (network.find_edge(count.edge)) continue;
+        problems.push_back({source.string(), fmt::format("the network has no edge {}", count.edge),
+                            "edges of the scenario's network", ""});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    core::write_atomically(file, core::read_file(source));
+}
+
 /// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts, its wide edges, and a picture for the report.
+/// destinations before any worker starts, its wide edges, its street names, and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const results::UnitSpec& unit,
                        const std::filesystem::path& folder) {
     const std::filesystem::path picture = folder / "network.svg";
@@ -49,6 +76,8 @@ void complete_scenario(const scenario::ScenarioConfig& config, const results::Un
                       demand);
     const std::string title = config.title.empty() ? config.name : config.title;
     core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
+    write_counts(config, built.network, folder / "counts.csv");
+    core::write_atomically(folder / "streets.json", streets_json(built.network));
     core::write_atomically(picture, scenario::network_picture(built.network, title));
 }
 
@@ -177,10 +206,11 @@ core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& opti
     return publish(store, options.printing);
 }
 
-core::ExitCode publish(const results::Store& store, Printing printing) {
-    const results::Results results = results::read_results(store);
-    results::write_tables(store, results);
-    const report::StudyFacts facts = report::facts_of(results, analysis::summarise(results), store.folder());
+core::ExitCode publish(const results::Store& store, Printing printing, double least_relevant_s) {
+    if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
+    const results::Results results = results::read_results(store, results::VehicleRows::emergency);
+    const report::StudyFacts facts =
+        report::facts_of(results, analysis::summarise(results), store.folder(), least_relevant_s);
     write_report(facts, store.folder() / "report.html");
     fmt::print("{}", printing == Printing::json ? report::json_tables(facts) : report::console_tables(facts));
     name_failures(store, results);

@@ -5,6 +5,7 @@
 
 #include "cli/common_options.hpp"
 #include "core/error.hpp"
+#include "report/facts.hpp"
 #include "results/store.hpp"
 #include "study/config.hpp"
 #include "study/plan.hpp"
@@ -30,8 +31,10 @@ study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options);
 /// tables. Interrupted, it says how to go on. Answers ok, runs_failed, interrupted or terminated.
 core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options);
 
-/// Writes the tables and `report.html` of a run folder from its runs, and prints the tables on standard
-/// output. Answers ok, runs_failed when a run failed, incomplete when one is missing.
-core::ExitCode publish(const results::Store& store, Printing printing);
+/// Writes the tables, where they are not current, and `report.html` of a run folder from its runs, and prints
+/// the tables on standard output. EV times that differ by less than `least_relevant_s` are no effect. Answers
+/// ok, runs_failed when a run failed, incomplete when one is missing.
+core::ExitCode publish(const results::Store& store, Printing printing,
+                       double least_relevant_s = report::usual_least_relevant_s);
 
 }  // namespace clearway::cli

@@ -36,6 +36,8 @@ Action configure_reproduce(CLI::App& app);
 Action configure_run(CLI::App& app);
 Action configure_study(CLI::App& app);
 Action configure_report(CLI::App& app);
+Action configure_compare(CLI::App& app);
+Action configure_results(CLI::App& app);
 Action configure_replay(CLI::App& app);
 Action configure_verify(CLI::App& app);
 Action configure_dataset(CLI::App& app);

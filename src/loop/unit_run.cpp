@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "core/files.hpp"
+#include "loop/road_layout.hpp"
 #include "results/recording.hpp"
 
 namespace clearway::loop {
@@ -152,7 +153,8 @@ results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition,
             .condition = condition,
             .provenance = provenance(summary.trace_hash),
             .metrics = summary.metrics,
-            .vehicles = std::move(summary.vehicles)};
+            .vehicles = std::move(summary.vehicles),
+            .traffic = std::move(summary.traffic)};
 }
 
 void UnitRun::record(const results::ConditionSpec& condition, StepListener& listener) {
@@ -164,6 +166,7 @@ void UnitRun::record(const results::ConditionSpec& condition, StepListener& list
 LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepListener* listener,
                                   metrics::LeaseTotals& leases) {
     add_emergency_vehicles();
+    watch_roads();
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
@@ -178,6 +181,16 @@ void UnitRun::add_emergency_vehicles() {
     for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
         session_->add(departure);
     }
+}
+
+void UnitRun::watch_roads() {
+    std::vector<metrics::EdgeCount> counts;
+    if (!config_.demand.counts.empty())
+        counts = metrics::read_counts(scenario::resolve(config_, config_.demand.counts));
+    metrics::RoadLayout layout = road_layout(network_.network, prepared_.emergency, counts);
+    layout.demand_until_s = prepared_.time.window_s;
+    layout.keep_journeys = unit_.replication < journeys_kept;
+    recorder_.watch(std::move(layout));
 }
 
 void UnitRun::run_solo() {

@@ -44,6 +44,8 @@ class UnitRun {
   private:
     void warm_up();
     void add_emergency_vehicles();
+    /// Has the recorder say where time is lost, from now on.
+    void watch_roads();
     /// Each emergency vehicle alone, one after the other, with every signal open.
     void run_solo();
     void open_all_signals();

@@ -11,6 +11,7 @@
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/link_comparison.hpp"
 #include "metrics/detail/trace_hash.hpp"
+#include "metrics/detail/traffic_watch.hpp"
 
 namespace clearway::metrics {
 namespace {
@@ -172,6 +173,7 @@ struct Recorder::State {
     detail::LinkComparison links;
     RunMetrics counted;  ///< What events and snapshots say so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
+    std::optional<detail::TrafficWatch> watch;
 };
 
 Recorder::Recorder(RecorderConfig config) : state_(std::make_unique<State>()) {
@@ -185,10 +187,15 @@ void Recorder::configure(RecorderConfig config) {
     state_->config = config;
 }
 
+void Recorder::watch(RoadLayout layout) {
+    state_->watch.emplace(std::move(layout));
+}
+
 void Recorder::step(const truth::Snapshot& snapshot, const truth::Events& events,
                     std::span<const traffic::Lease> leases) {
     state_->trace.add(snapshot);
     state_->trace.add(leases);
+    if (state_->watch) state_->watch->step(snapshot);
     RunMetrics& counted = state_->counted;
     counted.vehicle_steps += snapshot.size();
     counted.teleports += events.teleported.size();
@@ -216,6 +223,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     RunSummary summary;
     summary.vehicles = table.take_rows();
     summary.trace_hash = state_->trace.digest();
+    if (state_->watch) summary.traffic = state_->watch->tables();
     RunMetrics& metrics = summary.metrics;
     metrics = state_->counted;
     count_outcomes(summary.vehicles, metrics);

@@ -8,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "graph/proximity.hpp"
+#include "metrics/road_layout.hpp"
 #include "metrics/run_metrics.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/departure.hpp"
@@ -60,6 +61,9 @@ class Recorder {
 
     /// After the warm-up that conditions share, for what a condition knows better.
     void configure(RecorderConfig config);
+
+    /// From the next step on, also says where time is lost and how emergency vehicles travel.
+    void watch(RoadLayout layout);
 
     /// One step: counts events and adds snapshot and leases to the trace hash.
     void step(const truth::Snapshot& snapshot, const truth::Events& events,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
 
 namespace clearway::metrics {
@@ -162,6 +163,7 @@ struct RunSummary {
     RunMetrics metrics;
     std::vector<VehicleRow> vehicles;  ///< By planned departure, then id.
     std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
+    TrafficTables traffic;             ///< Empty unless the recorder watched.
 };
 
 }  // namespace clearway::metrics

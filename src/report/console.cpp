@@ -14,17 +14,7 @@ namespace {
 constexpr std::size_t page_width = 110;
 constexpr std::size_t label_width = 38;
 
-/// Names come from files: nothing in them may steer the terminal.
-std::string safe(const std::string& text) {
-    std::string result;
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        result += code < 0x20 || code == 0x7f ? '?' : letter;
-    }
-    return result;
-}
-
-/// The same for text of several lines.
+/// Names come from files: nothing in them may steer the terminal. For text of several lines.
 std::string safe_table(std::string text) {
     std::ranges::replace_if(
         text,
@@ -37,7 +27,7 @@ std::string safe_table(std::string text) {
 }
 
 std::string label(const ConditionFacts& condition) {
-    std::string text = safe(condition.title);
+    std::string text = printable(condition.title);
     if (condition.safety_checks_off) text += " (!)";
     return text;
 }
@@ -94,6 +84,8 @@ const char* effect_word(Effect effect) {
             return "better";
         case Effect::worse:
             return "worse";
+        case Effect::negligible:
+            return "not relevant";
         case Effect::none_shown:
             return "no effect shown";
         case Effect::undecided:
@@ -113,7 +105,7 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
         if (condition.is_compared()) {
             line += split_cell(outcome.difference, {.decimals = decimals, .sign = Sign::always},
                                measure.printed_factor);
-            line += effect_word(effect_of(outcome.difference, measure.better));
+            line += effect_word(effect_of(outcome, measure.better));
         }
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
@@ -144,7 +136,36 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
         append_wrapped(
             fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
                         counted(condition.failed.size(), "run"), condition.failed.size() + condition.runs,
-                        condition.failed.front().replication, safe(condition.failed.front().cause)),
+                        condition.failed.front().replication, printable(condition.failed.front().cause)),
+            text);
+    }
+}
+
+/// Median and 95th percentile over all EVs, those that did not arrive ranked last.
+void append_tails(const ScenarioFacts& scenario, std::string& text) {
+    auto out = std::back_inserter(text);
+    fmt::format_to(out, "\n{:<{}}{:>9}  {:<17}{:>9}  {}\n{:-<{}}\n", "EV travel time over all EVs, s",
+                   label_width, "median", "95 % interval", "95th perc.", "95 % interval", "", page_width);
+    for (const ConditionFacts& condition : scenario.conditions) {
+        std::string line = fmt::format("  {:<{}}", label(condition), label_width - 2);
+        line += split_cell(condition.travel_time_median, {}, 1.0);
+        line += split_cell(condition.travel_time_percentile_95, {}, 1.0);
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+}
+
+/// Pairs and vehicles that the differences of EV travel time leave out.
+void append_censored(const ScenarioFacts& scenario, std::string& text) {
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;
+        if (!paired || (paired->incomplete_pairs == 0 && paired->vehicles_left_out == 0)) continue;
+        append_wrapped(
+            fmt::format(
+                "Left out of differences of EV travel time: {}: {} of {} without an EV that arrived in "
+                "both conditions, and {} in the others that did not.",
+                label(condition), counted(paired->incomplete_pairs, "pair"),
+                paired->incomplete_pairs + paired->complete_pairs, counted(paired->vehicles_left_out, "EV")),
             text);
     }
 }
@@ -152,7 +173,7 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
 void append_scenario(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
     const auto table = published_table(scenario.name);
-    fmt::format_to(out, "{:=<{}}\n{}: {}\n", "", page_width, safe(scenario.name),
+    fmt::format_to(out, "{:=<{}}\n{}: {}\n", "", page_width, printable(scenario.name),
                    counted(scenario.replications, "replication"));
     if (table) {
         fmt::format_to(out, "\n{}\n", table->caption);
@@ -163,12 +184,15 @@ void append_scenario(const ScenarioFacts& scenario, std::string& text) {
     for (const MeasureInfo& measure : measures()) {
         append_measure(scenario, measure, text);
     }
+    append_tails(scenario, text);
     text += '\n';
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
         append_wrapped(
-            fmt::format("{}: {}", label(condition), safe(verdict(scenario, condition, Script::plain))), text);
+            fmt::format("{}: {}", label(condition), printable(verdict(scenario, condition, Script::plain))),
+            text);
     }
+    append_censored(scenario, text);
     append_runs(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (!wide.empty()) append_wrapped(wide, text);
@@ -190,7 +214,9 @@ std::string console_tables(const StudyFacts& study) {
     append_wrapped(
         "here: mean and half width of its 95 % interval. diff.: mean of the paired differences to the "
         "baseline of the "
-        "same replication; better or worse when its interval excludes 0. published: the dissertation's "
+        "same replication; better or worse when its interval excludes 0; not relevant where an EV's time "
+        "changes by less than what counts ("
+        "--least-difference). published: the dissertation's "
         "number, one "
         "unseeded run on a network of its own; not a result of this study.",
         text);

@@ -31,6 +31,15 @@ inline constexpr std::size_t measure_count = 11;
 /// What a difference means.
 enum class Better : std::uint8_t { lower, higher };
 
+/// Which differences of a measure matter.
+enum class Relevance : std::uint8_t {
+    any,  ///< Each that is certain: a fraction of a second for everybody adds up, a collision is a collision.
+    least,  ///< Those of at least `usual_least_relevant_s`, or what the user says: times of an EV.
+};
+/// Least difference of an EV's time that a verdict calls an effect, s. Assumed: below it nobody who sends an
+/// ambulance would notice, and it is four steps of the simulation.
+inline constexpr double usual_least_relevant_s = 1.0;
+
 /// How a measure is named and printed.
 struct MeasureInfo {
     Measure measure;
@@ -39,6 +48,7 @@ struct MeasureInfo {
     const char* unit;  ///< As printed: `s`, `%`, `per run`.
     const char* doc;   ///< One sentence for readers.
     Better better;
+    Relevance relevance;
     double printed_factor;  ///< From the field's unit to the printed one: 100 for %, else 1.
 };
 
@@ -56,11 +66,26 @@ struct Estimate {
     bool has_interval() const { return low.has_value() && high.has_value(); }
 };
 
+/// What is known of a paired difference beside its mean and t interval.
+struct PairedStatistics {
+    std::uint64_t complete_pairs = 0;
+    std::uint64_t incomplete_pairs = 0;   ///< Replications without a value in one of the two conditions.
+    std::uint64_t vehicles_left_out = 0;  ///< EVs of complete pairs that did not arrive in both.
+    Estimate bootstrap;                   ///< The mean difference again, with its BCa interval.
+    Estimate median;                      ///< Of the differences, with an interval from order statistics.
+    std::optional<double> effect_size;    ///< Cohen's d for pairs, d_z.
+    std::optional<double> t_p;
+    std::optional<double> wilcoxon_p;
+    std::optional<double> holm_p;  ///< Over the conditions of the scenario.
+};
+
 /// One measure of one condition.
 struct Outcome {
     Estimate value;
     Estimate
         difference;  ///< Paired, to the baseline of the same replications; empty where nothing is compared.
+    double least_relevant = 0.0;  ///< Smaller mean differences are no effect, in the measure's unit.
+    std::optional<PairedStatistics> paired;
 };
 
 /// How vehicles ended.
@@ -72,6 +97,87 @@ struct Endings {
     std::uint64_t removed = 0;
 
     std::uint64_t all() const { return arrived + running + teleported + not_inserted + removed; }
+};
+
+/// What happened to the actions of a condition's policy and to its vehicles, over all completed runs.
+struct Events {
+    std::uint64_t leases_issued = 0;
+    std::uint64_t leases_refused = 0;
+    std::uint64_t leases_expired = 0;
+    std::uint64_t collisions = 0;
+    std::uint64_t emergency_collisions = 0;
+    std::uint64_t teleports = 0;
+};
+
+/// EV travel times of one replication, s: means over the EVs that arrived in both conditions.
+struct TravelTimePair {
+    double baseline_s = 0.0;
+    double condition_s = 0.0;
+};
+
+/// Half width of the interval of the EV travel time difference after so many replications.
+struct PrecisionPoint {
+    std::uint64_t replications = 0;
+    double half_width_s = 0.0;
+};
+
+/// Whether a condition has enough replications.
+struct Precision {
+    std::vector<PrecisionPoint> points;  ///< From five replications on, at most `precision_points` of them.
+    double deviation_s = 0.0;            ///< Of the paired differences.
+    std::uint64_t needed = 0;            ///< For a half width of the least relevant difference (FHWA's rule).
+};
+inline constexpr std::size_t precision_points = 200;
+
+/// What a condition costs on one approach, s a run summed over vehicles that are no EVs, against the
+/// baseline.
+struct ApproachFacts {
+    std::string edge;
+    std::string street;   ///< May be empty.
+    Estimate difference;  ///< Time lost.
+    Estimate human;       ///< Of it, human-driven vehicles.
+    Estimate automated;   ///< Of it, automated vehicles.
+    Estimate waiting;     ///< Time stood.
+    std::optional<double> baseline_s;
+    std::optional<double> vehicles;       ///< A run, at the baseline.
+    std::optional<double> per_vehicle_s;  ///< Mean difference over them.
+};
+
+/// A counted flow and what the baseline's runs bring there.
+struct FlowFacts {
+    std::string edge;
+    std::string street;  ///< May be empty.
+    double counted_per_hour = 0.0;
+    std::optional<double> modelled_per_hour;  ///< Mean over the runs; nothing without a complete one.
+    std::optional<double> geh;
+};
+
+/// More vehicles standing on the other approaches of a signal than at the baseline, around an EV's passage.
+struct RecoveryFacts {
+    double offset_s = 0.0;
+    Estimate halted;
+};
+
+/// A moment of an EV's journey; times count from its departure.
+struct JourneyPlace {
+    double time_s = 0.0;
+    double distance_m = 0.0;
+};
+/// What a signal on its route showed to it for a while.
+struct SignalSpan {
+    std::string signal;
+    std::string state;  ///< `green`, `yellow`, `red`.
+    double distance_m = 0.0;
+    double from_s = 0.0;
+    double to_s = 0.0;
+};
+/// One EV in one run.
+struct JourneyFacts {
+    std::string vehicle;
+    std::string condition;  ///< Its title.
+    std::uint32_t replication = 0;
+    std::vector<JourneyPlace> places;
+    std::vector<SignalSpan> signals;
 };
 
 /// A run without a result.
@@ -110,6 +216,14 @@ struct ConditionFacts {
     std::uint64_t missing_runs = 0;  ///< Neither completed nor failed: the study is not at its end.
     std::vector<FailedRun> failed;
     Distribution travel_time;
+    Estimate travel_time_median;         ///< Over all EVs; without a value where fewer than half arrived.
+    Estimate travel_time_percentile_95;  ///< Likewise.
+    std::vector<TravelTimePair> travel_time_pairs;  ///< Complete ones, in the order of the replications.
+    std::optional<Precision> precision;             ///< Nothing below two pairs.
+    Events events;
+    std::vector<ApproachFacts> approaches;  ///< Where most changes first; empty where nothing is compared.
+    std::vector<RecoveryFacts> recovery;    ///< Ascending; likewise.
+    std::optional<double> recovered_after_s;
 
     bool is_compared() const { return baseline.has_value(); }
     const Outcome& outcome(Measure measure) const { return outcomes[static_cast<std::size_t>(measure)]; }
@@ -130,6 +244,9 @@ struct ScenarioFacts {
     std::string network_svg;  ///< Trusted markup, or empty where the folder holds no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; empty where the folder does not tell.
     std::uint64_t replications = 0;
+    double least_relevant_s = usual_least_relevant_s;
+    std::vector<FlowFacts> flows;            ///< In the order of the counts; empty for a scenario without.
+    std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
 };
 

@@ -26,6 +26,8 @@ const char* effect_name(Effect effect) {
             return "better";
         case Effect::worse:
             return "worse";
+        case Effect::negligible:
+            return "negligible";
         case Effect::none_shown:
             return "none_shown";
         case Effect::undecided:
@@ -42,6 +44,30 @@ Json to_json(const Endings& endings) {
             {"removed", endings.removed}};
 }
 
+Json to_json(const PairedStatistics& paired) {
+    return {{"complete_pairs", paired.complete_pairs},
+            {"incomplete_pairs", paired.incomplete_pairs},
+            {"vehicles_left_out", paired.vehicles_left_out},
+            {"bca_low_95", number_or_null(paired.bootstrap.low)},
+            {"bca_high_95", number_or_null(paired.bootstrap.high)},
+            {"median", number_or_null(paired.median.mean)},
+            {"median_low_95", number_or_null(paired.median.low)},
+            {"median_high_95", number_or_null(paired.median.high)},
+            {"effect_size_dz", number_or_null(paired.effect_size)},
+            {"t_p", number_or_null(paired.t_p)},
+            {"holm_p", number_or_null(paired.holm_p)},
+            {"wilcoxon_p", number_or_null(paired.wilcoxon_p)}};
+}
+
+Json to_json(const Events& events) {
+    return {{"leases_issued", events.leases_issued},
+            {"leases_refused", events.leases_refused},
+            {"leases_expired", events.leases_expired},
+            {"collisions", events.collisions},
+            {"emergency_collisions", events.emergency_collisions},
+            {"teleports", events.teleports}};
+}
+
 Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     Json result = Json::object();
     for (const MeasureInfo& measure : measures()) {
@@ -49,7 +75,8 @@ Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition)
         Json entry = to_json(outcome.value, "replications");
         if (condition.is_compared()) {
             entry["difference"] = to_json(outcome.difference, "pairs");
-            entry["effect"] = effect_name(effect_of(outcome.difference, measure.better));
+            entry["effect"] = effect_name(effect_of(outcome, measure.better));
+            if (outcome.paired) entry["paired"] = to_json(*outcome.paired);
         }
         if (is_published(measure.measure)) {
             entry["published"] =
@@ -74,8 +101,16 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"runs", condition.runs},
         {"failed_runs", std::move(failed)},
         {"measures", measures_of(scenario, condition)},
+        {"emergency_travel_time_median_s", to_json(condition.travel_time_median, "replications")},
+        {"emergency_travel_time_percentile_95_s",
+         to_json(condition.travel_time_percentile_95, "replications")},
+        {"events", to_json(condition.events)},
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
+    if (condition.precision) {
+        result["precision"] = {{"deviation_s", condition.precision->deviation_s},
+                               {"replications_needed", condition.precision->needed}};
+    }
     if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain);
     return result;
 }
@@ -128,6 +163,7 @@ std::string json_tables(const StudyFacts& study) {
         }
         scenarios.push_back({{"name", scenario.name},
                              {"replications", scenario.replications},
+                             {"least_relevant_s", scenario.least_relevant_s},
                              {"conditions", std::move(conditions)}});
         if (scenario.wide_edges) scenarios.back()["wide_edges"] = to_json(*scenario.wide_edges);
     }

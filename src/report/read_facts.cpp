@@ -13,6 +13,7 @@
 #include "analysis/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -57,7 +58,7 @@ Endings endings_from(const analysis::OutcomeCounts& counts) {
     return {counts.arrived, counts.running_at_end, counts.teleported, counts.not_inserted, counts.removed};
 }
 
-using Values = std::vector<std::optional<double>>;
+using analysis::Values;
 
 /// Vehicles that did not arrive, by replication: the sum of three metrics.
 Values not_arrived(const analysis::ConditionSummary& condition) {
@@ -75,23 +76,27 @@ Values not_arrived(const analysis::ConditionSummary& condition) {
     return total;
 }
 
-Estimate mean_of(const Values& values, double level) {
-    std::vector<double> present;
-    for (const auto& value : values) {
-        if (value) present.push_back(*value);
+Estimate estimate_with(const std::optional<double>& mean, const std::optional<analysis::Interval>& interval,
+                       std::uint64_t count) {
+    Estimate result{mean, std::nullopt, std::nullopt, count};
+    if (interval) {
+        result.low = interval->low;
+        result.high = interval->high;
     }
-    return estimate_from(analysis::estimate_mean(present, level));
+    return result;
 }
 
-Estimate difference_of(const Values& condition, const Values& baseline, double level) {
-    std::vector<double> with;
-    std::vector<double> without;
-    for (std::size_t row = 0; row < std::min(condition.size(), baseline.size()); ++row) {
-        if (!condition[row] || !baseline[row]) continue;
-        with.push_back(*condition[row]);
-        without.push_back(*baseline[row]);
-    }
-    return estimate_from(analysis::estimate_difference(with, without, level));
+PairedStatistics statistics_of(const analysis::Comparison& comparison) {
+    const auto mean = comparison.difference ? std::optional(comparison.difference->mean) : std::nullopt;
+    return {.complete_pairs = comparison.complete_pairs,
+            .incomplete_pairs = comparison.incomplete_pairs,
+            .vehicles_left_out = comparison.vehicles_left_out,
+            .bootstrap = estimate_with(mean, comparison.bootstrap, comparison.complete_pairs),
+            .median = estimate_with(comparison.median, comparison.median_interval, comparison.complete_pairs),
+            .effect_size = comparison.effect_size,
+            .t_p = comparison.t_p,
+            .wilcoxon_p = comparison.wilcoxon_p,
+            .holm_p = comparison.holm_p};
 }
 
 /// Fills every measure that the summary holds under the name of its field.
@@ -101,30 +106,97 @@ void fill_outcomes(const analysis::ConditionSummary& summary, const analysis::Co
         Outcome& outcome = facts.outcome(measure.measure);
         if (measure.measure == Measure::gap_closed) {
             if (!summary.gap_closed) continue;
-            outcome.value = {summary.gap_closed->value, std::nullopt, std::nullopt, summary.gap_replications};
-            if (summary.gap_closed->interval) {
-                outcome.value.low = summary.gap_closed->interval->low;
-                outcome.value.high = summary.gap_closed->interval->high;
-            }
+            outcome.value = estimate_with(summary.gap_closed->value, summary.gap_closed->interval,
+                                          summary.gap_replications);
         } else if (measure.measure == Measure::unfinished) {
             const Values values = not_arrived(summary);
-            outcome.value = mean_of(values, level);
+            const auto kind = analysis::MetricKind::count;
+            outcome.value = estimate_from(analysis::estimate_values(values, kind, level));
             if (baseline != nullptr)
-                outcome.difference = difference_of(values, not_arrived(*baseline), level);
+                outcome.difference =
+                    estimate_from(analysis::estimate_paired(values, not_arrived(*baseline), kind, level));
         } else {
             const analysis::MetricSummary& metric = summary.metric(measure.field);
             outcome.value = estimate_from(metric.estimate);
-            if (metric.comparison) outcome.difference = estimate_from(metric.comparison->difference);
+            if (!metric.comparison) continue;
+            outcome.difference = estimate_from(metric.comparison->difference);
+            outcome.paired = statistics_of(*metric.comparison);
         }
     }
 }
 
+/// Half widths as the replications came in. Means and sums of squares by Welford 1962.
+std::optional<Precision> precision_of(const std::vector<TravelTimePair>& pairs, double level,
+                                      double least_relevant_s) {
+    constexpr std::size_t first_drawn = 5;  // before it t makes the curve's start hide the rest
+    if (pairs.size() < 2) return std::nullopt;
+    Precision precision;
+    const std::size_t stride = pairs.size() / precision_points + 1;
+    double mean = 0.0;
+    double squares = 0.0;
+    for (std::size_t n = 1; n <= pairs.size(); ++n) {
+        const double difference = pairs[n - 1].condition_s - pairs[n - 1].baseline_s;
+        const double before = difference - mean;
+        mean += before / static_cast<double>(n);
+        squares += before * (difference - mean);
+        if (n < 2) continue;
+        precision.deviation_s = std::sqrt(squares / static_cast<double>(n - 1));
+        if (n >= first_drawn && ((pairs.size() - n) % stride == 0))
+            precision.points.push_back({n, analysis::half_width(precision.deviation_s, n, level)});
+    }
+    precision.needed = analysis::replications_needed(
+        precision.deviation_s, least_relevant_s > 0.0 ? least_relevant_s : usual_least_relevant_s, level);
+    return precision;
+}
+
+void fill_pairs(const analysis::ConditionSummary& summary, double level, double least_relevant_s,
+                ConditionFacts& facts) {
+    const auto& comparison = summary.metric("emergency_travel_time_s").comparison;
+    if (!comparison) return;
+    for (std::size_t pair = 0; pair < comparison->complete_pairs; ++pair)
+        facts.travel_time_pairs.push_back(
+            {comparison->baseline_values[pair], comparison->condition_values[pair]});
+    facts.precision = precision_of(facts.travel_time_pairs, level, least_relevant_s);
+}
+
+void fill_traffic(const analysis::ConditionSummary& summary, ConditionFacts& facts) {
+    for (const analysis::ApproachCost& cost : summary.approaches)
+        facts.approaches.push_back({cost.edge, "", estimate_from(cost.difference), estimate_from(cost.human),
+                                    estimate_from(cost.automated), estimate_from(cost.waiting),
+                                    cost.baseline_s, cost.vehicles, cost.per_vehicle_s});
+    if (!summary.recovery) return;
+    facts.recovered_after_s = summary.recovery->recovered_after_s;
+    for (const analysis::RecoveryPoint& point : summary.recovery->points)
+        facts.recovery.push_back({point.offset_s, estimate_from(point.difference)});
+}
+
+std::uint64_t total_of(const analysis::ConditionSummary& summary, const char* metric) {
+    double total = 0.0;
+    for (const std::optional<double>& value : summary.metric(metric).values)
+        total += value.value_or(0.0);
+    return static_cast<std::uint64_t>(total);
+}
+
+Events events_of(const analysis::ConditionSummary& summary) {
+    return {.leases_issued = total_of(summary, "leases_issued"),
+            .leases_refused = total_of(summary, "leases_refused"),
+            .leases_expired = total_of(summary, "leases_expired"),
+            .collisions = total_of(summary, "collisions"),
+            .emergency_collisions = total_of(summary, "emergency_collisions"),
+            .teleports = total_of(summary, "teleports")};
+}
+
+Estimate estimate_from(const analysis::PooledQuantile& quantile, std::uint64_t replications) {
+    return estimate_with(quantile.value, quantile.interval, replications);
+}
+
 ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const results::Manifest& manifest,
-                             double level) {
+                             double level, double least_relevant_s) {
     ScenarioFacts facts;
     facts.name = summary.scenario;
     facts.title = summary.title;
     facts.replications = manifest.replications;
+    facts.least_relevant_s = least_relevant_s;
     for (const analysis::ConditionSummary& one : summary.conditions) {
         ConditionFacts condition;
         condition.name = one.condition.name;
@@ -141,6 +213,15 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
             condition.baseline = static_cast<std::size_t>(baseline - summary.conditions.data());
         }
         fill_outcomes(one, baseline, level, condition);
+        for (const MeasureInfo& measure : measures()) {
+            if (measure.relevance == Relevance::least)
+                condition.outcome(measure.measure).least_relevant = least_relevant_s;
+        }
+        condition.travel_time_median = estimate_from(one.travel_time.median, one.complete_runs);
+        condition.travel_time_percentile_95 = estimate_from(one.travel_time.percentile_95, one.complete_runs);
+        condition.events = events_of(one);
+        fill_pairs(one, level, least_relevant_s, condition);
+        fill_traffic(one, condition);
         facts.conditions.push_back(std::move(condition));
     }
     return facts;
@@ -250,6 +331,13 @@ void add_files(const results::Manifest& manifest, const fs::path& folder, StudyF
             const std::string svg = core::read_file(picture);
             if (is_safe_picture(svg)) scenario.network_svg = svg.substr(svg.find("<svg"));
         }
+        const auto streets = detail::streets_in(folder / "scenarios" / scenario.name / "streets.json");
+        for (ConditionFacts& condition : scenario.conditions) {
+            for (ApproachFacts& approach : condition.approaches) {
+                if (const auto found = streets.find(approach.edge); found != streets.end())
+                    approach.street = found->second;
+            }
+        }
         scenario.wide_edges = wide_edges_in(folder / "scenarios" / scenario.name / "wide_edges.json");
         for (const results::ScenarioEntry& entry : manifest.scenarios) {
             if (entry.name == scenario.name) scenario.attribution = entry.attribution;
@@ -262,12 +350,13 @@ void add_files(const results::Manifest& manifest, const fs::path& folder, StudyF
 
 }  // namespace
 
-StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary,
-                    const fs::path& folder) {
+StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary, const fs::path& folder,
+                    double least_relevant_s) {
     StudyFacts study;
     study.title = fmt::format("Clearway: {}", summary.manifest.study);
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
-        study.scenarios.push_back(scenario_facts(scenario, summary.manifest, summary.level));
+        study.scenarios.push_back(
+            scenario_facts(scenario, summary.manifest, summary.level, least_relevant_s));
     }
     std::map<ConditionKey, ConditionFacts*> conditions;
     for (ScenarioFacts& scenario : study.scenarios) {
@@ -279,14 +368,28 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     add_failures(results, conditions);
     add_files(summary.manifest, folder, study);
     study.failure_curves = failure_curves(summary);
+    const results::Store store = results::Store::open(folder);
+    for (ScenarioFacts& scenario : study.scenarios)
+        scenario.journeys = detail::journeys_in(store, scenario);
+    for (ScenarioFacts& scenario : study.scenarios) {
+        if (scenario.conditions.empty()) continue;
+        const fs::path home = folder / "scenarios" / scenario.name;
+        scenario.flows =
+            detail::flows_in(home / "counts.csv", results, scenario.name, scenario.conditions.front().name);
+        const auto streets = detail::streets_in(home / "streets.json");
+        for (FlowFacts& flow : scenario.flows) {
+            if (const auto found = streets.find(flow.edge); found != streets.end())
+                flow.street = found->second;
+        }
+    }
     study.provenance = provenance_of(results);
     return study;
 }
 
-StudyFacts read_facts(const fs::path& folder) {
+StudyFacts read_facts(const fs::path& folder, double least_relevant_s) {
     const results::Store store = results::Store::open(folder);
-    const results::Results results = results::read_results(store);
-    return facts_of(results, analysis::summarise(results), folder);
+    const results::Results results = results::read_results(store, results::VehicleRows::emergency);
+    return facts_of(results, analysis::summarise(results), folder, least_relevant_s);
 }
 
 }  // namespace clearway::report

@@ -14,15 +14,18 @@ namespace clearway::report {
 ///     what results::Store holds                      runs, failures, manifest
 ///     scenarios/SCENARIO/network.svg                 picture of the network; optional
 ///     scenarios/SCENARIO/wide_edges.json             edges with three or more lanes for cars; optional
+///     scenarios/SCENARIO/counts.csv                  counted flows; optional
+///     scenarios/SCENARIO/streets.json                street names by edge; optional
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional
 ///
-/// Reads only. Throws core::InputError for a folder that is no run folder and for damaged files.
-StudyFacts read_facts(const std::filesystem::path& folder);
+/// Reads only. EV times that differ by less than `least_relevant_s` are no effect. Throws core::InputError
+/// for a folder that is no run folder and for damaged files.
+StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
 
 /// The same from results that were read and summarised before.
 StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary,
-                    const std::filesystem::path& folder);
+                    const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
 /// foreign elements, or addresses to load from. Run folders travel; a picture that fails is left out.

@@ -7,6 +7,15 @@
 
 namespace clearway::report {
 
+std::string printable(const std::string& text) {
+    std::string result;
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        result += code < 0x20 || code == 0x7f ? '?' : letter;
+    }
+    return result;
+}
+
 std::string missing(Script script) {
     return script == Script::plain ? "-" : "\u2013";
 }

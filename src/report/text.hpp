@@ -33,6 +33,10 @@ std::string number(double value, NumberStyle style);
 /// `factor` scales to the printed unit.
 std::string estimate(const Estimate& estimate, NumberStyle style, double factor = 1.0);
 
+/// Text for a terminal: names come from files, and nothing in them may steer it. Control characters become
+/// `?`.
+std::string printable(const std::string& text);
+
 /// What stands for a missing number.
 std::string missing(Script script);
 

@@ -1,5 +1,6 @@
 #include "report/verdict.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,14 +35,18 @@ std::string relative_text(const ScenarioFacts& scenario, const ConditionFacts& c
 }
 
 std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const Estimate& difference = condition.outcome(Measure::emergency_travel_time).difference;
+    const Outcome& outcome = condition.outcome(Measure::emergency_travel_time);
+    const Estimate& difference = outcome.difference;
     const std::string amount = difference_text(scenario, condition, Measure::emergency_travel_time, script) +
                                relative_text(scenario, condition, Measure::emergency_travel_time, script);
-    switch (effect_of(difference, Better::lower)) {
+    switch (effect_of(outcome, Better::lower)) {
         case Effect::better:
             return fmt::format("helped: EV travel time {}", amount);
         case Effect::worse:
             return fmt::format("harmed: EV travel time {}", amount);
+        case Effect::negligible:
+            return fmt::format("no relevant effect: EV travel time {}, where {} s would count", amount,
+                               number(outcome.least_relevant, {1, script}));
         case Effect::none_shown:
             return fmt::format("no effect shown: EV travel time {}", amount);
         case Effect::undecided:
@@ -55,7 +60,7 @@ std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition,
 std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::string text;
     const auto add = [&](Measure measure, const char* better, const char* worse, const char* none) {
-        const Effect effect = effect_of(condition.outcome(measure).difference, info(measure).better);
+        const Effect effect = effect_of(condition.outcome(measure), info(measure).better);
         if (effect == Effect::undecided) return;
         const char* const words = effect == Effect::better ? better : effect == Effect::worse ? worse : none;
         if (*words == '\0') return;
@@ -71,11 +76,15 @@ std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition
 
 }  // namespace
 
-Effect effect_of(const Estimate& difference, Better better) {
+Effect effect_of(const Outcome& outcome, Better better) {
+    const Estimate& difference = outcome.difference;
     if (!difference.has_interval()) return Effect::undecided;
-    if (*difference.high < 0.0) return better == Better::lower ? Effect::better : Effect::worse;
-    if (*difference.low > 0.0) return better == Better::lower ? Effect::worse : Effect::better;
-    return Effect::none_shown;
+    const bool excludes_zero = *difference.high < 0.0 || *difference.low > 0.0;
+    const double least = outcome.least_relevant;
+    const bool within = -least < *difference.low && *difference.high < least;
+    if (within || (excludes_zero && std::abs(*difference.mean) < least)) return Effect::negligible;
+    if (!excludes_zero) return Effect::none_shown;
+    return (*difference.high < 0.0) == (better == Better::lower) ? Effect::better : Effect::worse;
 }
 
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -93,16 +102,16 @@ std::string headline(const StudyFacts& study) {
     std::vector<std::string> parts;
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::size_t compared = 0;
-        std::array<std::size_t, 4> seen = {};
+        std::array<std::size_t, 5> seen = {};
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared()) continue;
             ++compared;
-            const Estimate& difference = condition.outcome(Measure::emergency_travel_time).difference;
-            ++seen[static_cast<std::size_t>(effect_of(difference, Better::lower))];
+            const Outcome& outcome = condition.outcome(Measure::emergency_travel_time);
+            ++seen[static_cast<std::size_t>(effect_of(outcome, Better::lower))];
         }
         if (compared == 0) continue;
-        constexpr std::array<const char*, 4> words = {"EVs faster", "slower", "no effect shown",
-                                                      "no verdict"};
+        constexpr std::array<const char*, 5> words = {"EVs faster", "slower", "no relevant effect",
+                                                      "no effect shown", "no verdict"};
         std::vector<std::string> findings;
         for (std::size_t effect = 0; effect < seen.size(); ++effect) {
             if (seen[effect] == 0) continue;

@@ -54,6 +54,12 @@ struct Provenance {
     }
 };
 
+/// Which vehicles of a run are read.
+enum class VehicleRows : std::uint8_t {
+    all,
+    emergency,  ///< The others are most of a run, and what a report says of them stands in its metrics.
+};
+
 /// A completed run. A function of scenario, condition, seed and versions alone: no clock time, no machine.
 struct RunRecord {
     RunKey key;
@@ -61,6 +67,8 @@ struct RunRecord {
     Provenance provenance;
     metrics::RunMetrics metrics;
     std::vector<metrics::VehicleRow> vehicles;
+    /// Where time was lost; empty for solo. Journeys are written and not read back: see Store::read_journeys.
+    metrics::TrafficTables traffic;
 
     bool operator==(const RunRecord&) const = default;
 };

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "results/detail/record_files.hpp"
+#include "results/detail/traffic_files.hpp"
 #include "results/recording.hpp"
 
 namespace clearway::results {
@@ -205,12 +206,13 @@ RunRecord Store::read_checked(const RunKey& key, std::string& vehicles) const {
     return record;
 }
 
-std::optional<RunRecord> Store::read(const RunKey& key) const {
+std::optional<RunRecord> Store::read(const RunKey& key, VehicleRows rows) const {
     if (!complete(key)) return std::nullopt;
     try {
         std::string vehicles;
         RunRecord record = read_checked(key, vehicles);
-        record.vehicles = detail::vehicles_from_csv(vehicles, (run_folder(key) / "vehicles.csv").string());
+        record.vehicles =
+            detail::vehicles_from_csv(vehicles, (run_folder(key) / "vehicles.csv").string(), rows);
         return record;
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
@@ -246,6 +248,12 @@ std::vector<SetAside> Store::set_damaged_aside(const std::vector<RunKey>& keys) 
         }
     }
     return moved;
+}
+
+std::vector<metrics::JourneyRow> Store::read_journeys(const RunKey& key) const {
+    if (!complete(key)) return {};
+    const std::string file = (run_folder(key) / "run.json").string();
+    return detail::journeys_from_json(detail::parse_object(core::read_file(file), file), file);
 }
 
 std::optional<RunTiming> Store::read_timing(const RunKey& key) const {

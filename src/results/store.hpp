@@ -67,7 +67,10 @@ class Store {
     /// for.
     bool done(const UnitSpec& unit, const ConditionSpec& condition) const;
     /// Nothing unless the run is complete. Throws core::InputError for a damaged record.
-    std::optional<RunRecord> read(const RunKey& key) const;
+    std::optional<RunRecord> read(const RunKey& key, VehicleRows rows = VehicleRows::all) const;
+    /// How the emergency vehicles of a run travelled; empty for a run that is not complete and for those
+    /// whose journeys were not kept. Throws core::InputError for a damaged record.
+    std::vector<metrics::JourneyRow> read_journeys(const RunKey& key) const;
     std::optional<RunTiming> read_timing(const RunKey& key) const;
     std::optional<FailureRecord> read_failure(const RunKey& key) const;
     /// Forgets a failure so that the run can be tried again.
@@ -97,7 +100,7 @@ struct Results {
     std::vector<FailureRecord> failures;
     std::vector<RunKey> missing;  ///< Neither complete nor failed.
 };
-Results read_results(const Store& store);
+Results read_results(const Store& store, VehicleRows rows = VehicleRows::all);
 
 /// All runs as one tidy table, one line a run of the manifest: scenario, condition, replication, outcome (ok,
 /// failed, missing), cause, metrics, trace hash. Sorted; equal results give equal bytes.

@@ -31,11 +31,11 @@ std::string incomplete_line(const RunKey& key, std::string_view outcome, std::st
 
 }  // namespace
 
-Results read_results(const Store& store) {
+Results read_results(const Store& store, VehicleRows rows) {
     Results results;
     results.manifest = store.manifest();
     for (const RunKey& key : results.manifest.runs()) {
-        if (auto run = store.read(key)) {
+        if (auto run = store.read(key, rows)) {
             results.runs.push_back(std::move(*run));
         } else if (auto failure = store.read_failure(key)) {
             results.failures.push_back(std::move(*failure));

@@ -96,6 +96,7 @@ struct Demand {
     int automated = 0;
     int emergency = 0;
     double density = 1.0;
+    std::string counts;
 
     static constexpr auto fields() {
         using S = Demand;
@@ -108,7 +109,9 @@ struct Demand {
                         "dissertation TABLE I"},
             core::Field{"density", "1", &S::density, 0.0, 100.0,
                         "Factor on the human and automated vehicles; at most 1 for measured demand.",
-                        "1: as counted"});
+                        "1: as counted"},
+            core::Field{"counts", "", &S::counts, 0, 0,
+                        "CSV of counted flows, edge and vehicles_per_hour, to judge the demand by.", "none"});
     }
 };
 

@@ -1,10 +1,12 @@
+#include "analysis/bootstrap.hpp"
+
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include <gmock/gmock.h>
 
-#include "analysis/estimate.hpp"
 #include "analysis/worked_examples.hpp"
 
 namespace clearway::analysis {
@@ -12,44 +14,67 @@ namespace {
 
 using examples::spatial_a;
 
-RowStatistic mean_of(const std::vector<double>& values) {
-    return [&values](std::span<const std::size_t> rows) {
-        double sum = 0.0;
-        for (const std::size_t row : rows)
-            sum += values[row];
-        return sum / static_cast<double>(rows.size());
-    };
+/// The biased variance, equation (14.2) of Efron and Tibshirani 1993.
+double variance(RowCounts counts) {
+    double n = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t row = 0; row < spatial_a.size(); ++row) {
+        n += counts[row];
+        sum += counts[row] * spatial_a[row];
+        squares += counts[row] * spatial_a[row] * spatial_a[row];
+    }
+    return squares / n - (sum / n) * (sum / n);
 }
 
-/// The biased variance, equation (14.2) of Efron and Tibshirani 1993.
-double variance(std::span<const std::size_t> rows) {
-    const double mean = mean_of(spatial_a)(rows);
-    double sum = 0.0;
-    for (const std::size_t row : rows)
-        sum += (spatial_a[row] - mean) * (spatial_a[row] - mean);
-    return sum / static_cast<double>(rows.size());
+Resamples resamples_of(std::size_t rows, std::size_t count = 2000,
+                       SmallSample small_sample = SmallSample::expanded, double level = 0.95) {
+    BootstrapConfig config;
+    config.resamples = count;
+    config.small_sample = small_sample;
+    config.level = level;
+    return Resamples(rows, config);
+}
+
+TEST(Resamples, DrawAsManyRowsAsThereAre) {
+    const Resamples resamples = resamples_of(13, 50);
+    std::set<std::vector<std::uint8_t>> different;
+    for (std::size_t number = 0; number < 50; ++number) {
+        const RowCounts counts = resamples.counts(number);
+        EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 13);
+        different.emplace(counts.begin(), counts.end());
+    }
+    EXPECT_EQ(different.size(), 50U);
 }
 
 TEST(BootstrapBca, AgreesWithEfronAndTibshirani) {
     // Table 14.2: observed 171.5; 90 % BCa interval (115.8, 259.6) from 2000 resamples.
-    std::vector<std::size_t> all(spatial_a.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    ASSERT_NEAR(variance(all), 171.5, 0.05);
-    BootstrapConfig config;
-    config.resamples = 20000;
-    config.level = 0.90;
-    config.small_sample = SmallSample::as_published;
-    const auto interval = bootstrap_bca(spatial_a.size(), variance, config);
+    ASSERT_NEAR(variance(std::vector<std::uint8_t>(spatial_a.size(), 1)), 171.5, 0.05);
+    const auto interval =
+        bootstrap_bca(resamples_of(spatial_a.size(), 20000, SmallSample::as_published, 0.90), variance);
     ASSERT_TRUE(interval);
     EXPECT_NEAR(interval->low, 115.8, 3.0);
     EXPECT_NEAR(interval->high, 259.6, 6.0);
+}
+
+TEST(BootstrapBca, OfMeansIsThatOfTheSameStatisticOverRows) {
+    std::vector<double> squares;
+    for (const double value : spatial_a)
+        squares.push_back(value * value);
+    const Resamples resamples = resamples_of(spatial_a.size());
+    const std::vector<std::span<const double>> columns = {spatial_a, squares};
+    const auto by_means = bootstrap_bca(
+        resamples, columns, [](std::span<const double> means) { return means[1] - means[0] * means[0]; });
+    const auto by_rows = bootstrap_bca(resamples, variance);
+    EXPECT_NEAR(by_means->low, by_rows->low, 1e-8);
+    EXPECT_NEAR(by_means->high, by_rows->high, 1e-8);
 }
 
 TEST(BootstrapBca, IsCloseToTheTIntervalForASymmetricMean) {
     std::vector<double> values;
     for (int row = -20; row <= 20; ++row)
         values.push_back(row);
-    const auto interval = bootstrap_bca(values.size(), mean_of(values));
+    const auto interval = bootstrap_bca_of_mean(resamples_of(values.size()), values);
     const auto estimate = estimate_mean(values);
     ASSERT_TRUE(interval);
     EXPECT_NEAR(interval->low, estimate->interval->low, 0.35);
@@ -57,49 +82,59 @@ TEST(BootstrapBca, IsCloseToTheTIntervalForASymmetricMean) {
 }
 
 TEST(BootstrapBca, RepeatsWithItsSeedAndMovesWithAnother) {
-    const auto first = bootstrap_bca(spatial_a.size(), variance);
-    const auto again = bootstrap_bca(spatial_a.size(), variance);
+    const auto first = bootstrap_bca(Resamples(spatial_a.size()), variance);
+    const auto again = bootstrap_bca(Resamples(spatial_a.size()), variance);
     BootstrapConfig other;
     other.seed = 2;
-    const auto moved = bootstrap_bca(spatial_a.size(), variance, other);
+    const auto moved = bootstrap_bca(Resamples(spatial_a.size(), other), variance);
     EXPECT_EQ(first->low, again->low);
     EXPECT_NE(first->low, moved->low);
 }
 
 TEST(BootstrapBca, IsWiderWhenSmallSamplesAreMadeUpFor) {
-    BootstrapConfig published;
-    published.small_sample = SmallSample::as_published;
-    const auto narrow = bootstrap_bca(spatial_a.size(), variance, published);
-    const auto wide = bootstrap_bca(spatial_a.size(), variance);
+    const auto narrow =
+        bootstrap_bca(resamples_of(spatial_a.size(), 2000, SmallSample::as_published), variance);
+    const auto wide = bootstrap_bca(resamples_of(spatial_a.size()), variance);
     EXPECT_LT(wide->low, narrow->low);
     EXPECT_GT(wide->high, narrow->high);
 }
 
 TEST(BootstrapBca, SaysNothingWhereNothingCanBeSaid) {
     const std::vector<double> same = {2.0, 2.0, 2.0, 2.0};
-    EXPECT_FALSE(bootstrap_bca(same.size(), mean_of(same)));
-    EXPECT_FALSE(bootstrap_bca(2, mean_of(same)));
-    EXPECT_FALSE(bootstrap_bca(4, [](std::span<const std::size_t> rows) {
-        return rows[0] == 0 ? std::numeric_limits<double>::infinity() : 1.0;
+    EXPECT_FALSE(bootstrap_bca_of_mean(resamples_of(4), same));
+    EXPECT_FALSE(bootstrap_bca_of_mean(resamples_of(2), std::vector{1.0, 2.0}));
+    EXPECT_FALSE(bootstrap_bca(resamples_of(4), [](RowCounts counts) {
+        return counts[0] == 0 ? std::numeric_limits<double>::infinity() : 1.0;
     }));
+}
+
+TEST(PooledQuantile, CountsMembersWithoutAValueAboveAllOthers) {
+    const std::vector<Cluster> clusters = {{{10.0, 30.0}, 0}, {{20.0}, 1}, {{40.0}, 0}, {{50.0}, 0}};
+    const Resamples resamples = resamples_of(clusters.size());
+    // Ascending: 10 20 30 40 50 and one that did not arrive.
+    EXPECT_EQ(pooled_quantile(clusters, 0.5, resamples).value, 30.0);
+    EXPECT_EQ(pooled_quantile(clusters, 5.0 / 6.0, resamples).value, 50.0);
+    EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples).value);
+    EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples).interval);
 }
 
 TEST(GapClosed, IsTheShareOfTheWayFromBaselineToSolo) {
     const std::vector<double> baseline = {100.0, 120.0, 140.0, 110.0};
     const std::vector<double> solo = {60.0, 60.0, 80.0, 70.0};
     const std::vector<double> condition = {80.0, 100.0, 105.0, 85.0};
-    const auto gap = gap_closed(condition, baseline, solo);
+    const Resamples resamples = resamples_of(baseline.size());
+    const auto gap = gap_closed(condition, baseline, solo, resamples);
     ASSERT_TRUE(gap && gap->interval);
     EXPECT_DOUBLE_EQ(gap->value, (470.0 - 370.0) / (470.0 - 270.0));
     EXPECT_TRUE(gap->interval->contains(gap->value));
-    EXPECT_DOUBLE_EQ(gap_closed(solo, baseline, solo)->value, 1.0);
-    EXPECT_DOUBLE_EQ(gap_closed(baseline, baseline, solo)->value, 0.0);
+    EXPECT_DOUBLE_EQ(gap_closed(solo, baseline, solo, resamples)->value, 1.0);
+    EXPECT_DOUBLE_EQ(gap_closed(baseline, baseline, solo, resamples)->value, 0.0);
 }
 
 TEST(GapClosed, NeedsAGap) {
     const std::vector<double> times = {60.0, 70.0, 80.0};
-    EXPECT_FALSE(gap_closed(times, times, times));
-    EXPECT_FALSE(gap_closed({}, {}, {}));
+    EXPECT_FALSE(gap_closed(times, times, times, resamples_of(3)));
+    EXPECT_FALSE(gap_closed({}, {}, {}, resamples_of(0)));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "analysis/estimate.hpp"
+#include "analysis/bootstrap.hpp"
 #include "core/random.hpp"
 
 namespace clearway::analysis {
@@ -46,7 +46,8 @@ double coverage_of_gap_closed(std::size_t n, int samples, BootstrapConfig config
             condition[row] = 60.0 + 0.6 * delay + 5.0 * draws.normal(core::Purpose::driver, subject);
         }
         config.seed = static_cast<std::uint64_t>(sample);
-        held += gap_closed(condition, baseline, solo, config)->interval->contains(0.4) ? 1 : 0;
+        const Resamples resamples(n, config);
+        held += gap_closed(condition, baseline, solo, resamples)->interval->contains(0.4) ? 1 : 0;
     }
     return held / static_cast<double>(samples);
 }
@@ -60,6 +61,128 @@ TEST(Coverage, OfTheBcaIntervalOfTheGapClosedIsNominal) {
         EXPECT_LE(share, 0.96) << n;
         RecordProperty("share_" + std::to_string(n), std::to_string(share));
     }
+}
+
+/// Skewed values with the median 1: delays as queues make them.
+double skewed(std::uint64_t subject) {
+    return std::exp(0.8 * draws.normal(core::Purpose::demand, subject));
+}
+
+double coverage_of_quantile(std::size_t n, double share, double truth) {
+    constexpr int samples = 10000;
+    int held = 0;
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+        std::vector<double> values(n);
+        for (std::size_t row = 0; row < n; ++row)
+            values[row] = skewed(sample * 512 + row);
+        held += quantile_interval(values, share)->contains(truth) ? 1 : 0;
+    }
+    return held / static_cast<double>(samples);
+}
+
+TEST(Coverage, OfTheIntervalOfAMedianIsNominal) {
+    for (const std::size_t n : {std::size_t{10}, std::size_t{20}, std::size_t{30}}) {
+        const double share = coverage_of_quantile(n, 0.5, 1.0);
+        EXPECT_GE(share, 0.94) << n;
+        EXPECT_LE(share, 0.96) << n;
+    }
+}
+
+TEST(Coverage, OfTheIntervalOfA95thPercentileIsNominal) {
+    for (const std::size_t n : {std::size_t{80}, std::size_t{200}}) {
+        const double share = coverage_of_quantile(n, 0.95, std::exp(0.8 * 1.6448536));
+        EXPECT_GE(share, 0.94) << n;
+        EXPECT_LE(share, 0.96) << n;
+    }
+}
+
+/// A Poisson variable by inversion.
+double poisson(double mean, double uniform) {
+    double probability = std::exp(-mean);
+    double sum = probability;
+    double value = 0.0;
+    while (uniform > sum && value < 1000.0)
+        sum += probability *= mean / ++value;
+    return value;
+}
+
+/// Pairs of counts that share a replication's luck: negative binomial with `size` 1, or Poisson for 0.
+struct CountPairs {
+    std::vector<double> condition, baseline;
+
+    CountPairs(std::size_t n, double mean, int size, std::uint64_t sample) {
+        for (std::size_t row = 0; row < n; ++row) {
+            const std::uint64_t subject = sample * 64 + row;
+            const double luck =
+                size == 0 ? 1.0 : -std::log(1.0 - draws.uniform(core::Purpose::demand, subject));
+            condition.push_back(poisson(mean * luck, draws.uniform(core::Purpose::driver, subject)));
+            baseline.push_back(poisson(mean * luck, draws.uniform(core::Purpose::bootstrap, subject)));
+        }
+    }
+};
+
+struct CountCoverage {
+    double mean = 0.0;
+    double difference = 0.0;
+    bool ever_below_zero = false;
+};
+
+CountCoverage coverage_of_counts(std::size_t n, double mean, int size) {
+    constexpr int samples = 3000;
+    CountCoverage coverage;
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+        const CountPairs pairs(n, mean, size, sample);
+        const Interval interval = *estimate_count(pairs.condition)->interval;
+        coverage.mean += interval.contains(mean) ? 1.0 / samples : 0.0;
+        coverage.ever_below_zero |= interval.low < 0.0;
+        coverage.difference +=
+            estimate_count_difference(pairs.condition, pairs.baseline)->interval->contains(0.0)
+                ? 1.0 / samples
+                : 0.0;
+    }
+    return coverage;
+}
+
+TEST(Coverage, OfTheIntervalsOfCountsIsNominalAndOfRareOnesOnTheSafeSide) {
+    constexpr double within_sampling_error_of_94 = 0.94 - 0.0043;  // one standard error of 3,000 samples
+    for (const std::size_t n : {std::size_t{20}, std::size_t{30}}) {
+        for (const double mean : {0.1, 0.3, 1.0, 4.0, 20.0}) {
+            for (const int size : {0, 1}) {
+                const CountCoverage coverage = coverage_of_counts(n, mean, size);
+                const bool rare = mean < 1.0;
+                const std::string which = "n " + std::to_string(n) + ", mean " + std::to_string(mean) +
+                                          (size == 0 ? ", Poisson" : ", overdispersed");
+                EXPECT_GE(coverage.mean, within_sampling_error_of_94) << which;
+                EXPECT_LE(coverage.mean, rare ? 1.0 : 0.975) << which;
+                EXPECT_GE(coverage.difference, within_sampling_error_of_94) << which;
+                EXPECT_LE(coverage.difference, rare ? 1.0 : 0.98) << which;
+                EXPECT_FALSE(coverage.ever_below_zero) << which;
+            }
+        }
+    }
+}
+
+TEST(Coverage, OfThePooledMedianOverClustersIsNominal) {
+    // Replications of six vehicles that share half of their luck.
+    constexpr int samples = 1500;
+    constexpr std::size_t n = 20;
+    int held = 0;
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+        std::vector<Cluster> clusters(n);
+        for (std::size_t row = 0; row < n; ++row) {
+            const std::uint64_t subject = sample * 64 + row;
+            const double shared = draws.normal(core::Purpose::demand, subject);
+            for (std::uint64_t vehicle = 0; vehicle < 6; ++vehicle)
+                clusters[row].values.push_back(
+                    100.0 + 20.0 * (shared + draws.normal(core::Purpose::driver, subject * 8 + vehicle)));
+        }
+        BootstrapConfig config;
+        config.resamples = 999;
+        config.seed = sample;
+        held += pooled_quantile(clusters, 0.5, Resamples(n, config)).interval->contains(100.0) ? 1 : 0;
+    }
+    EXPECT_GE(held / static_cast<double>(samples), 0.94);
+    EXPECT_LE(held / static_cast<double>(samples), 0.965);
 }
 
 }  // namespace

@@ -64,5 +64,68 @@ TEST(EffectSize, IsNotDefinedWithoutVariation) {
     EXPECT_FALSE(paired_t_p(std::vector{2.0}, std::vector{1.0}));
 }
 
+TEST(QuantileInterval, OfAMedianInterpolatesAsHettmanspergerAndSheather) {
+    // n = 10: 2 of 10 order statistics in from each end hold 97.85 %, 3 hold 89.06 %. I = (0.97852 - 0.95) /
+    // (0.97852 - 0.89062) = 0.3244; weight 8 I / (2 + 6 I) = 0.6577 between them.
+    std::vector<double> values = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0};
+    const auto interval = quantile_interval(values, 0.5);
+    ASSERT_TRUE(interval);
+    EXPECT_NEAR(interval->low, 2.0 + 0.6577 * 2.0, 1e-3);
+    EXPECT_NEAR(interval->high, 256.0 - 0.6577 * 128.0, 1e-1);
+}
+
+TEST(QuantileInterval, NeedsEnoughValuesToBoundTheQuantile) {
+    const std::vector<double> values(72, 1.0);
+    EXPECT_FALSE(quantile_interval(std::span(values).first(5), 0.5));
+    EXPECT_TRUE(quantile_interval(std::span(values).first(6), 0.5));
+    EXPECT_FALSE(quantile_interval(std::span(values).first(71), 0.95));
+    EXPECT_TRUE(quantile_interval(values, 0.95));
+    EXPECT_FALSE(quantile_interval({}, 0.5));
+}
+
+TEST(EstimateCount, AgreesWithGarwoodsTable) {
+    // Exact 95 % limits of a Poisson count of 10: 4.795 and 18.390; of 0: 0 and 3.689.
+    const std::vector<double> ten = {2.0, 2.0, 2.0, 2.0, 2.0};
+    EXPECT_NEAR(estimate_count(ten)->interval->low * 5.0, 4.795, 5e-4);
+    EXPECT_NEAR(estimate_count(ten)->interval->high * 5.0, 18.390, 5e-4);
+    const std::vector<double> none(5, 0.0);
+    EXPECT_EQ(estimate_count(none)->interval->low, 0.0);
+    EXPECT_NEAR(estimate_count(none)->interval->high * 5.0, 3.689, 5e-4);
+    EXPECT_FALSE(estimate_count(std::vector{3.0})->interval);
+}
+
+TEST(EstimateCount, IsWiderWhereCountsScatterMoreThanChance) {
+    const std::vector<double> even = {2.0, 2.0, 2.0, 2.0, 2.0};
+    const std::vector<double> uneven = {0.0, 0.0, 0.0, 0.0, 10.0};
+    EXPECT_GT(estimate_count(uneven)->interval->high, 2.0 * estimate_count(even)->interval->high);
+    EXPECT_GE(estimate_count(uneven)->interval->low, 0.0);
+}
+
+TEST(EstimateCountDifference, DoesNotTakeFourRareEventsForCertain) {
+    std::vector<double> some(20, 0.0);
+    std::fill_n(some.begin(), 4, 1.0);
+    const std::vector<double> none(20, 0.0);
+    EXPECT_GT(estimate_difference(some, none)->interval->low, 0.0) << "the t interval does";
+    EXPECT_TRUE(estimate_count_difference(some, none)->interval->contains(0.0));
+    std::fill_n(some.begin(), 12, 1.0);
+    EXPECT_GT(estimate_count_difference(some, none)->interval->low, 0.0);
+    EXPECT_TRUE(estimate_count_difference(none, none)->interval->contains(0.1)) << "never seen is not never";
+}
+
+TEST(Geh, AgreesWithTheWorkedExample) {
+    // Modelled 1200, counted 1000 vehicles an hour: sqrt(2 * 200^2 / 2200) = 6.03.
+    EXPECT_NEAR(geh(1200.0, 1000.0), 6.03, 5e-3);
+    EXPECT_DOUBLE_EQ(geh(1000.0, 1200.0), geh(1200.0, 1000.0));
+    EXPECT_EQ(geh(0.0, 0.0), 0.0);
+    EXPECT_LT(geh(1100.0, 1000.0), geh_limit);
+}
+
+TEST(ReplicationsNeeded, IsTheSmallestNumberWhoseIntervalIsNarrowEnough) {
+    // s = 10, half width 3: n = 46 has t(45) 10 / sqrt(46) = 2.970, n = 45 has 3.004.
+    EXPECT_EQ(replications_needed(10.0, 3.0), 46U);
+    EXPECT_EQ(replications_needed(0.1, 3.0), fewest_replications);
+    EXPECT_GT(replications_needed(10.0, 0.3), 4200U);
+}
+
 }  // namespace
 }  // namespace clearway::analysis

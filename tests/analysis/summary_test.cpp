@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/error.hpp"
 #include "results/synthetic.hpp"
 
 namespace clearway::analysis {
@@ -140,6 +141,58 @@ TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
     EXPECT_FALSE(summary.find("treated")->metric("collisions").estimate);
     EXPECT_EQ(summary.find("treated")->metric("collisions").comparison->incomplete_pairs, 4U);
     EXPECT_EQ(summary.find("nobody"), nullptr);
+}
+
+TEST_F(SmallStudy, GivesTheTailOfAllEmergencyVehiclesWithThoseThatDidNotArriveLast) {
+    add_all();
+    const TravelTimeTail before = scenario().find("solo")->travel_time;
+    EXPECT_EQ(before.median.value, 60.0);
+    EXPECT_EQ(before.percentile_95.value, 80.0);
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition == "solo" && run.key.replication == 1)
+            run.vehicles[1].outcome = VehicleOutcome::running_at_end;
+    }
+    EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95.value);
+}
+
+TEST_F(SmallStudy, GivesCountsIntervalsThatDoNotReachBelowZero) {
+    add_all();
+    const ScenarioSummary summary = scenario();
+    const MetricSummary& collisions = summary.find("treated")->metric("collisions");
+    EXPECT_EQ(collisions.metric.kind, MetricKind::count);
+    EXPECT_GE(collisions.estimate->interval->low, 0.0);
+    EXPECT_FALSE(collisions.comparison->t_p);
+    EXPECT_EQ(summary.find("treated")->metric("links_f1").metric.kind, MetricKind::quantity);
+}
+
+TEST_F(SmallStudy, PairsTheSameUnitsOfTwoStudies) {
+    add_all();
+    results::Results second = results_;
+    for (RunRecord& run : second.runs) {
+        for (metrics::VehicleRow& vehicle : run.vehicles)
+            vehicle.travel_time_s = *vehicle.travel_time_s + 2.0;
+    }
+    std::erase_if(second.runs, [](const RunRecord& run) { return run.key.replication == 3; });
+    std::erase_if(second.manifest.conditions, [](const auto& one) { return one.name == "other"; });
+    const ScenarioSummary summary = compare_studies(results_, second).scenarios.at(0);
+    EXPECT_EQ(summary.conditions.size(), 3U);
+    const Comparison& comparison = *summary.find("baseline")->metric("emergency_travel_time_s").comparison;
+    EXPECT_EQ(comparison.complete_pairs, 3U);
+    EXPECT_EQ(comparison.incomplete_pairs, 1U);
+    EXPECT_DOUBLE_EQ(comparison.difference->mean, 2.0);
+}
+
+TEST_F(SmallStudy, RefusesToPairWhatWasNotMadeFromTheSame) {
+    add_all();
+    results::Results second = results_;
+    second.manifest.study_seed = 7;
+    EXPECT_THROW(compare_studies(results_, second), core::InputError);
+    second = results_;
+    second.manifest.scenarios[0].configuration_hash = "another";
+    EXPECT_THROW(compare_studies(results_, second), core::InputError);
+    second = results_;
+    second.manifest.scenarios[0].name = "elsewhere";
+    EXPECT_THROW(compare_studies(results_, second), core::InputError);
 }
 
 TEST(AllMetrics, CanBeAskedForByName) {

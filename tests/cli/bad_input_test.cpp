@@ -58,6 +58,18 @@ TEST_F(BadInputTest, a_missing_network_file_is_named) {
     EXPECT_THAT(ended.err, HasSubstr("none.nod.xml"));
 }
 
+TEST_F(BadInputTest, counts_of_unknown_edges_and_damaged_counts_are_named) {
+    write("line/counts.csv", "edge,vehicles_per_hour\nfirst,300\nthird,200\n");
+    const Ended unknown = run_changed("human = 5", "counts = \"counts.csv\"\nhuman = 5");
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("counts.csv"), HasSubstr("third")));
+    write("line/counts.csv", "edge,vehicles_per_hour\nfirst,some\n");
+    const Ended damaged = run_changed("human = 5", "counts = \"counts.csv\"\nhuman = 5");
+    EXPECT_EQ(damaged.code, 3);
+    EXPECT_THAT(damaged.err, HasSubstr("counts.csv:2:"));
+    EXPECT_EQ(run_changed("human = 5", "counts = \"none.csv\"\nhuman = 5").code, 3);
+}
+
 TEST_F(BadInputTest, a_missing_study_file_is_named) {
     const Ended ended = clearway({"study", "none.toml"});
     EXPECT_EQ(ended.code, 3);
@@ -115,6 +127,28 @@ TEST_F(BadInputTest, report_of_a_folder_without_runs_is_refused) {
     const Ended ended = clearway({"report", "."});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, HasSubstr("manifest.json"));
+}
+
+TEST_F(BadInputTest, compare_and_results_refuse_what_is_no_run_folder) {
+    EXPECT_EQ(clearway({"compare", "."}).code, 3);
+    const Ended ended = clearway({"results", "."});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("manifest.json"));
+    EXPECT_THAT(ended.out, IsEmpty());
+}
+
+TEST_F(BadInputTest, compare_names_unknown_metrics_and_tolerances_that_are_none) {
+    const Ended metric = clearway({"compare", ".", "--metric", "emergency_travel_times_s"});
+    EXPECT_EQ(metric.code, 3);
+    EXPECT_THAT(metric.err, HasSubstr("`emergency_travel_time_s`"));
+    EXPECT_EQ(clearway({"compare", ".", "--tolerance", "colisions=1"}).code, 3);
+    for (const std::string none : {"little", "-1", "nan", "collisions=", "collisions=1s"}) {
+        const Ended ended = clearway({"compare", ".", "--tolerance=" + none});
+        EXPECT_EQ(ended.code, 3) << none;
+        EXPECT_THAT(ended.err, HasSubstr("--tolerance")) << none;
+    }
+    EXPECT_EQ(clearway({"report", ".", "--least-difference", "-1"}).code, 2);
+    EXPECT_EQ(clearway({"results", ".", "--csv", "--json"}).code, 2);
 }
 
 TEST_F(BadInputTest, init_refuses_a_folder_that_is_in_use) {

@@ -15,8 +15,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::vector<std::string> every_verb = {"reproduce", "run",  "study",  "report", "dataset", "train",
-                                             "list",      "init", "doctor", "replay", "verify",  "links"};
+const std::vector<std::string> every_verb = {"reproduce", "run",    "study",  "report",  "compare",
+                                             "results",   "replay", "verify", "dataset", "train",
+                                             "list",      "init",   "doctor", "links"};
 
 class HelpTest : public UserTest {};
 

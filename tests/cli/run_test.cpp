@@ -80,6 +80,50 @@ TEST_F(RunTest, one_and_two_jobs_give_the_same_bytes) {
     EXPECT_THAT(read("one/runs.csv"), HasSubstr("line,graph_simulation,3,ok"));
 }
 
+TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
+    ASSERT_EQ(clearway(two_conditions("one", 3)).code, 0);
+    ASSERT_EQ(clearway(two_conditions("two", 3)).code, 0);
+    const Ended within = clearway({"compare", "one"});
+    EXPECT_EQ(within.code, 0) << within.err;
+    EXPECT_THAT(within.out,
+                AllOf(HasSubstr("line: EV travel time"), HasSubstr("graph_simulation"), HasSubstr("p Holm")));
+    const Ended same =
+        clearway({"compare", "one", "two", "--tolerance", "0", "--tolerance", "collisions=2", "--json"});
+    EXPECT_EQ(same.code, 0) << same.err;
+    const auto tables = nlohmann::json::parse(same.out);
+    ASSERT_EQ(tables.at("comparisons").size(), 2U);
+    EXPECT_EQ(tables["comparisons"][0]["metrics"]["emergency_travel_time_s"]["difference"], 0.0);
+    const Ended short_of =
+        clearway({"compare", "one", "--metric", "simulated_s", "--tolerance", "collisions=0"});
+    EXPECT_EQ(short_of.code, 6);
+    EXPECT_THAT(short_of.err, HasSubstr("line/graph_simulation: collisions: its interval reaches to"));
+    std::vector<std::string> other = two_conditions("three", 3);
+    other.insert(other.end(), {"--seed", "7"});
+    ASSERT_EQ(clearway(other).code, 0);
+    const Ended refused = clearway({"compare", "one", "three"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("another seed"));
+}
+
+TEST_F(RunTest, results_prints_every_table_it_lists) {
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    const Ended list = clearway({"results", "out", "--list"});
+    EXPECT_EQ(list.code, 0);
+    EXPECT_THAT(list.out, AllOf(HasSubstr("runs\n"), HasSubstr("vehicles\n"), HasSubstr("failures\n")));
+    std::istringstream names(list.out);
+    for (std::string name; std::getline(names, name);) {
+        const Ended csv = clearway({"results", "out", name, "--csv"});
+        EXPECT_EQ(csv.code, 0) << name << csv.err;
+        EXPECT_THAT(csv.out, HasSubstr("\n")) << name;
+        EXPECT_TRUE(nlohmann::json::parse(clearway({"results", "out", name, "--json"}).out).is_array())
+            << name;
+    }
+    EXPECT_THAT(clearway({"results", "out"}).out, HasSubstr("line,baseline,0,"));
+    const Ended unknown = clearway({"results", "out", "vehicle"});
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("`vehicle`"), HasSubstr("vehicles")));
+}
+
 TEST_F(RunTest, without_out_the_same_command_finds_its_folder_again) {
     const std::vector<std::string> words = {"run", "line", "--seeds", "1", "--condition", "baseline"};
     ASSERT_EQ(clearway(words).code, 0);

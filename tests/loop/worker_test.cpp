@@ -88,7 +88,12 @@ TEST(Worker, EqualsARunWithoutFork) {
     loop::UnitRun unforked(unit, folder.path() / "scenarios" / "city" / "demand" / "0",
                            folder.path() / "unforked");
     results::RunTiming timing;
-    const results::RunRecord record = unforked.finish_here(repaired, timing);
+    results::RunRecord record = unforked.finish_here(repaired, timing);
+    EXPECT_FALSE(record.traffic.approaches.empty());
+    EXPECT_FALSE(record.traffic.recovery.empty());
+    EXPECT_FALSE(record.traffic.journeys.empty());
+    EXPECT_EQ(record.traffic.journeys, folder.store().read_journeys({"city", "repaired", 0}));
+    record.traffic.journeys.clear();  // they are not read back with the rest
     EXPECT_EQ(record, record_of(folder, "city", "repaired"));
 }
 

@@ -30,8 +30,8 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
     const std::string page = page_of(tests::study({"merge", "city"}));
-    for (const char* const id :
-         {"verdict", "tables", "differences", "travel-time", "training", "outcomes", "reproduce"}) {
+    for (const char* const id : {"verdict", "tables", "differences", "travel-time", "cost", "journeys",
+                                 "enough", "training", "outcomes", "reproduce"}) {
         EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\">"));
         EXPECT_THAT(page, HasSubstr("<a href=\"#" + std::string(id) + "\">"));
     }
@@ -52,8 +52,21 @@ TEST(Page, leaves_out_sections_that_have_nothing_to_show) {
 TEST(Page, has_the_data_of_every_plot_beside_it) {
     const std::string page = page_of(tests::study({"merge", "city"}));
     EXPECT_EQ(count_of(page, "<svg class=\"plot\""),
-              6u);  // differences and travel time of two scenarios, two trainings
-    EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 6u);
+              24u);  // two scenarios: differences, travel time, its pairs, four costs, recovery, two
+                     // journeys, precision; two trainings
+    EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 24u);
+}
+
+TEST(Page, tells_all_that_is_known_of_a_paired_difference) {
+    const std::string page = page_of(tests::study({"merge"}));
+    EXPECT_THAT(page, HasSubstr("Statistics of the paired differences"));
+    for (const char* const cell :
+         {"<td>\u22121.87</td>", "<td>&lt; 0.001</td>", "<td>0.002</td>", "<td>20</td>"}) {
+        EXPECT_THAT(page, HasSubstr(cell));
+    }
+    EXPECT_THAT(page, HasSubstr("id=\"enough\""));
+    EXPECT_THAT(page, HasSubstr("<td>141</td>"));
+    EXPECT_THAT(page, HasSubstr("<td>812</td><td>31</td><td>640</td>"));
 }
 
 TEST(Page, loads_nothing_from_elsewhere) {

@@ -48,6 +48,26 @@ TEST_F(StoreOfAStudy, GivesBackWhatWasWritten) {
     EXPECT_EQ(store_.read_timing(key)->peak_kib, 4096);
 }
 
+TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysOnlyWhenAskedFor) {
+    RunRecord run = record(key);
+    run.traffic.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
+    run.traffic.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
+    run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
+    store_.write(run, {});
+    EXPECT_EQ(store_.read_journeys(key), run.traffic.journeys);
+    EXPECT_TRUE(store_.read_journeys({"alpha", "baseline", 0}).empty());
+    run.traffic.journeys.clear();
+    EXPECT_EQ(store_.read(key), run);
+}
+
+TEST_F(StoreOfAStudy, ReadsEmergencyVehiclesAloneWhereThatIsEnough) {
+    store_.write(record(key), {});
+    const RunRecord run = store_.read(key, VehicleRows::emergency).value();
+    ASSERT_EQ(run.vehicles.size(), 1U);
+    EXPECT_EQ(run.vehicles[0], record(key).vehicles[0]);
+    EXPECT_EQ(run.metrics, record(key).metrics);
+}
+
 TEST_F(StoreOfAStudy, KeepsTheFirstOfTwoEqualRunsWhateverTheyTook) {
     RunTiming slow;
     slow.wall_s = 9.0;

@@ -86,8 +86,27 @@ void Plot::grid_y() {
 }
 
 void Plot::line(const std::vector<std::pair<double, double>>& points, std::size_t series) {
+    polyline("line", points, series);
+}
+
+void Plot::hair(const std::vector<std::pair<double, double>>& points, std::size_t series) {
+    polyline("hair", points, series);
+}
+
+void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t series) {
     auto out = std::back_inserter(svg_);
-    fmt::format_to(out, "<polyline class=\"line s{}\" points=\"", series % palette_size);
+    fmt::format_to(out, "<polygon class=\"band s{}\" points=\"", series % palette_size);
+    for (const auto& [x, low, high] : bounds)
+        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(high));
+    for (auto bound = bounds.rbegin(); bound != bounds.rend(); ++bound)
+        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place((*bound)[0]), y_.place((*bound)[1]));
+    fmt::format_to(out, "\"/>\n");
+}
+
+void Plot::polyline(const char* style, const std::vector<std::pair<double, double>>& points,
+                    std::size_t series) {
+    auto out = std::back_inserter(svg_);
+    fmt::format_to(out, "<polyline class=\"{} s{}\" points=\"", style, series % palette_size);
     for (const auto& [x, y] : points) {
         fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(y));
     }
@@ -105,6 +124,11 @@ void Plot::point(double value, double y, std::size_t series) {
     fmt::format_to(std::back_inserter(svg_),
                    "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
                    series % palette_size, x_.place(value), y);
+}
+
+void Plot::stripe(std::pair<double, double> bounds, double value, const char* style) {
+    fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", style,
+                   x_.place(bounds.first), y_.place(value), x_.place(bounds.second));
 }
 
 void Plot::vertical(double value) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -72,16 +73,26 @@ class Plot {
     /// A horizontal interval with its mean, at height `y` in figure units.
     void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
     void point(double value, double y, std::size_t series);
+    /// A level line between two values of x at a value of y, in a style of its own.
+    void stripe(std::pair<double, double> bounds, double value, const char* style);
     void vertical(double value);
-    void horizontal(double value);
     /// A vertical interval at `x`.
     void whisker(double x, std::pair<double, double> bounds, std::size_t series);
+    /// A line across the figure at a value of y.
+    void horizontal(double value);
+    /// A thin polyline, for many that together make a picture.
+    void hair(const std::vector<std::pair<double, double>>& points, std::size_t series);
+    /// The area between two bounds of y over x: (x, low, high).
+    void band(const std::vector<std::array<double, 3>>& bounds, std::size_t series);
     enum class Anchor { start, middle, end };
     void text(double x, double y, const std::string& words, Anchor anchor, const char* style);
     /// The finished `<svg>` element.
     std::string finish();
 
   private:
+    void polyline(const char* style, const std::vector<std::pair<double, double>>& points,
+                  std::size_t series);
+
     Axis x_;
     Axis y_;
     double height_;

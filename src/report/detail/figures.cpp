@@ -14,19 +14,11 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double right_edge = 388.0;  // of the drawing area; the rest keeps the last label inside
-constexpr double left_edge = 52.0;    // room for the labels of y
-constexpr double label_space = 44.0;  // below the drawing area
-
 constexpr std::array forest_measures = {Measure::emergency_travel_time, Measure::emergency_waiting_time,
                                         Measure::other_time_loss};
 constexpr double forest_right = 250.0;  // the numbers stand beside the drawing
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
-
-NumberStyle typeset(int decimals, Sign sign = Sign::negative_only) {
-    return {decimals, Script::typeset, sign};
-}
 
 Range forest_range(const ScenarioFacts& scenario, std::size_t& compared) {
     Range range;
@@ -99,7 +91,8 @@ std::string seconds_at(const Distribution& distribution, double share) {
 }
 
 DataTable distribution_data(const ScenarioFacts& scenario) {
-    DataTable table{{"Condition", "EVs", "arrived", "10 % within, s", "25 %", "50 %", "75 %", "90 %", "95 %"},
+    DataTable table{{"Condition", "EVs", "arrived", "10 % within, s", "25 %", "50 %", "75 %", "90 %", "95 %",
+                     "median [95 %], s", "95th percentile [95 %], s"},
                     {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         const Distribution& distribution = condition.travel_time;
@@ -108,6 +101,8 @@ DataTable distribution_data(const ScenarioFacts& scenario) {
         for (const double share : {0.10, 0.25, 0.50, 0.75, 0.90, 0.95}) {
             row.push_back(seconds_at(distribution, share));
         }
+        row.push_back(estimate(condition.travel_time_median, typeset(1)));
+        row.push_back(estimate(condition.travel_time_percentile_95, typeset(1)));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -116,7 +111,7 @@ DataTable distribution_data(const ScenarioFacts& scenario) {
 std::string distribution_note(const ScenarioFacts& scenario) {
     std::string note =
         "Share of all EVs of the demand, so a curve that ends below 1 shows EVs that did not arrive. "
-        "Replications are pooled.";
+        "Replications are pooled; the intervals under Data come from drawing whole replications.";
     const bool thinned =
         std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
                     [](const auto& one) { return one.travel_time.arrived > one.travel_time.points.size(); });

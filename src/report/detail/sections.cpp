@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/estimate.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/markup.hpp"
 #include "report/verdict.hpp"
@@ -35,6 +36,19 @@ bool has_travel_times(const StudyFacts& study) {
         study, [](const ConditionFacts& condition) { return !condition.travel_time.points.empty(); });
 }
 
+bool has_approaches(const StudyFacts& study) {
+    return any_condition(study,
+                         [](const ConditionFacts& condition) { return !condition.approaches.empty(); });
+}
+
+bool has_journeys(const StudyFacts& study) {
+    return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.journeys.empty(); });
+}
+
+bool has_counts(const StudyFacts& study) {
+    return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.flows.empty(); });
+}
+
 bool has_pictures(const StudyFacts& study) {
     return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.network_svg.empty(); });
 }
@@ -47,12 +61,16 @@ bool has_failure_curves(const StudyFacts& study) {
     return !study.failure_curves.empty();
 }
 
-constexpr std::array<Section, 9> all_sections = {{
+constexpr std::array<Section, 13> all_sections = {{
     {"verdict", "Verdict", always, verdict_section},
     {"tables", "Tables", always, tables_section},
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
     {"failure", "Benefit against failure", has_failure_curves, failure_section},
+    {"cost", "Cost to the others", has_approaches, cost_section},
+    {"journeys", "An EV's journey", has_journeys, journeys_section},
+    {"enough", "Is n enough?", has_comparison, precision_section},
+    {"calibration", "Flows against counts", has_counts, calibration_section},
     {"networks", "Networks", has_pictures, networks_section},
     {"training", "Training of GraphSAGE", has_curves, training_section},
     {"outcomes", "Outcomes and failed runs", always, outcomes_section},
@@ -79,11 +97,23 @@ const char* effect_class(Effect effect) {
 std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const std::string sentence = verdict(scenario, condition, Script::typeset);
     const std::size_t colon = sentence.find(':');
-    const Effect effect =
-        effect_of(condition.outcome(Measure::emergency_travel_time).difference, Better::lower);
+    const Effect effect = effect_of(condition.outcome(Measure::emergency_travel_time), Better::lower);
     return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>{}</dd>\n", condition_label(condition),
                        effect_class(effect), escaped(sentence.substr(0, colon)),
                        escaped(sentence.substr(colon)));
+}
+
+DataTable events_of(const ScenarioFacts& scenario) {
+    DataTable table{
+        {"Condition", "actions asked", "refused", "ended by expiry", "collisions", "with an EV", "teleports"},
+        {}};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Events& events = condition.events;
+        table.rows.push_back({condition.title, grouped(events.leases_issued), grouped(events.leases_refused),
+                              grouped(events.leases_expired), grouped(events.collisions),
+                              grouped(events.emergency_collisions), grouped(events.teleports)});
+    }
+    return table;
 }
 
 std::string failures_of(const ScenarioFacts& scenario) {
@@ -139,7 +169,74 @@ std::string forest_section(const StudyFacts& study) {
 }
 
 std::string distribution_section(const StudyFacts& study) {
-    return figures_of(study, distribution_figure);
+    return figures_of(study, distribution_figure) + "<h3>Pair by pair</h3>\n" +
+           figures_of(study, slopes_figure);
+}
+
+std::string cost_section(const StudyFacts& study) {
+    std::string costs;
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        for (const ConditionFacts& condition : scenario.conditions)
+            costs += approach_figure(scenario, condition);
+    }
+    const std::string recovery = figures_of(study, recovery_figure);
+    return "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a signal "
+           "(where a "
+           "network has none, on each edge), from a minute before the first EV on, against the baseline of "
+           "the same "
+           "replication. With many approaches, one interval in twenty excludes 0 by chance.</p>\n"
+           "<div class=\"figures\">\n" +
+           costs + "</div>\n" + (recovery.empty() ? recovery : "<h3>Recovery after an EV</h3>\n" + recovery);
+}
+
+std::string journeys_section(const StudyFacts& study) {
+    return "<p>One EV of one replication on its way, under the baseline and the conditions that help most. A "
+           "slope is "
+           "a speed, a level piece of the vehicle\u2019s line a halt. One run shows how, not how much: for "
+           "that see "
+           "the tables.</p>\n" +
+           figures_of(study, journey_figures);
+}
+
+std::string precision_section(const StudyFacts& study) {
+    std::string html =
+        "<p>Half the width of the 95 % interval of the EV travel time difference, as replications came in. "
+        "Where the "
+        "curve is below the line, differences as small as the line can be told from none. The last column "
+        "says how "
+        "many replications that takes (FHWA: n = (t s / e)\u00b2, at least 10).</p>\n" +
+        figures_of(study, precision_figure);
+    for (const ScenarioFacts& scenario : study.scenarios)
+        html += fmt::format("<h3>{}</h3>\n{}", escaped(scenario.name), to_html(precision_table(scenario)));
+    return html;
+}
+
+std::string calibration_section(const StudyFacts& study) {
+    std::string html =
+        "<p>Flows of the baseline, without EVs and while demand departs, against flows that were counted on "
+        "the road. "
+        "GEH = \u221a(2 (m \u2212 c)\u00b2 / (m + c)) of hourly flows; below 5 a flow counts as met, and the "
+        "usual "
+        "criterion asks that of 85 % of the places.</p>\n";
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        if (scenario.flows.empty()) continue;
+        DataTable table{{"Place", "counted, veh/h", "modelled, veh/h", "GEH"}, {}};
+        std::size_t met = 0;
+        for (const FlowFacts& flow : scenario.flows) {
+            const auto cell = [](const std::optional<double>& value, int decimals) {
+                return value ? number(*value, {decimals, Script::typeset}) : missing(Script::typeset);
+            };
+            if (flow.geh && *flow.geh < analysis::geh_limit) ++met;
+            table.rows.push_back(
+                {flow.street.empty() ? flow.edge : fmt::format("{} ({})", flow.street, flow.edge),
+                 number(flow.counted_per_hour, {0, Script::typeset}), cell(flow.modelled_per_hour, 0),
+                 cell(flow.geh, 1)});
+        }
+        html += fmt::format("<h3>{}</h3>\n<p>{} of {} places have a GEH below {}.</p>\n{}",
+                            escaped(scenario.name), met, scenario.flows.size(), analysis::geh_limit,
+                            to_html(table));
+    }
+    return html;
 }
 
 std::string networks_section(const StudyFacts& study) {
@@ -165,7 +262,10 @@ std::string outcomes_section(const StudyFacts& study) {
     std::string html =
         "<p>How every vehicle of the demand ended, over all completed runs. Means of EV travel time and time "
         "loss "
-        "cover the EVs that arrived; this table shows how many they leave out.</p>\n";
+        "cover the EVs that arrived; this table shows how many they leave out. The second table counts the "
+        "actions "
+        "that policies asked for, those that were refused because they could not be carried out safely, and "
+        "what went wrong on the road.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         DataTable table{{"Condition", "EVs", "arrived", "running at end", "teleported", "not inserted",
                          "removed", "others", "arrived", "runs", "failed", "missing"},
@@ -179,7 +279,8 @@ std::string outcomes_section(const StudyFacts& study) {
                                   grouped(condition.failed.size()), grouped(condition.missing_runs)});
         }
         const std::string failures = failures_of(scenario);
-        html += fmt::format("<h3>{}</h3>\n{}{}", escaped(scenario.name), to_html(table),
+        html += fmt::format("<h3>{}</h3>\n{}{}{}", escaped(scenario.name), to_html(table),
+                            to_html(events_of(scenario)),
                             failures.empty() ? "<p class=\"note\">No run failed.</p>\n" : failures);
     }
     return html;

@@ -33,8 +33,7 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
     signed_style.sign = Sign::always;
     std::string html = "<td>" + mean_and_range(outcome.value, style, measure.printed_factor);
     if (outcome.difference.mean) {
-        html += fmt::format("<span class=\"{}\">{}</span>",
-                            delta_class(effect_of(outcome.difference, measure.better)),
+        html += fmt::format("<span class=\"{}\">{}</span>", delta_class(effect_of(outcome, measure.better)),
                             estimate(outcome.difference, signed_style, measure.printed_factor));
     }
     return html + "</td>";
@@ -68,6 +67,52 @@ std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure
     return html + "</tbody></table></div>\n";
 }
 
+std::string p_value(const std::optional<double>& p) {
+    if (!p) return missing(Script::typeset);
+    return *p < 0.001 ? "< 0.001" : number(*p, {3, Script::typeset});
+}
+
+/// All that is known of the paired differences of a measure.
+DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
+    DataTable table{{info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d",
+                     "p (t)", "p (Holm)", "p (Wilcoxon)", "pairs", "incomplete", "EVs left out"},
+                    {}};
+    const NumberStyle style{decimals_of(scenario, measure), Script::typeset, Sign::always};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Outcome& outcome = condition.outcome(measure);
+        if (!outcome.paired) continue;
+        const PairedStatistics& paired = *outcome.paired;
+        table.rows.push_back(
+            {condition.title, estimate(outcome.difference, style),
+             paired.bootstrap.has_interval() ? estimate(paired.bootstrap, style) : missing(Script::typeset),
+             estimate(paired.median, style),
+             paired.effect_size ? number(*paired.effect_size, {2, Script::typeset})
+                                : missing(Script::typeset),
+             p_value(paired.t_p), p_value(paired.holm_p), p_value(paired.wilcoxon_p),
+             grouped(paired.complete_pairs), grouped(paired.incomplete_pairs),
+             grouped(paired.vehicles_left_out)});
+    }
+    return table;
+}
+
+std::string statistics_of(const ScenarioFacts& scenario) {
+    std::string html;
+    for (const Measure measure :
+         {Measure::emergency_travel_time, Measure::other_time_loss, Measure::collisions}) {
+        const DataTable table = statistics_table(scenario, measure);
+        if (!table.rows.empty()) html += to_html(table);
+    }
+    if (html.empty()) return html;
+    return "<details><summary>Statistics of the paired differences</summary>\n" + html +
+           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences over "
+           "their "
+           "standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted over the rows "
+           "of the "
+           "table; of counts that is Wilcoxon\u2019s p. Incomplete: replications without a value in both "
+           "conditions; "
+           "EVs left out: did not arrive in both.</p></details>\n";
+}
+
 std::string definitions() {
     std::string html = "<details><summary>What the columns mean</summary><dl class=\"facts\">\n";
     for (const MeasureInfo& measure : measures()) {
@@ -88,7 +133,8 @@ std::string tables_section(const StudyFacts& study) {
     std::string html =
         "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to the "
         "baseline, in "
-        "colour where its interval excludes 0 (blue better, orange worse). The columns <em>published</em> "
+        "colour where its interval excludes 0 and the difference is large enough to count (blue better, "
+        "orange worse). The columns <em>published</em> "
         "repeat the dissertation: one unseeded run on networks of its own; they are no results of this "
         "study.</p>\n";
     html += definitions();
@@ -100,6 +146,7 @@ std::string tables_section(const StudyFacts& study) {
         html += "<p class=\"caption\">What these columns hide</p>\n";
         html += measure_table(scenario, emergency_columns, false);
         html += measure_table(scenario, event_columns, false);
+        html += statistics_of(scenario);
     }
     return html;
 }

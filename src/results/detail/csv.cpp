@@ -12,32 +12,47 @@ std::string csv_text(std::string_view text) {
     return quoted + '"';
 }
 
-std::vector<std::vector<std::string>> parse_csv(std::string_view text) {
-    std::vector<std::vector<std::string>> rows;
+bool CsvReader::next() {
+    cells_.clear();
+    unquoted_.clear();
+    if (at_ >= text_.size()) return false;
+    while (read_cell()) {
+    }
+    return true;
+}
+
+bool CsvReader::read_cell() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n') {
+        if (text_[at_] == '"') return read_quoted_cell(start);
+        ++at_;
+    }
+    cells_.push_back(text_.substr(start, at_ - start));
+    return pass_separator();
+}
+
+bool CsvReader::read_quoted_cell(std::size_t start) {
+    std::string& cell = unquoted_.emplace_back();
     bool quoted = false;
-    bool row_open = false;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        const char letter = text[at];
-        if (!row_open) {
-            rows.push_back({""});
-            row_open = true;
-        }
-        std::string& cell = rows.back().back();
-        if (quoted && letter == '"' && at + 1 < text.size() && text[at + 1] == '"') {
-            cell += '"';
-            ++at;
-        } else if (letter == '"') {
-            quoted = !quoted;
-        } else if (!quoted && letter == ',') {
-            rows.back().emplace_back();
-        } else if (!quoted && letter == '\n') {
-            row_open = false;
-        } else {
+    for (at_ = start; at_ < text_.size(); ++at_) {
+        const char letter = text_[at_];
+        if (!quoted && (letter == ',' || letter == '\n')) break;
+        if (letter != '"') {
             cell += letter;
+        } else if (quoted && at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
+            cell += text_[++at_];
+        } else {
+            quoted = !quoted;
         }
     }
     if (quoted) throw std::runtime_error("a quote does not end");
-    return rows;
+    cells_.emplace_back(cell);
+    return pass_separator();
+}
+
+bool CsvReader::pass_separator() {
+    if (at_ >= text_.size()) return false;
+    return text_[at_++] == ',';
 }
 
 }  // namespace clearway::results::detail

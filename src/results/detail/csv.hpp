@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <deque>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,12 +48,32 @@ void append_empty_cells(std::string& line) {
     core::for_each_field<Struct>([&](const auto&) { line += ","; });
 }
 
-/// Takes a CSV text apart. Throws std::runtime_error for a quote that does not end.
-std::vector<std::vector<std::string>> parse_csv(std::string_view text);
+/// Takes a CSV text apart, row by row, copying nothing but quoted cells: reading runs is most of what a
+/// report of many takes. The text outlives the reader.
+class CsvReader {
+  public:
+    explicit CsvReader(std::string_view text) : text_(text) {}
+
+    /// Goes to the next row; false at the end. Throws std::runtime_error for a quote that does not end.
+    bool next();
+    /// The cells of the row, valid until the next one; at least one.
+    const std::vector<std::string_view>& cells() const { return cells_; }
+
+  private:
+    /// These answer whether the row goes on.
+    bool read_cell();
+    bool read_quoted_cell(std::size_t start);
+    bool pass_separator();
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::vector<std::string_view> cells_;
+    std::deque<std::string> unquoted_;  ///< What `cells_` refers to where quotes were taken off.
+};
 
 /// The opposite of `csv_cell`. Throws std::runtime_error for text that is no such value.
 template <class Value>
-void read_cell(const std::string& cell, Value& target) {
+void read_cell(std::string_view cell, Value& target) {
     if constexpr (OptionalValue<Value>::value) {
         if (cell.empty()) {
             target = std::nullopt;

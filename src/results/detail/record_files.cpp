@@ -6,6 +6,7 @@
 #include "results/detail/condition_json.hpp"
 #include "results/detail/csv.hpp"
 #include "results/detail/json.hpp"
+#include "results/detail/traffic_files.hpp"
 
 namespace clearway::results::detail {
 namespace {
@@ -25,10 +26,19 @@ void read_key(ObjectReader& reader, RunKey& key) {
 /// Of everything else in `run.json`.
 constexpr const char* hash_key = "hash";
 
+/// The text of `run.json` as it was before its hash, which stands last, was added: what the hash is of. Cut
+/// out instead of written again from the parsed object, which would take longer than all else of reading.
+std::string without_hash(const std::string& text) {
+    const std::string before = fmt::format(",\n  \"{}\": \"", hash_key);
+    const std::size_t at = text.rfind(before);
+    return at == std::string::npos ? text : text.substr(0, at) + "\n}\n";
+}
+
 /// What follows the four words that stand first in a line.
 constexpr std::size_t first_number = 4;
 
-metrics::VehicleRow vehicle_from(const std::vector<std::string>& cells) {
+metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
+    if (cells.size() < first_number) throw std::runtime_error("is too short");
     metrics::VehicleRow row;
     std::size_t column = first_number;
     core::for_each_field<metrics::VehicleRow>([&](const auto& field) {
@@ -58,19 +68,20 @@ std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv
     write_fields(object["provenance"], record.provenance);
     write_fields(object["metrics"], record.metrics);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
+    if (Json traffic = traffic_to_json(record.traffic); !traffic.is_null())
+        object["traffic"] = std::move(traffic);
     object[hash_key] = core::content_hash(to_text(object));
     return to_text(object);
 }
 
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where) {
-    Json object = parse_object(text, where);
+    const Json object = parse_object(text, where);
     RunRecord record;
     std::string hash;
     std::string vehicles_hash;
     std::vector<core::Problem> problems;
-    ObjectReader(object, where, problems).read(hash_key, hash);
-    object.erase(hash_key);
     ObjectReader reader(object, where, problems);
+    reader.read(hash_key, hash);
     read_key(reader, record.key);
     record.condition = condition_from(reader.child("condition_spec", Json::value_t::object), where, problems);
     ObjectReader(reader.child("provenance", Json::value_t::object), where + ": provenance", problems)
@@ -78,11 +89,12 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
     ObjectReader(reader.child("metrics", Json::value_t::object), where + ": metrics", problems)
         .read_fields(record.metrics);
     reader.read("vehicles_hash", vehicles_hash);
-    if (problems.empty() && hash != core::content_hash(to_text(object)))
+    if (problems.empty() && hash != core::content_hash(without_hash(text)))
         reader.problem(hash_key, "does not fit the rest");
     if (problems.empty() && vehicles_hash != core::content_hash(vehicles_csv))
         reader.problem("vehicles_hash", "does not fit vehicles.csv");
     if (!problems.empty()) throw core::InputError(problems);
+    record.traffic = traffic_from_json(object, where);
     return record;
 }
 
@@ -106,15 +118,20 @@ std::string vehicles_to_csv(const std::vector<metrics::VehicleRow>& vehicles) {
     return text;
 }
 
-std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, const std::string& where) {
+std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, const std::string& where,
+                                                   VehicleRows rows) {
     std::vector<metrics::VehicleRow> vehicles;
     if (!text.starts_with(vehicle_header() + "\n"))
         throw core::InputError({where + ":1", "is not the header of this version", vehicle_header(), ""});
     std::size_t line = 1;
     try {
-        const auto rows = parse_csv(text);
-        for (; line < rows.size(); ++line)
-            vehicles.push_back(vehicle_from(rows[line]));
+        CsvReader reader(text);
+        reader.next();
+        for (; reader.next(); ++line) {
+            const bool wanted = rows == VehicleRows::all || reader.cells().size() <= 1 ||
+                                reader.cells()[1] == traffic::name(traffic::VehicleClass::emergency);
+            if (wanted) vehicles.push_back(vehicle_from(reader.cells()));
+        }
     } catch (const std::runtime_error& error) {
         throw core::InputError({fmt::format("{}:{}", where, line + 1), error.what(), "", ""});
     }

@@ -16,7 +16,8 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
 
 /// `vehicles.csv`: id, class, kind, outcome, numbers.
 std::string vehicles_to_csv(const std::vector<metrics::VehicleRow>& vehicles);
-std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, const std::string& where);
+std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, const std::string& where,
+                                                   VehicleRows rows = VehicleRows::all);
 
 /// `id,class,kind,outcome,...` and the cells below it, without a line end.
 std::string vehicle_header();

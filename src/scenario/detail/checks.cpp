@@ -112,6 +112,7 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     if (network.plain() && network.restrict != Restriction::none)
         problems.push_back(
             {config.where("network.restrict"), "applies to imported networks only", "none", ""});
+    check_file(config, "demand.counts", config.demand.counts, problems);
     check_file(config, "network.nodes", network.nodes, problems);
     check_file(config, "network.edges", network.edges, problems);
     check_file(config, "network.connections", network.connections, problems);

@@ -1,0 +1,130 @@
+#include "analysis/traffic.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+
+namespace clearway::analysis {
+namespace {
+
+using detail::Runs;
+using Pair = std::pair<const results::RunRecord*, const results::RunRecord*>;  // condition, baseline
+
+/// Replications in which both runs are complete and say where time was lost.
+std::vector<Pair> watched_pairs(const Runs& condition, const Runs& baseline) {
+    std::vector<Pair> pairs;
+    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
+         ++replication) {
+        const Pair pair{condition[replication], baseline[replication]};
+        if (pair.first == nullptr || pair.second == nullptr) continue;
+        if (!pair.first->traffic.approaches.empty() && !pair.second->traffic.approaches.empty())
+            pairs.push_back(pair);
+    }
+    return pairs;
+}
+
+/// Numbers of one approach, one value a pair; index 0 the condition, 1 the baseline.
+struct Series {
+    explicit Series(std::size_t pairs) {
+        for (auto* const column : {&human, &automated, &waiting, &vehicles}) {
+            for (std::vector<double>& values : *column)
+                values.assign(pairs, 0.0);
+        }
+    }
+    std::array<std::vector<double>, 2> human, automated, waiting, vehicles;
+};
+
+void collect(const results::RunRecord& run, std::size_t side, std::size_t pair, std::size_t pairs,
+             std::map<std::string, Series>& series) {
+    for (const metrics::ApproachRow& row : run.traffic.approaches) {
+        Series& one = series.try_emplace(row.edge, pairs).first->second;
+        const bool automated = row.vehicle_class == traffic::VehicleClass::automated;
+        (automated ? one.automated : one.human)[side][pair] += row.time_loss_s;
+        one.waiting[side][pair] += row.waiting_time_s;
+        one.vehicles[side][pair] += static_cast<double>(row.vehicles);
+    }
+}
+
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<double> sum_of(const std::vector<double>& first, const std::vector<double>& second) {
+    std::vector<double> sum(first.size());
+    std::ranges::transform(first, second, sum.begin(), std::plus<>());
+    return sum;
+}
+
+ApproachCost cost_of(const std::string& edge, const Series& series, double level) {
+    ApproachCost cost;
+    const std::vector<double> condition = sum_of(series.human[0], series.automated[0]);
+    const std::vector<double> baseline = sum_of(series.human[1], series.automated[1]);
+    cost.edge = edge;
+    cost.baseline_s = mean_of(baseline);
+    cost.difference = estimate_difference(condition, baseline, level);
+    cost.human = estimate_difference(series.human[0], series.human[1], level);
+    cost.automated = estimate_difference(series.automated[0], series.automated[1], level);
+    cost.waiting = estimate_difference(series.waiting[0], series.waiting[1], level);
+    cost.vehicles = mean_of(series.vehicles[1]);
+    if (*cost.vehicles > 0.0) cost.per_vehicle_s = cost.difference->mean / *cost.vehicles;
+    return cost;
+}
+
+std::optional<double> recovered_after(const std::vector<RecoveryPoint>& points) {
+    std::optional<double> since;
+    for (const RecoveryPoint& point : points) {
+        if (point.offset_s < 0.0) continue;
+        const bool above =
+            point.difference && point.difference->interval && point.difference->interval->low > 0.0;
+        if (above) since.reset();
+        if (!above && !since) since = point.offset_s;
+        if (since && point.offset_s >= *since + recovered_for_s) return since;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<ApproachCost> approach_costs(const Runs& condition, const Runs& baseline, double level) {
+    const std::vector<Pair> pairs = watched_pairs(condition, baseline);
+    std::map<std::string, Series> series;
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+        collect(*pairs[pair].first, 0, pair, pairs.size(), series);
+        collect(*pairs[pair].second, 1, pair, pairs.size(), series);
+    }
+    std::vector<ApproachCost> costs;
+    for (const auto& [edge, one] : series)
+        costs.push_back(cost_of(edge, one, level));
+    std::ranges::stable_sort(costs, std::greater<>(),
+                             [](const ApproachCost& cost) { return std::abs(cost.difference->mean); });
+    return costs;
+}
+
+std::optional<Recovery> recovery_after(const Runs& condition, const Runs& baseline, double level) {
+    struct Values {
+        std::vector<double> condition, baseline;
+    };
+    std::map<double, Values> at_offset;
+    for (const auto& [with, without] : watched_pairs(condition, baseline)) {
+        std::map<double, double> before;
+        for (const metrics::RecoveryRow& row : without->traffic.recovery)
+            before[row.offset_s] = row.halted_vehicles;
+        for (const metrics::RecoveryRow& row : with->traffic.recovery) {
+            const auto found = before.find(row.offset_s);
+            if (found == before.end()) continue;
+            at_offset[row.offset_s].condition.push_back(row.halted_vehicles);
+            at_offset[row.offset_s].baseline.push_back(found->second);
+        }
+    }
+    if (at_offset.empty()) return std::nullopt;
+    Recovery recovery;
+    for (const auto& [offset_s, values] : at_offset)
+        recovery.points.push_back({offset_s, estimate_difference(values.condition, values.baseline, level)});
+    recovery.recovered_after_s = recovered_after(recovery.points);
+    return recovery;
+}
+
+}  // namespace clearway::analysis

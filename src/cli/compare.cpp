@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "analysis/summary.hpp"
+#include "cli/common_options.hpp"
+#include "cli/names.hpp"
+#include "cli/verb.hpp"
+#include "report/comparison.hpp"
+#include "results/store.hpp"
+
+namespace clearway::cli {
+namespace {
+
+struct Arguments {
+    std::string first;
+    std::string second;
+    std::vector<std::string> metrics = {"emergency_travel_time_s", "others_time_loss_s", "collisions",
+                                        "teleports"};
+    std::vector<std::string> tolerances;
+    Printing printing = Printing::text;
+};
+
+std::vector<std::string> metric_names() {
+    std::vector<std::string> names;
+    for (const analysis::MetricInfo& metric : analysis::all_metrics())
+        names.push_back(metric.name);
+    return names;
+}
+
+/// `1.5` of EV travel time, or `METRIC=1.5`.
+report::Tolerance tolerance_from(const std::string& word) {
+    const std::size_t equals = word.find('=');
+    report::Tolerance tolerance{"emergency_travel_time_s", 0.0};
+    if (equals != std::string::npos) tolerance.metric = word.substr(0, equals);
+    const std::string value = equals == std::string::npos ? word : word.substr(equals + 1);
+    char* end = nullptr;
+    tolerance.largest = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !std::isfinite(tolerance.largest) || tolerance.largest < 0.0)
+        throw core::InputError({"--tolerance", fmt::format("`{}` is no tolerance", word),
+                                "a number from 0 on, in the metric's unit, or METRIC=NUMBER", ""});
+    return tolerance;
+}
+
+/// All tolerances; the metrics of gates are shown too.
+std::vector<report::Tolerance> check(Arguments& arguments) {
+    std::vector<report::Tolerance> tolerances;
+    for (const std::string& word : arguments.tolerances) {
+        tolerances.push_back(tolerance_from(word));
+        const std::string& metric = tolerances.back().metric;
+        if (std::ranges::find(arguments.metrics, metric) == arguments.metrics.end())
+            arguments.metrics.push_back(metric);
+    }
+    const std::vector<std::string> known = metric_names();
+    std::vector<core::Problem> problems;
+    for (const std::string& metric : arguments.metrics) {
+        if (std::ranges::find(known, metric) == known.end())
+            problems.push_back(unknown_name("metric", metric, known));
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return tolerances;
+}
+
+analysis::Summary summary_of(const Arguments& arguments) {
+    const results::Results first =
+        results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
+    if (!arguments.second.empty())
+        return analysis::compare_studies(first, results::read_results(results::Store::open(arguments.second),
+                                                                      results::VehicleRows::emergency));
+    analysis::Summary summary = analysis::summarise(first);
+    const bool compared = std::ranges::any_of(summary.scenarios, [](const auto& scenario) {
+        return std::ranges::any_of(scenario.conditions,
+                                   [](const auto& condition) { return !condition.baseline.empty(); });
+    });
+    if (!compared)
+        throw core::InputError({arguments.first, "has no condition beside its baselines", "",
+                                "Name a second run folder to compare it with"});
+    return summary;
+}
+
+core::ExitCode compare(Arguments arguments) {
+    const std::vector<report::Tolerance> tolerances = check(arguments);
+    const analysis::Summary summary = summary_of(arguments);
+    const std::vector<report::Shortfall> found = report::shortfalls(summary, tolerances);
+    if (arguments.printing == Printing::json) {
+        fmt::print("{}", report::comparison_json(summary, arguments.metrics, found));
+    } else {
+        fmt::print("{}", report::comparison_text(summary, arguments.metrics));
+        if (!arguments.second.empty())
+            fmt::print("diff.: {} minus {}, paired by scenario, condition and replication.\n",
+                       arguments.second, arguments.first);
+    }
+    for (const report::Shortfall& one : found)
+        fmt::print(stderr, "clearway: {}/{}: {}: {}\n", one.scenario, one.condition, one.metric, one.why);
+    return found.empty() ? core::ExitCode::ok : core::ExitCode::fell_short;
+}
+
+}  // namespace
+
+Action configure_compare(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("run", arguments->first, "Run folder; its conditions are compared with their baseline")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("other", arguments->second,
+                   "Second run folder of the same seed and scenarios: its runs are compared with the same "
+                   "runs of the first")
+        ->option_text("DIR [none]");
+    app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
+        ->allow_extra_args(false)
+        ->option_text(fmt::format("NAME [{}]", joined(arguments->metrics)));
+    app.add_option("--tolerance", arguments->tolerances,
+                   "Exit with 6 unless the 95 % interval shows that the metric is worse by at most this, in "
+                   "its unit; a bare number is of emergency_travel_time_s, s; may be repeated")
+        ->allow_extra_args(false)
+        ->option_text("[METRIC=]NUMBER [none]");
+    add_json_option(app, arguments->printing, "the comparison");
+    return [arguments](const Invocation&) { return compare(*arguments); };
+}
+
+}  // namespace clearway::cli

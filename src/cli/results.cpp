@@ -1,0 +1,57 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/verb.hpp"
+#include "results/table_reader.hpp"
+
+namespace clearway::cli {
+namespace {
+
+enum class Asked : std::uint8_t { table, names };
+
+struct Arguments {
+    std::string folder;
+    std::string table = "runs";
+    Asked asked = Asked::table;
+    results::TableFormat format = results::TableFormat::csv;
+};
+
+core::ExitCode print_results(const Arguments& arguments) {
+    const results::Store store = results::Store::open(arguments.folder);
+    if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
+    if (arguments.asked == Asked::names) {
+        for (const std::string& name : results::table_names(store))
+            fmt::print("{}\n", name);
+        return core::ExitCode::ok;
+    }
+    results::print_table(store, arguments.table, arguments.format, std::cout);
+    if (!std::cout.flush()) throw core::EnvironmentError("standard output cannot be written");
+    return core::ExitCode::ok;
+}
+
+}  // namespace
+
+Action configure_results(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("folder", arguments->folder, "Run folder, complete or not")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("table", arguments->table, "Table to print; --list names them")
+        ->option_text(fmt::format("TABLE [{}]", arguments->table));
+    auto* const csv = app.add_flag_callback(
+        "--csv", [arguments] { arguments->format = results::TableFormat::csv; },
+        "Print comma-separated values, names of columns first [on]");
+    auto* const json = app.add_flag_callback(
+        "--json", [arguments] { arguments->format = results::TableFormat::json; },
+        "Print a JSON array with an object for each row [off]");
+    csv->excludes(json);
+    app.add_flag_callback(
+        "--list", [arguments] { arguments->asked = Asked::names; }, "Print the names of the tables [off]");
+    return [arguments](const Invocation&) { return print_results(*arguments); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,79 @@
+#include "loop/road_layout.hpp"
+
+#include <set>
+
+#include "core/ids.hpp"
+#include "roads/route.hpp"
+
+namespace clearway::loop {
+namespace {
+
+/// The signal at the end of an edge, or none.
+core::SignalIndex signal_after(const roads::Network& network, const roads::Edge& edge) {
+    for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+        for (const roads::Connection& connection :
+             network.connections_from(core::LaneIndex{edge.first_lane + number})) {
+            if (connection.signal.exists()) return connection.signal;
+        }
+    }
+    return core::SignalIndex::none();
+}
+
+void add_approaches(const roads::Network& network, std::span<const metrics::EdgeCount> counts,
+                    metrics::RoadLayout& layout) {
+    std::set<std::string> counted;
+    for (const metrics::EdgeCount& count : counts)
+        counted.insert(count.edge);
+    const bool without_signals = network.signals().empty();
+    layout.approach_of_lane.assign(network.lanes().size(), metrics::RoadLayout::no_approach);
+    for (const roads::Edge& edge : network.edges()) {
+        if (edge.internal) continue;
+        const core::SignalIndex signal = signal_after(network, edge);
+        if (!signal.exists() && !without_signals && !counted.contains(edge.id)) continue;
+        for (std::uint32_t number = 0; number < edge.lane_count; ++number)
+            layout.approach_of_lane[edge.first_lane + number] =
+                static_cast<std::int32_t>(layout.approaches.size());
+        layout.approaches.push_back({edge.id, signal});
+    }
+}
+
+metrics::WatchedRoute watched_route(const roads::Network& network, const metrics::RoadLayout& layout,
+                                    const traffic::EmergencyDeparture& departure) {
+    metrics::WatchedRoute watched{core::vehicle_key(departure.id), departure.id, {}, {}, {}, {}};
+    std::vector<core::EdgeIndex> route;
+    for (const std::string& id : departure.edges) {
+        const auto edge = network.find_edge(id);
+        if (!edge) break;
+        route.push_back(*edge);
+        const double length_m = network.edge(*edge).length_m;
+        watched.edge_start_m.push_back(roads::route_length(network, route).value - length_m);
+        watched.edge_length_m.push_back(length_m);
+        watched.approach.push_back(layout.approach_of_lane[network.edge(*edge).first_lane]);
+    }
+    if (route.empty()) return watched;
+    traffic::MotionState start;
+    start.lane = network.lane_of(route.front(), 0);
+    constexpr core::Metres to_the_end{1e9};
+    for (const roads::StopLine& line : roads::signals_ahead(network, route, start, to_the_end))
+        watched.signals.push_back(
+            {line.signal, network.signal(line.signal).id, line.links, line.distance.value});
+    return watched;
+}
+
+}  // namespace
+
+metrics::RoadLayout road_layout(const roads::Network& network,
+                                std::span<const traffic::EmergencyDeparture> emergency,
+                                std::span<const metrics::EdgeCount> counts) {
+    metrics::RoadLayout layout;
+    add_approaches(network, counts, layout);
+    for (const roads::Lane& lane : network.lanes()) {
+        layout.internal_lane.push_back(network.edge(lane.edge).internal ? 1 : 0);
+        layout.limit_of_lane_mps.push_back(lane.speed_limit_mps);
+    }
+    for (const traffic::EmergencyDeparture& departure : emergency)
+        layout.routes.push_back(watched_route(network, layout, departure));
+    return layout;
+}
+
+}  // namespace clearway::loop

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "metrics/counts.hpp"
+#include "metrics/road_layout.hpp"
+#include "roads/network.hpp"
+#include "traffic/departure.hpp"
+
+namespace clearway::loop {
+
+/// Replications whose journeys are kept: the report draws one, and two more are there to look at.
+inline constexpr std::uint32_t journeys_kept = 3;
+
+/// What the recorder of a run has to know of the map and of the routes of its emergency vehicles. Routes stop
+/// where the network does not join them; counts of edges that it has not are left out. Approaches are in the
+/// order of the network's edges.
+metrics::RoadLayout road_layout(const roads::Network& network,
+                                std::span<const traffic::EmergencyDeparture> emergency,
+                                std::span<const metrics::EdgeCount> counts = {});
+
+}  // namespace clearway::loop

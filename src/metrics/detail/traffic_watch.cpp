@@ -1,0 +1,234 @@
+#include "metrics/detail/traffic_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace clearway::metrics::detail {
+namespace {
+
+using traffic::VehicleClass;
+
+constexpr float standing_mps = 0.1F;  // SUMO's own bound of waiting
+constexpr double sample_period_s = 5.0;
+constexpr double first_offset_s = -60.0;
+constexpr double last_offset_s = 240.0;
+constexpr double place_period_s = 1.0;
+constexpr double place_tolerance_m = 2.0;  // half a car: not to be seen in a figure of some km
+constexpr double clock_tolerance_s = 0.0005;
+
+std::size_t column_of(VehicleClass vehicle_class) {
+    return vehicle_class == VehicleClass::automated ? 1 : 0;
+}
+
+/// What the links of a way show: the best of them.
+char shown_by(const std::string& state, const std::vector<std::uint16_t>& links) {
+    char best = 'r';
+    for (const std::uint16_t link : links) {
+        if (link >= state.size()) continue;
+        if (traffic::is_green(state[link])) return 'g';
+        if (state[link] == 'y' || state[link] == 'Y') best = 'y';
+    }
+    return best;
+}
+
+std::string_view name_of(char shown) {
+    return shown == 'g' ? "green" : shown == 'y' ? "yellow" : "red";
+}
+
+/// Whether every place strictly between the two lies within the tolerance of the line that joins them.
+template <class Place>
+bool is_straight(const std::vector<Place>& places, std::size_t from, std::size_t to) {
+    const double speed =
+        (places[to].distance_m - places[from].distance_m) / (places[to].time_s - places[from].time_s);
+    for (std::size_t at = from + 1; at < to; ++at) {
+        const double expected = places[from].distance_m + speed * (places[at].time_s - places[from].time_s);
+        if (std::abs(places[at].distance_m - expected) > place_tolerance_m) return false;
+    }
+    return true;
+}
+
+/// The fewest places, chosen greedily, whose straight lines stay within the tolerance of all of them.
+template <class Place>
+std::vector<Place> simplified(const std::vector<Place>& places) {
+    std::vector<Place> kept;
+    std::size_t from = 0;
+    for (std::size_t to = 1; to <= places.size(); ++to) {
+        if (to < places.size() && is_straight(places, from, to)) continue;
+        if (kept.empty()) kept.push_back(places[from]);
+        if (to - 1 == from) continue;
+        kept.push_back(places[to - 1]);
+        from = to - 1;
+        if (to < places.size()) --to;
+    }
+    return kept;
+}
+
+}  // namespace
+
+TrafficWatch::TrafficWatch(RoadLayout layout)
+    : layout_(std::move(layout)),
+      losses_(layout_.approaches.size()),
+      halted_(layout_.approaches.size()),
+      journeys_(layout_.routes.size()) {}
+
+void TrafficWatch::step(const truth::Snapshot& snapshot) {
+    const double now_s = snapshot.time.value;
+    const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
+    if (last_s_ < 0.0) first_s_ = now_s;
+    last_s_ = now_s;
+    count_vehicles(snapshot, elapsed_s);
+    sample_halted(now_s);
+    follow(snapshot);
+}
+
+void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, double elapsed_s) {
+    std::ranges::fill(halted_, 0U);
+    approach_.resize(snapshot.size());
+    std::size_t before = 0;
+    for (std::size_t row = 0; row < snapshot.size(); ++row) {
+        while (before < previous_key_.size() && previous_key_[before] < snapshot.key[row])
+            ++before;
+        const bool known = before < previous_key_.size() && previous_key_[before] == snapshot.key[row];
+        const std::uint32_t lane = snapshot.lane[row].value;
+        const bool on_lane = lane < layout_.approach_of_lane.size();
+        const std::int32_t approach = on_lane ? layout_.approach_of_lane[lane] : RoadLayout::no_approach;
+        approach_[row] = approach;
+        if (approach == RoadLayout::no_approach || snapshot.vehicle_class[row] == VehicleClass::emergency)
+            continue;
+        const auto place = static_cast<std::size_t>(approach);
+        Loss& loss = losses_[place][column_of(snapshot.vehicle_class[row])];
+        if (!known || previous_approach_[before] != approach) {
+            ++loss.vehicles;
+            // Who is there already when the watch begins did not enter in its time.
+            if (snapshot.time.value > first_s_ && snapshot.time.value <= layout_.demand_until_s)
+                ++loss.of_demand;
+        }
+        const float speed_mps = snapshot.speed_mps[row];
+        if (speed_mps < standing_mps) {
+            loss.waiting_time_s += elapsed_s;
+            ++halted_[place];
+        }
+        const float limit_mps = layout_.limit_of_lane_mps[lane];
+        if (speed_mps < limit_mps)
+            loss.time_loss_s += elapsed_s * (1.0 - static_cast<double>(speed_mps / limit_mps));
+    }
+    previous_key_ = snapshot.key;
+    previous_approach_.swap(approach_);
+}
+
+void TrafficWatch::sample_halted(double time_s) {
+    if (samples_.empty()) first_sample_s_ = time_s;
+    const double due_s = first_sample_s_ + static_cast<double>(samples_.size()) * sample_period_s;
+    if (time_s + clock_tolerance_s >= due_s) samples_.push_back(halted_);
+}
+
+void TrafficWatch::follow(const truth::Snapshot& snapshot) {
+    for (std::size_t number = 0; number < layout_.routes.size(); ++number) {
+        const WatchedRoute& route = layout_.routes[number];
+        const auto row = snapshot.row_of(route.vehicle);
+        if (row) follow(snapshot, *row, route, journeys_[number]);
+    }
+}
+
+void TrafficWatch::follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
+                          Journey& journey) {
+    const double now_s = snapshot.time.value;
+    const std::uint32_t edge = snapshot.route_edge[row];
+    const std::uint32_t lane = snapshot.lane[row].value;
+    if (edge >= route.edge_start_m.size() || lane >= layout_.internal_lane.size()) return;
+    const bool inside = layout_.internal_lane[lane] != 0;
+    pass(now_s, edge, inside, route, journey);
+    if (!layout_.keep_journeys) return;
+    double distance_m = route.edge_start_m[edge] + static_cast<double>(snapshot.lane_position_m[row]);
+    if (inside) distance_m += route.edge_length_m[edge];
+    if (!journey.places.empty()) distance_m = std::max(distance_m, journey.places.back().distance_m);
+    if (journey.places.empty() || now_s + clock_tolerance_s >= journey.places.back().time_s + place_period_s)
+        journey.places.push_back({now_s, distance_m});
+    journey.shown.resize(route.signals.size(), '-');
+    for (std::uint32_t number = 0; number < route.signals.size(); ++number) {
+        const RouteSignal& signal = route.signals[number];
+        const char shown = shown_by(snapshot.signals.state[signal.signal.value], signal.links);
+        if (shown == journey.shown[number]) continue;
+        journey.shown[number] = shown;
+        journey.changes.push_back({now_s, number, shown});
+    }
+}
+
+void TrafficWatch::pass(double now_s, std::uint32_t edge, bool inside, const WatchedRoute& route,
+                        Journey& journey) {
+    const bool left = inside || edge != journey.route_edge;
+    if (journey.seen && left && !journey.passed) {
+        const std::int32_t approach = route.approach[journey.route_edge];
+        if (approach != RoadLayout::no_approach) passages_.push_back({now_s, approach});
+        journey.passed = true;
+    }
+    if (!journey.seen || edge != journey.route_edge) journey.passed = inside;
+    journey.seen = true;
+    journey.route_edge = edge;
+}
+
+double TrafficWatch::others_halted(const Passage& passage, std::size_t sample) const {
+    const core::SignalIndex signal = layout_.approaches[static_cast<std::size_t>(passage.approach)].signal;
+    std::uint64_t halted = 0;
+    for (std::size_t approach = 0; approach < layout_.approaches.size(); ++approach) {
+        if (layout_.approaches[approach].signal == signal &&
+            static_cast<std::int32_t>(approach) != passage.approach)
+            halted += samples_[sample][approach];
+    }
+    return static_cast<double>(halted);
+}
+
+std::vector<RecoveryRow> TrafficWatch::recovery() const {
+    std::vector<RecoveryRow> rows;
+    for (double offset_s = first_offset_s; offset_s <= last_offset_s; offset_s += sample_period_s) {
+        RecoveryRow row{offset_s, 0, 0.0};
+        for (const Passage& passage : passages_) {
+            if (!layout_.approaches[static_cast<std::size_t>(passage.approach)].signal.exists()) continue;
+            const double at =
+                std::floor((passage.time_s + offset_s - first_sample_s_) / sample_period_s + 1e-9);
+            if (at < 0.0 || at >= static_cast<double>(samples_.size())) continue;
+            ++row.passages;
+            row.halted_vehicles += others_halted(passage, static_cast<std::size_t>(at));
+        }
+        if (row.passages == 0) continue;
+        row.halted_vehicles /= static_cast<double>(row.passages);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::vector<JourneyRow> TrafficWatch::journeys() const {
+    std::vector<JourneyRow> rows;
+    for (std::size_t number = 0; number < journeys_.size(); ++number) {
+        const WatchedRoute& route = layout_.routes[number];
+        for (const Place& place : simplified(journeys_[number].places))
+            rows.push_back({route.id, "", "", place.time_s, place.distance_m});
+        for (const SignalChange& change : journeys_[number].changes) {
+            const RouteSignal& signal = route.signals[change.signal];
+            rows.push_back(
+                {route.id, signal.id, std::string(name_of(change.shown)), change.time_s, signal.distance_m});
+        }
+    }
+    return rows;
+}
+
+TrafficTables TrafficWatch::tables() const {
+    TrafficTables tables;
+    const double hours = (std::min(last_s_, layout_.demand_until_s) - first_s_) / 3600.0;
+    for (std::size_t approach = 0; approach < losses_.size(); ++approach) {
+        for (const VehicleClass vehicle_class : {VehicleClass::human, VehicleClass::automated}) {
+            const Loss& loss = losses_[approach][column_of(vehicle_class)];
+            if (loss.vehicles == 0) continue;
+            tables.approaches.push_back({layout_.approaches[approach].edge, vehicle_class, loss.vehicles,
+                                         loss.waiting_time_s, loss.time_loss_s,
+                                         hours > 0.0 ? static_cast<double>(loss.of_demand) / hours : 0.0});
+        }
+    }
+    tables.recovery = recovery();
+    tables.journeys = journeys();
+    return tables;
+}
+
+}  // namespace clearway::metrics::detail

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "metrics/road_layout.hpp"
+#include "metrics/traffic_tables.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::metrics::detail {
+
+/// Collects TrafficTables step by step. Linear in the vehicles on the road; grows with the time that passes,
+/// not with the steps.
+class TrafficWatch {
+  public:
+    explicit TrafficWatch(RoadLayout layout);
+
+    /// One step. The first one only sets the clock.
+    void step(const truth::Snapshot& snapshot);
+    TrafficTables tables() const;
+
+  private:
+    /// What a class lost on an approach.
+    struct Loss {
+        std::uint64_t vehicles = 0;
+        std::uint64_t of_demand = 0;  ///< That entered while demand departed.
+        double waiting_time_s = 0.0;
+        double time_loss_s = 0.0;
+    };
+    struct Passage {
+        double time_s = 0.0;
+        std::int32_t approach = 0;
+    };
+    struct Place {
+        double time_s = 0.0;
+        double distance_m = 0.0;
+    };
+    struct SignalChange {
+        double time_s = 0.0;
+        std::uint32_t signal = 0;  ///< In WatchedRoute::signals.
+        char shown = 'r';          ///< g, y or r.
+    };
+    struct Journey {
+        std::uint32_t route_edge = 0;
+        bool seen = false;
+        bool passed = false;  ///< It left `route_edge` and is on its way across the junction.
+        std::vector<Place> places;
+        std::vector<SignalChange> changes;
+        std::vector<char> shown;  ///< Last state of each signal on the route.
+    };
+
+    void count_vehicles(const truth::Snapshot& snapshot, double elapsed_s);
+    void sample_halted(double time_s);
+    void follow(const truth::Snapshot& snapshot);
+    void follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
+                Journey& journey);
+    /// Notes that a vehicle leaves an approach, once, whether its way across the junction is seen or jumped
+    /// over.
+    void pass(double now_s, std::uint32_t edge, bool inside, const WatchedRoute& route, Journey& journey);
+    std::vector<RecoveryRow> recovery() const;
+    std::vector<JourneyRow> journeys() const;
+    double others_halted(const Passage& passage, std::size_t sample) const;
+
+    RoadLayout layout_;
+    std::vector<std::array<Loss, 2>> losses_;  ///< By approach; human, automated.
+    std::vector<std::uint32_t> halted_;        ///< By approach, now.
+    std::vector<std::vector<std::uint32_t>> samples_;
+    double first_sample_s_ = 0.0;
+    std::vector<Passage> passages_;
+    std::vector<Journey> journeys_;  ///< By route.
+    double first_s_ = -1.0;
+    double last_s_ = -1.0;
+    /// Where each vehicle was at the step before, by key: both snapshots are sorted by it.
+    std::vector<core::VehicleKey> previous_key_;
+    std::vector<std::int32_t> previous_approach_;
+    std::vector<std::int32_t> approach_;
+};
+
+}  // namespace clearway::metrics::detail

@@ -1,0 +1,166 @@
+#include "report/comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "report/text.hpp"
+
+namespace clearway::report {
+namespace {
+
+using analysis::Comparison;
+using analysis::ConditionSummary;
+using analysis::ScenarioSummary;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t label_width = 34;
+constexpr std::size_t page_width = 110;
+
+/// Calls `visit` with every condition that is compared, and its scenario.
+template <class Visit>
+void for_each_compared(const analysis::Summary& summary, Visit&& visit) {
+    for (const ScenarioSummary& scenario : summary.scenarios) {
+        for (const ConditionSummary& condition : scenario.conditions) {
+            if (!condition.baseline.empty()) visit(scenario, condition);
+        }
+    }
+}
+
+std::string p_text(const std::optional<double>& p) {
+    if (!p) return missing(Script::plain);
+    return *p < 0.001 ? "<0.001" : number(*p, {.decimals = 3});
+}
+
+std::string optional_text(const std::optional<double>& value, NumberStyle style) {
+    return value ? number(*value, style) : missing(style.script);
+}
+
+std::string row_of(const ConditionSummary& condition, const Comparison& comparison) {
+    const NumberStyle style{.decimals = 2};
+    const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
+    const auto& difference = comparison.difference;
+    const std::string interval = difference && difference->interval
+                                     ? fmt::format("[{}, {}]", number(difference->interval->low, style),
+                                                   number(difference->interval->high, style))
+                                     : "(no interval)";
+    const std::string pairs = comparison.incomplete_pairs == 0
+                                  ? fmt::format("{}", comparison.complete_pairs)
+                                  : fmt::format("{} of {}", comparison.complete_pairs,
+                                                comparison.complete_pairs + comparison.incomplete_pairs);
+    const auto& relative = comparison.relative;
+    return fmt::format("{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n",
+                       printable(condition.condition.name).substr(0, label_width - 1), label_width, pairs,
+                       difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
+                       relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
+                                : missing(Script::plain),
+                       optional_text(comparison.effect_size, style), p_text(comparison.holm_p),
+                       p_text(comparison.wilcoxon_p));
+}
+
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json bounds_of(const std::optional<analysis::Interval>& interval) {
+    return interval ? Json{interval->low, interval->high} : Json(nullptr);
+}
+
+Json to_json(const Comparison& comparison) {
+    const auto& difference = comparison.difference;
+    return {{"complete_pairs", comparison.complete_pairs},
+            {"incomplete_pairs", comparison.incomplete_pairs},
+            {"vehicles_left_out", comparison.vehicles_left_out},
+            {"difference", difference ? Json(difference->mean) : Json(nullptr)},
+            {"interval_95", bounds_of(difference ? difference->interval : std::nullopt)},
+            {"relative_1", comparison.relative ? Json(comparison.relative->mean) : Json(nullptr)},
+            {"bca_95", bounds_of(comparison.bootstrap)},
+            {"median", number_or_null(comparison.median)},
+            {"median_95", bounds_of(comparison.median_interval)},
+            {"effect_size_dz", number_or_null(comparison.effect_size)},
+            {"t_p", number_or_null(comparison.t_p)},
+            {"holm_p", number_or_null(comparison.holm_p)},
+            {"wilcoxon_p", number_or_null(comparison.wilcoxon_p)}};
+}
+
+}  // namespace
+
+bool more_is_better(const std::string& metric) {
+    constexpr std::array better = {"emergency_arrived",        "arrived",  "links_true_positive",
+                                   "dark_links_true_positive", "links_f1", "dark_links_f1"};
+    return std::ranges::find(better, metric) != better.end();
+}
+
+std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
+                                  const std::vector<Tolerance>& tolerances) {
+    std::vector<Shortfall> found;
+    for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
+        for (const Tolerance& tolerance : tolerances) {
+            const analysis::MetricSummary& metric = condition.metric(tolerance.metric);
+            const auto& difference = metric.comparison->difference;
+            std::string why;
+            if (!difference || !difference->interval) {
+                why = "there is no interval: fewer than two complete pairs";
+            } else {
+                const bool inverted = more_is_better(tolerance.metric);
+                const double worst = inverted ? -difference->interval->low : difference->interval->high;
+                if (worst <= tolerance.largest) continue;
+                why = fmt::format("its interval reaches to {}{}, {} is allowed",
+                                  number(inverted ? -worst : worst, {.decimals = 2, .sign = Sign::always}),
+                                  metric.metric.unit == "1" ? "" : " " + metric.metric.unit,
+                                  inverted ? -tolerance.largest : tolerance.largest);
+            }
+            found.push_back({scenario.scenario, condition.condition.name, tolerance.metric, std::move(why)});
+        }
+    });
+    return found;
+}
+
+std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics) {
+    std::string text;
+    auto out = std::back_inserter(text);
+    for (const ScenarioSummary& scenario : summary.scenarios) {
+        for (const std::string& name : metrics) {
+            std::string rows;
+            const analysis::MetricInfo* metric = nullptr;
+            for (const ConditionSummary& condition : scenario.conditions) {
+                if (condition.baseline.empty()) continue;
+                metric = &condition.metric(name).metric;
+                rows += row_of(condition, *condition.metric(name).comparison);
+            }
+            if (metric == nullptr) continue;
+            fmt::format_to(out, "{}: {}{}\n{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n{:-<{}}\n{}\n",
+                           printable(scenario.scenario), metric->doc,
+                           metric->unit == "1" ? "" : ", " + metric->unit, "Condition", label_width, "pairs",
+                           "diff.", "95 % interval", "%", "d", "p Holm", "Wilcoxon", "", page_width, rows);
+        }
+    }
+    return text;
+}
+
+std::string comparison_json(const analysis::Summary& summary, const std::vector<std::string>& metrics,
+                            const std::vector<Shortfall>& short_of) {
+    Json comparisons = Json::array();
+    for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
+        Json values = Json::object();
+        for (const std::string& metric : metrics)
+            values[metric] = to_json(*condition.metric(metric).comparison);
+        comparisons.push_back({{"scenario", scenario.scenario},
+                               {"condition", condition.condition.name},
+                               {"compared_with", condition.baseline},
+                               {"metrics", std::move(values)}});
+    });
+    Json gates = Json::array();
+    for (const Shortfall& one : short_of)
+        gates.push_back({{"scenario", one.scenario},
+                         {"condition", one.condition},
+                         {"metric", one.metric},
+                         {"why", one.why}});
+    const Json result = {{"comparisons", std::move(comparisons)}, {"short_of_tolerance", std::move(gates)}};
+    return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearway::report

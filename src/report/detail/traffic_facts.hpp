@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "report/facts.hpp"
+#include "results/store.hpp"
+
+namespace clearway::report::detail {
+
+/// One emergency vehicle's journey in the first replication that kept it, under the baseline and the
+/// conditions that help most: the vehicle with most signals on its way. Empty where nothing was kept.
+std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario);
+
+/// Counted flows of the file against the mean flows of a condition's runs; empty where the file is missing.
+/// Throws core::InputError for a damaged one.
+std::vector<FlowFacts> flows_in(const std::filesystem::path& file, const results::Results& results,
+                                const std::string& scenario, const std::string& condition);
+
+/// Street names by edge; empty where the file is missing. Throws core::InputError for a damaged one.
+std::map<std::string, std::string> streets_in(const std::filesystem::path& file);
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,58 @@
+#include "loop/road_layout.hpp"
+
+#include <gmock/gmock.h>
+
+#include "roads/crossing_network.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::loop {
+namespace {
+
+using testing::ElementsAre;
+
+class RoadLayout : public testing::Test {
+  protected:
+    const support::TemporaryFolder folder_;
+    const roads::Network network_ =
+        roads::Network::read(folder_.write("crossing.net.xml", roads::crossing_network()));
+
+    traffic::EmergencyDeparture departure(std::vector<std::string> edges) const {
+        traffic::EmergencyDeparture result;
+        result.id = "ev";
+        result.edges = std::move(edges);
+        return result;
+    }
+};
+
+TEST_F(RoadLayout, TakesEdgesThatEndAtASignalForApproaches) {
+    const metrics::RoadLayout layout = road_layout(network_, {});
+    ASSERT_EQ(layout.approaches.size(), 2U);
+    EXPECT_EQ(layout.approaches[0].edge, "west");
+    EXPECT_EQ(layout.approaches[1].edge, "south");
+    EXPECT_EQ(layout.approach_of_lane[network_.find_lane("west_1")->value], 0);
+    EXPECT_EQ(layout.approach_of_lane[network_.find_lane("south_0")->value], 1);
+    EXPECT_EQ(layout.approach_of_lane[network_.find_lane("east_0")->value], metrics::RoadLayout::no_approach);
+    EXPECT_EQ(layout.internal_lane[network_.find_lane(":J_2_0")->value], 1);
+    EXPECT_EQ(layout.limit_of_lane_mps[network_.find_lane("north_0")->value], 5.0F);
+}
+
+TEST_F(RoadLayout, MeasuresTheRouteOfAnEmergencyVehicle) {
+    const std::vector departures = {departure({"south", "north"})};
+    const metrics::RoadLayout layout = road_layout(network_, departures);
+    const metrics::WatchedRoute& route = layout.routes.at(0);
+    EXPECT_THAT(route.edge_start_m, ElementsAre(0.0, 60.0)) << "50 m and a way of two pieces, 4 m and 6 m";
+    EXPECT_THAT(route.edge_length_m, ElementsAre(50.0, 60.0));
+    EXPECT_THAT(route.approach, ElementsAre(1, metrics::RoadLayout::no_approach));
+    ASSERT_EQ(route.signals.size(), 1U);
+    EXPECT_EQ(route.signals[0].id, "J");
+    EXPECT_THAT(route.signals[0].links, ElementsAre(3));
+    EXPECT_EQ(route.signals[0].distance_m, 50.0);
+}
+
+TEST_F(RoadLayout, StopsWhereARouteNamesNoEdge) {
+    const std::vector departures = {departure({"west", "nowhere", "east"})};
+    EXPECT_EQ(road_layout(network_, departures).routes.at(0).edge_start_m.size(), 1U);
+}
+
+}  // namespace
+}  // namespace clearway::loop

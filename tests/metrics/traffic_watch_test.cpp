@@ -1,0 +1,185 @@
+// Where a recorder says that time was lost, in scenes small enough to count by hand.
+#include <gmock/gmock.h>
+
+#include "metrics/recorder.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::metrics {
+namespace {
+
+using core::LaneIndex;
+using core::SignalIndex;
+using testing::ElementsAre;
+using traffic::VehicleClass;
+
+/// Lanes 0 and 1 lead to signal 0, lane 2 is inside the junction, lane 3 leaves it. All are limited to 10
+/// m/s.
+RoadLayout crossing() {
+    RoadLayout layout;
+    layout.approaches = {{"main", SignalIndex{0}}, {"side", SignalIndex{0}}};
+    layout.approach_of_lane = {0, 1, RoadLayout::no_approach, RoadLayout::no_approach};
+    layout.internal_lane = {0, 0, 1, 0};
+    layout.limit_of_lane_mps = {10.0F, 10.0F, 10.0F, 10.0F};
+    WatchedRoute route{core::vehicle_key("ev"),      "ev", {0.0, 110.0}, {100.0, 200.0},
+                       {0, RoadLayout::no_approach}, {}};
+    route.signals = {{SignalIndex{0}, "J", {0, 1}, 100.0}};
+    layout.routes = {route};
+    layout.keep_journeys = true;
+    layout.demand_until_s = 60.0;
+    return layout;
+}
+
+class TrafficWatch : public testing::Test {
+  protected:
+    TrafficWatch() { recorder_.watch(crossing()); }
+
+    void put(const std::string& id, VehicleClass vehicle_class, std::uint32_t lane, float speed_mps,
+             float position_m = 0.0F, std::uint32_t route_edge = 0) {
+        rows_[core::vehicle_key(id)] = {vehicle_class, lane, speed_mps, position_m, route_edge};
+    }
+    /// One step with the vehicles that were put since the last one.
+    void step(double time_s, const std::string& signal = "rr") {
+        truth::Snapshot snapshot;
+        snapshot.time = core::Seconds(time_s);
+        snapshot.resize(rows_.size());
+        std::size_t row = 0;
+        for (const auto& [key, vehicle] : rows_) {
+            snapshot.key[row] = key;
+            snapshot.vehicle_class[row] = vehicle.vehicle_class;
+            snapshot.lane[row] = LaneIndex{vehicle.lane};
+            snapshot.speed_mps[row] = vehicle.speed_mps;
+            snapshot.lane_position_m[row] = vehicle.position_m;
+            snapshot.route_edge[row++] = vehicle.route_edge;
+        }
+        snapshot.signals.state = {signal};
+        recorder_.step(snapshot, {}, {});
+        rows_.clear();
+    }
+    TrafficTables tables() {
+        RunEnd end;
+        end.tripinfo_files = {folder_.write("tripinfo.xml", "<tripinfos></tripinfos>")};
+        return recorder_.finish(end).traffic;
+    }
+
+  private:
+    struct Vehicle {
+        VehicleClass vehicle_class;
+        std::uint32_t lane;
+        float speed_mps;
+        float position_m;
+        std::uint32_t route_edge;
+    };
+    std::map<core::VehicleKey, Vehicle> rows_;
+    Recorder recorder_;
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(TrafficWatch, SumsLostAndStoodTimeByApproachAndClass) {
+    // In steps of 0.5 s: h1 stands twice on `side`, a1 drives at half the limit on `main` and leaves, h2
+    // drives faster than the limit.
+    for (const double time_s : {10.0, 10.5, 11.0}) {
+        put("h1", VehicleClass::human, 1, 0.0F);
+        if (time_s < 11.0) put("a1", VehicleClass::automated, 0, 5.0F);
+        put("h2", VehicleClass::human, 0, 12.0F);
+        put("ev", VehicleClass::emergency, 0, 0.0F);
+        put("gone", VehicleClass::human, 3, 0.0F);
+        step(time_s);
+    }
+    EXPECT_THAT(tables().approaches,
+                ElementsAre(ApproachRow{"main", VehicleClass::human, 1, 0.0, 0.0, 0.0},
+                            ApproachRow{"main", VehicleClass::automated, 1, 0.0, 0.25, 0.0},
+                            ApproachRow{"side", VehicleClass::human, 1, 1.0, 1.0, 0.0}));
+}
+
+TEST_F(TrafficWatch, CountsAVehicleAgainWhenItComesBack) {
+    for (int lap = 0; lap < 3; ++lap) {
+        put("h1", VehicleClass::human, 0, 10.0F);
+        step(lap);
+        put("h1", VehicleClass::human, 2, 10.0F);
+        step(lap + 0.5);
+    }
+    ASSERT_EQ(tables().approaches.size(), 1U);
+    EXPECT_EQ(tables().approaches[0].vehicles, 3U);
+}
+
+TEST_F(TrafficWatch, TakesFlowsWhileDemandDeparts) {
+    // One vehicle every 10 s until 100 s; the watch begins with one there already; demand departs until 60 s.
+    for (int second = 0; second <= 100; ++second) {
+        put("h" + std::to_string(second / 10), VehicleClass::human, 0, 10.0F);
+        step(second);
+    }
+    ASSERT_EQ(tables().approaches.size(), 1U);
+    EXPECT_EQ(tables().approaches[0].vehicles, 11U);
+    EXPECT_DOUBLE_EQ(tables().approaches[0].flow_per_hour, 6.0 / 60.0 * 3600.0);
+}
+
+TEST_F(TrafficWatch, ShowsTheQueueOnTheOtherApproachesAroundAPassage) {
+    // One vehicle stands on `side` all the time, a second from 20 s to 40 s; one stands on the EV's own
+    // approach. The EV crosses at 20 s.
+    for (double time_s = 0.0; time_s <= 60.0; time_s += 1.0) {
+        put("h1", VehicleClass::human, 1, 0.0F);
+        if (time_s >= 20.0 && time_s < 40.0) put("h2", VehicleClass::human, 1, 0.0F);
+        put("h3", VehicleClass::human, 0, 0.0F);
+        const bool before = time_s < 20.0;
+        put("ev", VehicleClass::emergency, before ? 0 : 3, 5.0F, 0.0F, before ? 0 : 1);
+        step(time_s);
+    }
+    const TrafficTables found = tables();
+    ASSERT_FALSE(found.recovery.empty());
+    EXPECT_EQ(found.recovery.front().offset_s, -20.0);
+    EXPECT_EQ(found.recovery.back().offset_s, 40.0);
+    for (const RecoveryRow& row : found.recovery) {
+        EXPECT_EQ(row.passages, 1U);
+        EXPECT_EQ(row.halted_vehicles, row.offset_s >= 0.0 && row.offset_s < 20.0 ? 2.0 : 1.0)
+            << row.offset_s;
+    }
+}
+
+TEST_F(TrafficWatch, KeepsAJourneyInAsFewPlacesAsItsSpeedNeeds) {
+    // 10 m/s for 9 s, halt for 5 s at the stop line, then on over the junction.
+    for (int second = 0; second <= 24; ++second) {
+        const float driven = 10.0F * static_cast<float>(second < 10 ? second : second < 15 ? 9 : second - 5);
+        const bool inside = driven > 100.0F && driven < 110.0F;
+        const bool beyond = driven >= 110.0F;
+        put("ev", VehicleClass::emergency,
+            beyond   ? 3
+            : inside ? 2
+                     : 0,
+            10.0F,
+            beyond   ? driven - 110.0F
+            : inside ? driven - 100.0F
+                     : driven,
+            beyond ? 1 : 0);
+        step(second, second < 12 ? "rr" : second < 14 ? "ry" : "rG");
+    }
+    std::vector<std::pair<double, double>> places;
+    std::vector<std::string> states;
+    for (const JourneyRow& row : tables().journeys) {
+        EXPECT_EQ(row.vehicle, "ev");
+        if (row.signal.empty()) {
+            places.emplace_back(row.time_s, row.distance_m);
+        } else {
+            EXPECT_EQ(row.signal, "J");
+            EXPECT_EQ(row.distance_m, 100.0);
+            states.push_back(row.state + std::to_string(static_cast<int>(row.time_s)));
+        }
+    }
+    EXPECT_THAT(places, ElementsAre(std::pair(0.0, 0.0), std::pair(9.0, 90.0), std::pair(14.0, 90.0),
+                                    std::pair(24.0, 190.0)));
+    EXPECT_THAT(states, ElementsAre("red0", "yellow12", "green14"));
+}
+
+TEST_F(TrafficWatch, OfNobodyIsEmpty) {
+    step(0.0);
+    EXPECT_EQ(tables(), TrafficTables{});
+}
+
+TEST(Recorder, SaysNothingOfRoadsUnlessItWatches) {
+    const support::TemporaryFolder folder;
+    RunEnd end;
+    end.tripinfo_files = {folder.write("tripinfo.xml", "<tripinfos></tripinfos>")};
+    EXPECT_EQ(Recorder().finish(end).traffic, TrafficTables{});
+}
+
+}  // namespace
+}  // namespace clearway::metrics

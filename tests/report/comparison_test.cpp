@@ -1,0 +1,89 @@
+#include "report/comparison.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// A condition whose metrics all differ from the baseline's by `mean`, half width 1.
+analysis::Summary summary_with(double mean) {
+    analysis::ConditionSummary baseline;
+    baseline.condition.name = "baseline";
+    analysis::ConditionSummary treated;
+    treated.condition.name = "treated\x1b[2J";
+    treated.baseline = "baseline";
+    for (const analysis::MetricInfo& info : analysis::all_metrics()) {
+        analysis::MetricSummary metric;
+        metric.metric = info;
+        baseline.metrics.push_back(metric);
+        analysis::Comparison& comparison = metric.comparison.emplace();
+        comparison.complete_pairs = 18;
+        comparison.incomplete_pairs = 2;
+        comparison.difference = analysis::Estimate{18, mean, 2.0, analysis::Interval{mean - 1.0, mean + 1.0}};
+        comparison.holm_p = 0.0001;
+        comparison.wilcoxon_p = 0.25;
+        treated.metrics.push_back(metric);
+    }
+    analysis::Summary summary;
+    summary.scenarios = {{"city", "City", {baseline, treated}}};
+    return summary;
+}
+
+std::vector<Shortfall> shortfalls_of(double mean, const char* metric, double tolerance) {
+    return shortfalls(summary_with(mean), {{metric, tolerance}});
+}
+
+TEST(Shortfalls, AreWhatTheIntervalDoesNotExclude) {
+    EXPECT_THAT(shortfalls_of(0.5, "emergency_travel_time_s", 1.5), IsEmpty());
+    EXPECT_EQ(shortfalls_of(0.6, "emergency_travel_time_s", 1.5).size(), 1U);
+    EXPECT_THAT(shortfalls_of(-20.0, "emergency_travel_time_s", 0.0), IsEmpty()) << "better is never short";
+    EXPECT_THAT(shortfalls_of(0.6, "emergency_travel_time_s", 1.5)[0].why,
+                HasSubstr("reaches to +1.60 s, 1.5"));
+}
+
+TEST(Shortfalls, KnowWhereMoreIsBetter) {
+    EXPECT_THAT(shortfalls_of(5.0, "arrived", 0.0), IsEmpty());
+    EXPECT_EQ(shortfalls_of(-0.5, "arrived", 1.0).size(), 1U);
+    EXPECT_THAT(shortfalls_of(-0.5, "arrived", 1.0)[0].why, HasSubstr("reaches to -1.50"));
+}
+
+TEST(Shortfalls, IncludeWhatHasNoInterval) {
+    analysis::Summary summary = summary_with(-5.0);
+    for (analysis::MetricSummary& metric : summary.scenarios[0].conditions[1].metrics)
+        metric.comparison->difference.reset();
+    const auto found = shortfalls(summary, {{"collisions", 100.0}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].why, HasSubstr("no interval"));
+}
+
+TEST(ComparisonText, ShowsPairsIntervalAndPValuesWithinATerminal) {
+    const std::string text = comparison_text(summary_with(-3.25), {"emergency_travel_time_s", "collisions"});
+    EXPECT_THAT(text, HasSubstr("18 of 20     -3.25  [-4.25, -2.25]"));
+    EXPECT_THAT(text, HasSubstr("<0.001    0.250\n"));
+    EXPECT_THAT(text, HasSubstr("city: EV travel time, mean of those that arrived, s\n"));
+    EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 110U) << line;
+}
+
+TEST(ComparisonJson, HoldsComparisonsAndShortfalls) {
+    const analysis::Summary summary = summary_with(-3.25);
+    const auto found = shortfalls(summary, {{"arrived", 0.0}});
+    const auto json = nlohmann::json::parse(comparison_json(summary, {"emergency_travel_time_s"}, found));
+    const auto& metric = json["comparisons"][0]["metrics"]["emergency_travel_time_s"];
+    EXPECT_EQ(metric["difference"], -3.25);
+    EXPECT_EQ(metric["interval_95"][1], -2.25);
+    EXPECT_TRUE(metric["relative_1"].is_null());
+    EXPECT_EQ(json["short_of_tolerance"][0]["metric"], "arrived");
+}
+
+}  // namespace
+}  // namespace clearway::report

@@ -1,0 +1,99 @@
+#include "results/table_reader.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sqlite3.h>
+
+#include "core/error.hpp"
+#include "results/synthetic.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::results {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class TableReader : public testing::Test {
+  protected:
+    TableReader() : store(Store::create(folder.path(), synthetic::manifest())) {
+        store.write(synthetic::record({"alpha", "baseline", 0}), {});
+        store.write(synthetic::failure({"alpha", "treated", 0}));
+        write_tables(store, read_results(store));
+    }
+    std::string printed(const std::string& table, TableFormat format) const {
+        std::ostringstream out;
+        print_table(store, table, format, out);
+        return out.str();
+    }
+    std::string error_of(const std::string& table) const {
+        try {
+            printed(table, TableFormat::csv);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return {};
+    }
+    void execute(const char* sql) const {
+        sqlite3* database = nullptr;
+        ASSERT_EQ(sqlite3_open((folder.path() / "results.sqlite").c_str(), &database), SQLITE_OK);
+        EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+        sqlite3_close(database);
+    }
+
+    support::TemporaryFolder folder;
+    Store store;
+};
+
+TEST_F(TableReader, ListsTheTables) {
+    EXPECT_THAT(table_names(store), testing::IsSupersetOf({"failures", "runs", "study", "vehicles"}));
+}
+
+TEST_F(TableReader, PrintsTextNumbersAndWhatIsNotAvailable) {
+    const std::string csv = printed("vehicles", TableFormat::csv);
+    EXPECT_THAT(csv, StartsWith("scenario,condition,replication,id,class,"));
+    EXPECT_THAT(csv, HasSubstr("\nalpha,baseline,0,\"e,\"\"1\"\"\",emergency,car,arrived,1.25,1.5,"));
+    const auto rows = nlohmann::json::parse(printed("vehicles", TableFormat::json));
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[0]["travel_time_s"], 50.1);
+    EXPECT_TRUE(rows[2]["travel_time_s"].is_null());
+    EXPECT_EQ(rows[2]["outcome"], "not_inserted");
+}
+
+TEST_F(TableReader, KeepsAllBitsOfASeed) {
+    execute("UPDATE runs SET simulator_seed = -1");
+    EXPECT_THAT(printed("runs", TableFormat::csv), HasSubstr(",18446744073709551615,"));
+}
+
+TEST_F(TableReader, NamesTheColumnsOfAnEmptyTable) {
+    execute("DELETE FROM failures");
+    EXPECT_EQ(printed("failures", TableFormat::csv),
+              "scenario,condition,replication,outcome,cause,message\n");
+    EXPECT_EQ(printed("failures", TableFormat::json), "[\n]\n");
+}
+
+TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
+    EXPECT_TRUE(tables_are_current(store));
+    store.write(synthetic::record({"alpha", "baseline", 1}), {});
+    EXPECT_FALSE(tables_are_current(store));
+    write_tables(store, read_results(store));
+    store.write(synthetic::failure({"beta", "treated", 1}));
+    EXPECT_FALSE(tables_are_current(store));
+    std::filesystem::remove(folder.path() / "results.sqlite");
+    EXPECT_FALSE(tables_are_current(store));
+}
+
+TEST_F(TableReader, RefusesOtherVersionsOtherFilesAndUnknownTables) {
+    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("failures, runs, study, vehicles"));
+    execute("UPDATE study SET value = '99' WHERE key = 'format'");
+    EXPECT_THAT(error_of("runs"), HasSubstr("another version: format \"99\""));
+    EXPECT_THROW(tables_are_current(store), core::InputError);
+    std::ofstream(folder.path() / "results.sqlite") << "no database at all, but long enough to look at";
+    EXPECT_THAT(error_of("runs"), HasSubstr("results.sqlite"));
+}
+
+}  // namespace
+}  // namespace clearway::results
