@@ -320,6 +320,10 @@ core::ExitCode verify_runs(const Arguments& arguments) {
                                 arguments.run.empty() ? "is missing" : "goes without --all and --sample",
                                 "SCENARIO/CONDITION/REPLICATION, --all or --sample N", ""});
     const results::Store stored = results::Store::open(arguments.folder);
+    std::error_code none;
+    if (std::filesystem::equivalent(arguments.folder, arguments.out, none))
+        throw core::InputError({"--out", fmt::format("{} is the folder to verify", arguments.out),
+                                "a new or empty folder", "A run must be made elsewhere to be compared"});
     const std::vector<results::RunKey> keys = chosen_runs(stored, arguments);
     require_same_versions(stored.manifest());
     std::optional<TemporaryFolder> temporary;

@@ -159,6 +159,9 @@ TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {
     EXPECT_EQ(clearway({"verify", "out"}).code, 3);
     EXPECT_EQ(clearway({"verify", "out", "line/mine/0", "--all"}).code, 3);
     EXPECT_EQ(clearway({"verify", "nowhere", "--all"}).code, 3);
+    const Ended itself = clearway({"verify", "out", "--all", "--out", "./out"});
+    EXPECT_EQ(itself.code, 3);
+    EXPECT_THAT(itself.err, HasSubstr("is the folder to verify"));
     damage("out/runs/line/mine/00000/run.json", "\"arrived\": ", "\"arrived\": 1");
     const Ended damaged = clearway({"verify", "out", "line/mine/0"});
     EXPECT_EQ(damaged.code, 3) << damaged.out;

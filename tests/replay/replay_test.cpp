@@ -1,10 +1,14 @@
 // A run that was recorded, thought through again without a simulator.
 #include "replay/replay.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
+#include "prediction/predictor.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::replay {
 namespace {
@@ -68,13 +72,26 @@ TEST_P(EveryCondition, ComesOutOfItsRecordingToTheBit) {
     EXPECT_EQ(result.replayed.links, result.recorded.links);
 }
 
-INSTANTIATE_TEST_SUITE_P(Replay, EveryCondition,
-                         testing::Values(condition("perfect", "none", {"dissertation"}),
-                                         condition("B10", "dead_reckoning", {"corridor"}),
-                                         condition("C.range", "graphsage_corrected",
-                                                   {"preempt_signals", "clear_lane"}),
-                                         condition("DL2", "last_seen", {"dissertation"}),
-                                         condition("D3B10", "graphsage_as_published", {"listing_5_5"})));
+/// Every way to fail, with the predictors in turn, and every predictor at least once.
+std::vector<ConditionSpec> every_condition() {
+    const std::vector<std::string> predictors = prediction::predictor_names();
+    const std::vector<sensing::FailurePreset> failures = sensing::failure_presets();
+    const std::vector<std::vector<std::string>> policies = {
+        {"dissertation"}, {"corridor"}, {"preempt_signals", "clear_lane"}, {"listing_5_5"}};
+    std::vector<ConditionSpec> conditions;
+    for (std::size_t i = 0; i < std::max(failures.size(), predictors.size()); ++i) {
+        conditions.push_back(condition(failures[i % failures.size()].name, predictors[i % predictors.size()],
+                                       policies[i % policies.size()]));
+    }
+    return conditions;
+}
+
+INSTANTIATE_TEST_SUITE_P(Replay, EveryCondition, testing::ValuesIn(every_condition()),
+                         [](const auto& tested) {
+                             std::string name = tested.param.failure + "_" + tested.param.predictor;
+                             std::ranges::replace(name, '.', '_');
+                             return name;
+                         });
 
 TEST(Recording, ChangesNothingAboutARun) {
     const ConditionSpec spec = condition("B10", "dead_reckoning", {"dissertation"});
