@@ -1,6 +1,7 @@
-// What prediction costs per report. Three lanes full of vehicles, TABLE I's city mix of classes (47 human, 26
-// automated, 7 emergency), 30 % of them dark for up to 20 s. `vehicles` counts them; times are per call,
-// `per_vehicle` per vehicle and call.
+// What prediction costs per report. Three lanes with a vehicle every 12 m (jammed) or 40 m (dense: about as
+// many candidates a vehicle as the dense merge, intersection and city have), TABLE I's city mix of classes
+// (47 human, 26 automated, 7 emergency), 30 % of them dark for up to 20 s. `vehicles` counts them; times are
+// per call, `per_vehicle` per vehicle and call.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +23,8 @@ namespace {
 
 using namespace clearway;
 
-constexpr double spacing_m = 12.0;
+constexpr double jammed_m = 12.0;  ///< Between two vehicles of a lane.
+constexpr double dense_m = 40.0;
 constexpr std::uint32_t lanes = 3;
 
 double draw(std::uint64_t subject, std::uint64_t counter) {
@@ -77,7 +79,8 @@ class Traffic {
   public:
     enum class Darkness { nobody, some, everybody };
 
-    Traffic(std::int64_t vehicles, Darkness darkness) : network_(make_network(vehicles)) {
+    Traffic(std::int64_t vehicles, Darkness darkness, double spacing_m = jammed_m)
+        : spacing_m_(spacing_m), network_(make_network(vehicles, spacing_m)) {
         const core::RouteIndex route = roster_.add_route({*network_.find_edge("road")});
         std::vector<core::VehicleKey> keys;
         for (std::int64_t number = 0; number < vehicles; ++number) {
@@ -97,7 +100,7 @@ class Traffic {
     const traffic::Observation& observation() const { return observation_; }
 
   private:
-    static roads::Network make_network(std::int64_t vehicles) {
+    static roads::Network make_network(std::int64_t vehicles, double spacing_m) {
         const auto file = std::filesystem::temp_directory_path() / "clearway-inference-benchmark.net.xml";
         std::ofstream(file) << road_text(static_cast<double>(vehicles) * spacing_m / lanes + 1000.0);
         roads::Network network = roads::Network::read(file);
@@ -112,7 +115,7 @@ class Traffic {
         result.vehicle_class = kind < 47.0 / 80.0   ? traffic::VehicleClass::human
                                : kind < 73.0 / 80.0 ? traffic::VehicleClass::automated
                                                     : traffic::VehicleClass::emergency;
-        const double position_m = static_cast<double>(number / lanes) * spacing_m;
+        const double position_m = static_cast<double>(number / lanes) * spacing_m_;
         result.state.lane =
             network_.lane_of(*network_.find_edge("road"), static_cast<std::uint32_t>(number % lanes));
         result.state.lane_position_m = static_cast<float>(position_m);
@@ -126,6 +129,7 @@ class Traffic {
         return result;
     }
 
+    double spacing_m_;
     roads::Network network_;
     traffic::Roster roster_;
     traffic::Observation observation_;
@@ -138,12 +142,10 @@ void note_cost(benchmark::State& state, std::size_t candidates) {
     state.counters["candidates_per_vehicle"] = static_cast<double>(candidates) / vehicles;
 }
 
-void predict(benchmark::State& state, const std::string& name, Traffic::Darkness darkness) {
-    const Traffic traffic(state.range(0), darkness);
-    const auto file = std::filesystem::temp_directory_path() / "clearway-inference-benchmark.weights";
-    prediction::write_weights(file, random_net(prediction::corrected_schema(), 10, 5));
-    const auto predictor = prediction::make_predictor(name, {traffic.network(), {}, file.string(), {}});
-    std::filesystem::remove(file);
+void predict(benchmark::State& state, const std::string& name, Traffic::Darkness darkness,
+             double spacing_m = jammed_m) {
+    const Traffic traffic(state.range(0), darkness, spacing_m);
+    const auto predictor = prediction::make_predictor(name, {traffic.network(), {}, "", {}});
     traffic::BelievedGraph belief;
     for (auto _ : state) {
         predictor->predict(traffic.observation(), belief);
@@ -186,10 +188,16 @@ BENCHMARK_CAPTURE(predict, none_all_seen, "none", Darkness::nobody)->Arg(1000)->
 BENCHMARK_CAPTURE(predict, dead_reckoning_all_seen, "dead_reckoning", Darkness::nobody)->Arg(1000);
 BENCHMARK_CAPTURE(predict, dead_reckoning_30_dark, "dead_reckoning", Darkness::some)->Arg(1000)->Arg(10000);
 BENCHMARK_CAPTURE(predict, dead_reckoning_all_dark, "dead_reckoning", Darkness::everybody)->Arg(1000);
-BENCHMARK_CAPTURE(predict, graphsage_all_seen, "graphsage_corrected", Darkness::nobody)->Arg(1000);
-BENCHMARK_CAPTURE(predict, graphsage_30_dark, "graphsage_corrected", Darkness::some)->Arg(1000)->Arg(10000);
-BENCHMARK_CAPTURE(predict, graphsage_all_dark, "graphsage_corrected", Darkness::everybody)
+BENCHMARK_CAPTURE(predict, corrected_30_dark, "graphsage_corrected", Darkness::some)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(predict, corrected_all_dark, "graphsage_corrected", Darkness::everybody)->Arg(1000);
+BENCHMARK_CAPTURE(predict, route_rule_dense_30_dark, "route_rule", Darkness::some, dense_m)
     ->Arg(1000)
     ->Arg(10000);
+BENCHMARK_CAPTURE(predict, graphsage_all_seen, "graphsage", Darkness::nobody, dense_m)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(predict, graphsage_dense_30_dark, "graphsage", Darkness::some, dense_m)
+    ->Arg(1000)
+    ->Arg(10000);
+BENCHMARK_CAPTURE(predict, graphsage_jammed_30_dark, "graphsage", Darkness::some)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(predict, graphsage_all_dark, "graphsage", Darkness::everybody, dense_m)->Arg(1000);
 
 }  // namespace

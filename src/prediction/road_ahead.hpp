@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -104,7 +105,7 @@ class RoadAheadBuilder {
   private:
     struct Memory {
         core::VehicleKey key;
-        double report_s = -1.0;
+        double report_s = std::numeric_limits<double>::lowest();
         float smoothed_speed_mps = 0.0F;
         float x_m = 0.0F, y_m = 0.0F;  ///< Where it was last seen, filtered.
         float variance_m2 = 0.0F;
