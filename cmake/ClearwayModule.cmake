@@ -59,6 +59,7 @@ function(clearway_module name)
     endforeach()
     if(CLEARWAY_CHECK_HEADERS AND headers)
         clearway_headers_alone(${name} "${headers}")
+        target_link_libraries(headers_${name} PRIVATE ${arg_LINKS})
     endif()
 endfunction()
 

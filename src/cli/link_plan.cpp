@@ -211,7 +211,7 @@ void check(const LinkPlan& plan) {
             problems.push_back(unknown_name(where, name, known));
     };
     for (const std::string& failure : plan.benchmark.failures)
-        check_name("--failure", failure, failure_names());
+        check_failure("--failure", failure, problems);
     for (const std::string& exits : plan.benchmark.exits)
         check_name("exits", exits, {"known", "unknown"});
     std::vector<std::string> present;

