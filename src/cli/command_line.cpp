@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/verb.hpp"
+#include "core/process.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -22,8 +22,14 @@ constexpr std::array all_verbs = {
     Verb{"run", "Run one scenario under chosen conditions",
          "clearway run intersection --dense --policy dissertation --failure B10 --predictor dead_reckoning",
          configure_run},
-    Verb{"study", "Run a study file: scenarios x conditions x replications",
+    Verb{"study", "Run a study file: scenarios x conditions x factors x replications",
          "clearway study my-study.toml --out runs/mine", configure_study},
+    Verb{"status", "Tell how far a study is, also while it runs elsewhere",
+         "clearway status runs/mine --json", configure_status},
+    Verb{"submit", "Divide a study for a cluster, GNU parallel or local processes",
+         "clearway submit my-study.toml --engine slurm --out /shared/mine --go", configure_submit},
+    Verb{"merge", "Put the shards of a study together", "clearway merge /shared/mine --out runs/mine",
+         configure_merge},
     Verb{"report", "Print the tables of a run folder and write its report.html",
          "clearway report runs/reproduce", configure_report},
     Verb{"compare", "Compare the conditions of a run folder, or two run folders, pair by pair",
@@ -59,26 +65,10 @@ const char* const footer =
     "6 a comparison fell short, 7 conflicting results, 130 and 143 interrupted.\n"
     "`clearway VERB --help` describes a verb.";
 
-/// A word as a shell reads it back.
-std::string quoted(const std::string& word) {
-    const auto plain = [](unsigned char letter) {
-        return std::isalnum(letter) != 0 ||
-               std::string_view("-_./=,:+@%").find(static_cast<char>(letter)) != std::string_view::npos;
-    };
-    if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-    std::string text = "'";
-    for (const char letter : word) {
-        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    }
-    return text + "'";
-}
-
 Invocation invocation_of(int argument_count, const char* const* arguments) {
-    Invocation invocation{"clearway"};
-    for (int i = 1; i < argument_count; ++i) {
-        invocation.command += " " + quoted(arguments[i]);
-    }
-    return invocation;
+    std::vector<std::string> words(arguments, arguments + argument_count);
+    words.front() = "clearway";
+    return {core::shell_text(words)};
 }
 
 std::vector<std::string> verb_names() {

@@ -33,11 +33,19 @@ void add_seed_option(CLI::App& app, std::uint64_t& seed) {
 
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {
     return app
-        .add_option(
-            "--seeds", seeds,
-            "Replications of each condition; the conditions of one share demand, drivers and failures")
+        .add_option("--seeds", seeds,
+                    "Replications; the conditions of one share demand, drivers and failures")
         ->check(CLI::Range(1U, most_replications))
         ->option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
+}
+
+void add_limit_options(CLI::App& app, results::RunLimits& limits) {
+    app.add_option("--run-time-limit", limits.wall_s, "Wall time after which a run is ended, s")
+        ->check(CLI::Range(0.001, 1e7))
+        ->option_text(fmt::format("SECONDS, 0.001 to 1e7 [{:g}]", limits.wall_s));
+    app.add_option("--memory-limit", limits.memory_mib, "Memory above which a run is ended, MiB; 0: none")
+        ->check(CLI::Range(0L, 100000000L))
+        ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {

@@ -28,6 +28,9 @@ void add_seed_option(CLI::App& app, std::uint64_t& seed);
 /// Declares `--seeds`: number of replications; `app` shows the present value as the default.
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
+/// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
+void add_limit_options(CLI::App& app, results::RunLimits& limits);
+
 /// `a, b, c`.
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common_options.hpp"
+#include "cli/run_cost.hpp"
 #include "core/progress.hpp"
 #include "results/store.hpp"
 
@@ -19,109 +19,103 @@ namespace {
 /// One row of the plan: a condition in a scenario.
 struct Cell {
     std::string scenario;
-    const results::ConditionSpec* condition = nullptr;
+    results::ConditionSpec condition;
     std::size_t runs = 0;
     std::size_t complete = 0;
-    std::optional<double> run_s;  ///< Wall time of one run, estimated. Nothing where nobody can tell.
+    RunCost cost;  ///< Of one run.
 };
-
-/// Wall time of a vehicle on the road for one step, SUMO and coupling. From the project's measurements: 3.1
-/// to 11.9 us for the bare step on two shared cores, a tenth to a quarter more for the coupling.
-constexpr double vehicle_step_s = 10e-6;
-/// Mean time on the road, s. Assumed: between the merge (80 s) and the city (200 s).
-constexpr double mean_trip_s = 120.0;
-/// Loading, warm-up and forking of a run, s. Assumed: from runs of the sparse scenarios.
-constexpr double overhead_s = 0.2;
-
-/// From counts, step length and the costs above; nothing for measured demand, whose size is in its files.
-std::optional<double> estimated_run_s(const scenario::ScenarioConfig& config, results::Engine engine) {
-    if (config.demand_kind() == scenario::DemandKind::measured) return std::nullopt;
-    const scenario::Demand& demand = config.demand;
-    const double others =
-        engine == results::Engine::solo ? 0.0 : demand.density * (demand.human + demand.automated);
-    const double vehicles = others + demand.emergency + static_cast<double>(config.emergency_trips.size());
-    return overhead_s + vehicles * mean_trip_s / config.time.step_length_s * vehicle_step_s;
-}
 
 /// The folder's store when it holds this very study.
 std::optional<results::Store> existing_store(const study::Plan& plan, const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
     results::Store store = results::Store::open(folder);
-    if (results::manifest_hash(store.manifest()) != results::manifest_hash(plan.manifest)) {
-        return std::nullopt;
-    }
+    if (!results::differences(store.manifest(), plan.manifest).empty()) return std::nullopt;
     return store;
-}
-
-void count_complete(const results::Store& store, Cell& cell) {
-    double total_s = 0.0;
-    std::size_t timed = 0;
-    for (std::uint32_t replication = 0; replication < cell.runs; ++replication) {
-        const results::RunKey key{cell.scenario, cell.condition->name, replication};
-        if (!store.complete(key)) continue;
-        ++cell.complete;
-        if (const std::optional<results::RunTiming> timing = store.read_timing(key)) {
-            total_s += timing->wall_s;
-            ++timed;
-        }
-    }
-    if (timed > 0) cell.run_s = total_s / static_cast<double>(timed);
 }
 
 std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path& folder) {
     const std::optional<results::Store> store = existing_store(plan, folder);
+    const CostBook book(folder);
     std::vector<Cell> cells;
+    std::map<std::pair<std::string, std::string>, std::size_t> rows;
     for (const scenario::ScenarioConfig& config : plan.scenarios) {
         for (const results::ConditionSpec& condition : plan.manifest.conditions) {
-            Cell cell{.scenario = config.name,
-                      .condition = &condition,
-                      .runs = plan.manifest.replications,
-                      .run_s = estimated_run_s(config, condition.engine)};
-            if (store) count_complete(*store, cell);
-            cells.push_back(cell);
+            rows[{config.name, condition.name}] = cells.size();
+            cells.push_back(
+                {.scenario = config.name, .condition = condition, .cost = book.of(config, condition.engine)});
+        }
+    }
+    for (const study::PlannedUnit& planned : plan.units) {
+        for (const results::ConditionSpec& condition : planned.unit.conditions) {
+            Cell& cell = cells[rows.at({planned.unit.scenario, condition.name})];
+            ++cell.runs;
+            const results::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
+            if (store && store->complete(key)) ++cell.complete;
         }
     }
     return cells;
 }
 
-/// Wall time of what is left, s; nothing when a cell's is unknown.
-std::optional<double> time_left_s(const std::vector<Cell>& cells, unsigned workers) {
-    double total_s = 0.0;
-    for (const Cell& cell : cells) {
-        if (cell.complete == cell.runs) continue;
-        if (!cell.run_s) return std::nullopt;
-        total_s += *cell.run_s * static_cast<double>(cell.runs - cell.complete);
-    }
+/// What is left of a plan.
+struct Rest {
+    std::size_t complete = 0;
+    std::optional<double> wall_s = 0.0;  ///< Nothing when a cell's is unknown.
+    double disk_bytes = 0.0;
+    bool measured = true;
+};
+
+Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
+    Rest rest;
     const unsigned processes = workers > 0 ? workers : std::max(1U, std::thread::hardware_concurrency());
-    return total_s / processes;
+    for (const Cell& cell : cells) {
+        rest.complete += cell.complete;
+        const auto open = static_cast<double>(cell.runs - cell.complete);
+        if (open == 0.0) continue;
+        rest.disk_bytes += open * cell.cost.disk_bytes;
+        rest.measured = rest.measured && cell.cost.measured;
+        if (rest.wall_s && cell.cost.wall_s) {
+            *rest.wall_s += open * *cell.cost.wall_s / processes;
+        } else {
+            rest.wall_s = std::nullopt;
+        }
+    }
+    return rest;
 }
 
-std::size_t complete_runs(const std::vector<Cell>& cells) {
-    std::size_t complete = 0;
-    for (const Cell& cell : cells) {
-        complete += cell.complete;
-    }
-    return complete;
+std::string size_text(double bytes) {
+    if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+    return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string precision_text(const results::PrecisionTarget& target) {
+    return fmt::format(
+        "replications: those of this round; further rounds follow until {} is known to +- {:g}, "
+        "with {} replications at most\n",
+        target.metric, target.half_width, target.at_most);
 }
 
 }  // namespace
 
 std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
     const std::vector<Cell> cells = cells_of(plan, folder);
-    std::string text = fmt::format("{:14} {:24} {:9} {:>6} {:>9}  {}\n", "scenario", "condition", "engine",
+    std::string text = fmt::format("{:24} {:32} {:9} {:>6} {:>9}  {}\n", "scenario", "condition", "engine",
                                    "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
-        const results::ConditionSpec& condition = *cell.condition;
+        const results::ConditionSpec& condition = cell.condition;
         text +=
-            fmt::format("{:14} {:24} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
+            fmt::format("{:24} {:32} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
                         results::name(condition.engine), cell.runs, cell.complete, condition.failure,
                         condition.predictor, condition.parts.empty() ? "-" : joined(condition.parts, "+"));
     }
-    const std::optional<double> left_s = time_left_s(cells, workers);
-    text += fmt::format("\n{} runs in {} processes, {} complete in {}; ", plan.run_count(), plan.units.size(),
-                        complete_runs(cells), folder.string());
-    text += left_s ? fmt::format("about {} (h:m:s) for the rest\n", core::clock_text(*left_s))
-                   : "time unknown: the size of measured demand stands in its files\n";
+    const Rest rest = rest_of(cells, workers);
+    text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
+                        plan.run_count(), plan.units.size(), rest.complete, folder.string());
+    text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
+                        : "time unknown: the size of measured demand stands in its files";
+    text += fmt::format(
+        ", about {} on the disk ({})\n", size_text(rest.disk_bytes),
+        rest.measured ? "from runs of these scenarios here" : "rough: right within a factor of about three");
+    if (plan.manifest.precision) text += precision_text(*plan.manifest.precision);
     return text;
 }
 
@@ -131,25 +125,35 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
     Json list = Json::array();
     for (const Cell& cell : cells) {
         list.push_back({{"scenario", cell.scenario},
-                        {"condition", cell.condition->name},
-                        {"engine", results::name(cell.condition->engine)},
-                        {"failure", cell.condition->failure},
-                        {"predictor", cell.condition->predictor},
-                        {"policy", cell.condition->parts},
+                        {"condition", cell.condition.name},
+                        {"engine", results::name(cell.condition.engine)},
+                        {"failure", cell.condition.failure},
+                        {"failure_settings", cell.condition.failure_settings},
+                        {"loop_settings", cell.condition.loop_settings},
+                        {"predictor", cell.condition.predictor},
+                        {"policy", cell.condition.parts},
                         {"runs", cell.runs},
                         {"complete_runs", cell.complete},
-                        {"estimated_run_s", cell.run_s ? Json(*cell.run_s) : Json(nullptr)}});
+                        {"estimated_run_s", cell.cost.wall_s ? Json(*cell.cost.wall_s) : Json(nullptr)},
+                        {"estimated_run_disk_bytes", cell.cost.disk_bytes},
+                        {"estimate_measured", cell.cost.measured}});
     }
-    const std::optional<double> left_s = time_left_s(cells, workers);
+    const Rest rest = rest_of(cells, workers);
     const Json plan_object = {{"study", plan.manifest.study},
                               {"folder", folder.string()},
                               {"study_seed", plan.manifest.study_seed},
                               {"replications", plan.manifest.replications},
                               {"runs", plan.run_count()},
-                              {"complete_runs", complete_runs(cells)},
-                              {"estimated_time_left_s", left_s ? Json(*left_s) : Json(nullptr)},
+                              {"complete_runs", rest.complete},
+                              {"estimated_time_left_s", rest.wall_s ? Json(*rest.wall_s) : Json(nullptr)},
+                              {"estimated_disk_left_bytes", rest.disk_bytes},
                               {"cells", std::move(list)}};
     return plan_object.dump(2) + "\n";
+}
+
+std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,
+                                            unsigned workers) {
+    return rest_of(cells_of(plan, folder), workers).wall_s;
 }
 
 }  // namespace clearway::cli

@@ -19,6 +19,7 @@ struct Arguments {
     std::uint64_t seed = 1;
     std::string folder;
     unsigned jobs = 0;
+    results::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options scenario;
 };
@@ -34,7 +35,8 @@ std::string folder_of(const Arguments& arguments) {
 }
 
 core::ExitCode reproduce(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{folder_of(arguments), arguments.jobs, arguments.printing, invocation.command};
+    RunPlanOptions options{folder_of(arguments), arguments.jobs, arguments.limits, arguments.printing,
+                           invocation.command};
     const study::Plan plan =
         plan_for(study::dissertation_study(arguments.seeds, arguments.seed, arguments.scenario), options);
     return run_and_print(plan, options);
@@ -47,12 +49,13 @@ Action configure_reproduce(CLI::App& app) {
     CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     app.add_flag_callback(
            "--quick", [arguments] { arguments->seeds = quick_seeds; },
-           fmt::format("Less than a minute on two cores: {} seeds [{}]", quick_seeds, usual_seeds))
+           fmt::format("{} seeds, FHWA's least: under a minute on two cores [off]", quick_seeds))
         ->excludes(seeds);
     add_seed_option(app, arguments->seed);
     app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
         ->option_text("DIR [runs/reproduce, with the number of seeds unless it is 20]");
     add_jobs_option(app, arguments->jobs);
+    add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "the tables");
     add_scenario_options(app, arguments->scenario);
     return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };

@@ -35,6 +35,7 @@ struct Arguments {
     std::string folder;
     unsigned jobs = 0;
     results::StepRecording recording = results::StepRecording::off;
+    results::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options options;
 };
@@ -99,8 +100,8 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     config.name = config.scenarios.front().name;
     config.conditions = conditions_of(arguments);
-    RunPlanOptions options{arguments.folder, arguments.jobs, arguments.printing, invocation.command,
-                           arguments.recording};
+    RunPlanOptions options{arguments.folder,   arguments.jobs,     arguments.limits,
+                           arguments.printing, invocation.command, arguments.recording};
     const study::Plan plan = plan_for(config, options);
     return run_and_print(plan, options);
 }
@@ -148,13 +149,14 @@ Action configure_run(CLI::App& app) {
         ->option_text("NAME ... [all built-in ones, unless one of your own is described]");
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
-        "Leave out the emergency vehicles alone on the road, hence the gap closed [with them]");
+        "Leave out the runs of emergency vehicles alone, hence the gap closed [with them]");
     add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
     app.add_option("--out", arguments->folder, "Run folder; what was interrupted there continues")
         ->option_text("DIR [runs/SCENARIO-xxxxxx, digits by what is run]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
+    add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "the tables");
     add_own_condition_options(app, arguments);
     add_scenario_options(app, arguments->options);

@@ -1,12 +1,14 @@
 #include "cli/run_plan.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
 #include "cli/names.hpp"
 #include "cli/programs.hpp"
@@ -21,7 +23,6 @@
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
 #include "scenario/prepare.hpp"
-#include "study/runner.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -102,42 +103,34 @@ void write_command(const results::Store& store, const std::string& command) {
     if (!std::filesystem::exists(file)) core::write_atomically(file, command + "\n");
 }
 
+/// The headline of a study while it runs, read again every two seconds.
+class PresentEstimate {
+  public:
+    explicit PresentEstimate(const results::Store& store) : headline_(store) {}
+
+    const std::string& text() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - read_ < std::chrono::seconds(2)) return text_;
+        headline_.refresh();
+        text_ = headline_.text();
+        read_ = now;
+        return text_;
+    }
+
+  private:
+    analysis::Headline headline_;
+    std::string text_;
+    std::chrono::steady_clock::time_point read_{};
+};
+
+/// Hidden files apart: a shard's number and the lock.
 bool is_absent_or_empty(const std::filesystem::path& folder) {
     std::error_code none;
-    return !std::filesystem::exists(folder, none) || std::filesystem::is_empty(folder, none);
-}
-
-/// Makes the run folder ready for workers. What was made in a new folder for a study that does not work out
-/// is taken back, so that it is not in the way of the corrected one.
-results::Store prepare(const study::Plan& plan, const RunPlanOptions& options) {
-    const bool is_new = is_absent_or_empty(options.folder);
-    try {
-        results::Store store = study::prepare_folder(plan, options.folder);
-        complete_scenarios(plan, store);
-        write_command(store, options.command);
-        copy_shipped_trainings(store.folder() / "training");
-        return store;
-    } catch (const core::InputError&) {
-        std::error_code ignored;
-        if (is_new) std::filesystem::remove_all(options.folder, ignored);
-        throw;
+    for (auto entry = std::filesystem::directory_iterator(folder, none);
+         !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
+        if (!entry->path().filename().string().starts_with('.')) return false;
     }
-}
-
-study::StudyResult run_with_progress(const study::Plan& plan, const results::Store& store, unsigned workers) {
-    core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
-    study::RunnerOptions options;
-    options.workers = workers;
-    options.on_set_aside = [](const results::SetAside& damaged) {
-        fmt::print(stderr,
-                   "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
-                   results::to_text(damaged.key), damaged.why, damaged.place.string());
-    };
-    study::StudyResult result = study::run(plan, store, options, [&](const study::StudyProgress& now) {
-        progress.update(now.done + now.failed, now.failed);
-    });
-    progress.finish();
-    return result;
+    return true;
 }
 
 void say_how_to_continue(const std::filesystem::path& folder, const study::StudyProgress& progress,
@@ -195,15 +188,51 @@ study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) 
     return plan;
 }
 
-core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
-    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
-    const results::Store store = prepare(plan, options);
-    const study::StudyResult result = run_with_progress(plan, store, options.workers);
-    if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
-        say_how_to_continue(store.folder(), result.progress, options.command);
-        return result.exit_code;
+results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions& options) {
+    const bool is_new = is_absent_or_empty(options.folder);
+    try {
+        results::Store store = study::prepare_folder(plan, options.folder);
+        complete_scenarios(plan, store);
+        write_command(store, options.command);
+        copy_shipped_trainings(store.folder() / "training");
+        return store;
+    } catch (const core::InputError&) {
+        std::error_code ignored;
+        if (is_new) std::filesystem::remove_all(options.folder, ignored);
+        throw;
     }
-    return publish(store, options.printing);
+}
+
+study::StudyResult run_missing(const study::Plan& plan, const results::Store& store,
+                               const RunPlanOptions& options) {
+    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
+    core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
+    PresentEstimate estimate(store);
+    study::RunnerOptions runner;
+    runner.workers = options.workers;
+    runner.limits = options.limits;
+    runner.on_set_aside = [](const results::SetAside& damaged) {
+        fmt::print(stderr,
+                   "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
+                   results::to_text(damaged.key), damaged.why, damaged.place.string());
+    };
+    study::StudyResult result = study::run(plan, store, runner, [&](const study::StudyProgress& now) {
+        progress.begin_at(now.resumed);
+        progress.update(now.done + now.failed, now.failed, estimate.text());
+    });
+    progress.finish();
+    if (was_interrupted(result)) say_how_to_continue(store.folder(), result.progress, options.command);
+    return result;
+}
+
+bool was_interrupted(const study::StudyResult& result) {
+    return result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated;
+}
+
+core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
+    const results::Store store = prepare_run_folder(plan, options);
+    const study::StudyResult result = run_missing(plan, store, options);
+    return was_interrupted(result) ? result.exit_code : publish(store, options.printing);
 }
 
 core::ExitCode publish(const results::Store& store, Printing printing, double least_relevant_s) {

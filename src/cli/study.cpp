@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/plan_text.hpp"
+#include "cli/rounds.hpp"
 #include "cli/run_plan.hpp"
 #include "cli/verb.hpp"
+#include "study/shard.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -16,42 +19,97 @@ enum class Mode : std::uint8_t { run, dry_run };
 struct Arguments {
     std::string file;
     std::string folder;
+    std::string shard;
     Mode mode = Mode::run;
     study::Extent extent = study::Extent::whole;
     unsigned jobs = 0;
     results::StepRecording recording = results::StepRecording::off;
+    results::RunLimits limits;
     Printing printing = Printing::text;
 };
 
+void print_shard(const study::Shard& shard, const study::StudyProgress& progress, const std::string& folder,
+                 Printing printing) {
+    if (printing == Printing::json) {
+        const nlohmann::ordered_json object = {{"shard", study::to_text(shard)},
+                                               {"folder", folder},
+                                               {"runs", progress.total},
+                                               {"complete_runs", progress.done},
+                                               {"failed_runs", progress.failed}};
+        fmt::print("{}\n", object.dump(2));
+    } else {
+        fmt::print("shard {}: {} of {} runs complete, {} failed, in {}\n", study::to_text(shard),
+                   progress.done, progress.total, progress.failed, folder);
+    }
+}
+
+core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard,
+                         RunPlanOptions options) {
+    if (config.precision)
+        throw core::InputError({"--shard",
+                                "the study has a precision target, which needs all its runs at once",
+                                "a study with replications",
+                                "Run it whole, or give the number of replications that it came to"});
+    study::Plan plan = plan_for(config, options);
+    study::keep_shard(plan, shard);
+    study::claim(options.folder, shard);
+    const results::Store store = prepare_run_folder(plan, options);
+    const study::StudyResult result = run_missing(plan, store, options);
+    if (!was_interrupted(result))
+        print_shard(shard, result.progress, options.folder.string(), options.printing);
+    return result.exit_code;
+}
+
+core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunPlanOptions options) {
+    config.replications = replications_so_far(config, options.folder);
+    study::Plan plan = plan_for(config, options);
+    study::keep_shard(plan, shard);
+    fmt::print("{}", options.printing == Printing::json ? plan_json(plan, options.folder, options.workers)
+                                                        : plan_text(plan, options.folder, options.workers));
+    return core::ExitCode::ok;
+}
+
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
+    study::Shard shard;
+    if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
     const study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
-    RunPlanOptions options{folder, arguments.jobs, arguments.printing, invocation.command,
+    RunPlanOptions options{folder,
+                           arguments.jobs,
+                           arguments.limits,
+                           arguments.printing,
+                           invocation.command,
                            arguments.recording};
-    const study::Plan plan = plan_for(config, options);
-    if (arguments.mode == Mode::run) return run_and_print(plan, options);
-    fmt::print("{}", arguments.printing == Printing::json ? plan_json(plan, options.folder, options.workers)
-                                                          : plan_text(plan, options.folder, options.workers));
-    return core::ExitCode::ok;
+    if (arguments.mode == Mode::dry_run) return print_plan(config, shard, options);
+    if (!shard.whole()) return run_shard(config, shard, options);
+    study::claim(folder, shard);
+    if (config.precision) return run_in_rounds(config, options);
+    return run_and_print(plan_for(config, options), options);
 }
 
 }  // namespace
 
 Action configure_study(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("file", arguments->file, "Study file, TOML: scenarios, conditions, replications, seed")
+    app.add_option("file", arguments->file, "Study file, TOML: scenarios, conditions, factors, replications")
         ->required()
         ->option_text("FILE (required)");
-    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
-        ->option_text("DIR [runs/NAME, the name that the file gives]");
+    CLI::Option* const out =
+        app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
+            ->option_text("DIR [runs/NAME, the name that the file gives]");
+    app.add_option("--shard", arguments->shard,
+                   "Run the I-th of N parts alone, into --out; `clearway merge` puts them together")
+        ->option_text("I/N [the whole]")
+        ->needs(out);
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
-        "Print cells, runs and estimated time, and run nothing [off]");
+        "Print cells, runs, estimated time and disk, and run nothing [off]");
     app.add_flag_callback(
         "--quick", [arguments] { arguments->extent = study::Extent::quick; },
         "Run what [quick] of the file leaves of the study, into runs/NAME-quick [the whole study]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
+    add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "tables or plan");
     return [arguments](const Invocation& invocation) { return run_study(*arguments, invocation); };
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace clearway::core {
 
@@ -38,6 +39,7 @@ void AtomicFile::commit() {
     if (::fsync(descriptor_) != 0) fail();
     if (::rename(aside_.c_str(), file_.c_str()) != 0) fail();
     ::close(std::exchange(descriptor_, -1));
+    flush_folder(file_.has_parent_path() ? file_.parent_path() : ".");
 }
 
 void AtomicFile::fail() {

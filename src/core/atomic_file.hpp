@@ -6,7 +6,7 @@
 namespace clearway::core {
 
 /// A file that is written piece by piece and is there as a whole or not at all: written aside, and after
-/// `commit` flushed to the disk and renamed. Without it, nothing is left. All functions throw
+/// `commit` flushed to the disk and renamed, name and all. Without it, nothing is left. All functions throw
 /// EnvironmentError naming the file (folder not writable, disk full).
 class AtomicFile {
   public:

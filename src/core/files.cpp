@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -28,6 +29,16 @@ void write_atomically(const std::filesystem::path& file, std::string_view conten
     AtomicFile target(file);
     target.write(content);
     target.commit();
+}
+
+void flush_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) fail(folder, "open this folder");
+    const bool failed = ::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP;
+    const int reason = errno;
+    ::close(descriptor);
+    errno = reason;
+    if (failed) fail(folder, "write into this folder");
 }
 
 std::string read_file(const std::filesystem::path& file) {

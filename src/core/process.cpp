@@ -1,11 +1,14 @@
 #include "core/process.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <string_view>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -67,6 +70,20 @@ std::optional<Exit> collect(const Child& child, int options) {
     return exit;
 }
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char letter) {
+        return std::isalnum(letter) != 0 ||
+               std::string_view("-_./=,:+@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+    std::string text = "'";
+    for (const char letter : word) {
+        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    }
+    return text + "'";
+}
+
 [[noreturn]] void become(const Command& command, int output, pid_t parent, char** arguments,
                          char** environment) {
     // Only calls that are safe after a fork in a program with threads.
@@ -120,8 +137,23 @@ std::optional<Exit> poll(const Child& child) {
     return collect(child, WNOHANG);
 }
 
+std::optional<long> resident_kib(pid_t process) {
+    std::ifstream stream(fmt::format("/proc/{}/statm", process));
+    long size = 0;
+    long resident = 0;
+    if (!(stream >> size >> resident)) return std::nullopt;
+    return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+}
+
 Exit run(const Command& command) {
     return wait(start(command));
+}
+
+std::string shell_text(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : " ") + quoted(word);
+    return text;
 }
 
 std::string tail(const std::filesystem::path& file, int lines) {

@@ -48,8 +48,14 @@ Exit wait(const Child& child);
 /// How `child` ended, or nothing while it still runs. Each child can be collected once.
 std::optional<Exit> poll(const Child& child);
 
+/// Memory that a process holds at this moment, KiB; nothing when it is gone.
+std::optional<long> resident_kib(pid_t process);
+
 /// Starts and waits.
 Exit run(const Command& command);
+
+/// Words as one line for a shell, quoted where they must be.
+std::string shell_text(const std::vector<std::string>& words);
 
 /// The last `lines` lines of a text file; empty when it cannot be read.
 std::string tail(const std::filesystem::path& file, int lines);

@@ -12,12 +12,14 @@ namespace {
 
 constexpr std::size_t bar_width = 30;
 
-std::string counts(std::size_t done, std::size_t total, std::size_t failed, double elapsed_s) {
+std::string counts(std::size_t done, std::size_t total, std::size_t failed, double elapsed_s,
+                   std::size_t before) {
     std::string text = fmt::format("{}/{}", done, total);
     if (failed > 0) text += fmt::format(", {} failed", failed);
     text += ", " + clock_text(elapsed_s) + " elapsed";
-    if (done > 0 && done < total) {
-        const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
+    if (done > before && done < total) {
+        const double left_s =
+            elapsed_s * static_cast<double>(total - done) / static_cast<double>(done - before);
         text += ", " + clock_text(left_s) + " left";
     }
     return text;
@@ -52,12 +54,12 @@ void Progress::finish() {
 }
 
 std::string Progress::render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                 std::size_t failed, double elapsed_s) {
+                                 std::size_t failed, double elapsed_s, std::size_t before) {
     const std::size_t filled = total == 0 ? bar_width : std::min(bar_width, bar_width * done / total);
     std::string bar(filled, '=');
     if (filled < bar_width) bar += '>';
     bar.resize(bar_width, ' ');
-    return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s));
+    return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s, before));
 }
 
 void Progress::print(bool final) {
@@ -65,10 +67,10 @@ void Progress::print(bool final) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
     const std::string note = note_.empty() ? "" : "  " + note_;
     if (style_ == Style::bar) {
-        fmt::print(stderr, "\r{}{}\x1b[K{}", render_bar(label_, done_, total_, failed_, elapsed_s), note,
-                   final ? "\n" : "");
+        fmt::print(stderr, "\r{}{}\x1b[K{}", render_bar(label_, done_, total_, failed_, elapsed_s, before_),
+                   note, final ? "\n" : "");
     } else {
-        fmt::print(stderr, "{}: {}{}\n", label_, counts(done_, total_, failed_, elapsed_s), note);
+        fmt::print(stderr, "{}: {}{}\n", label_, counts(done_, total_, failed_, elapsed_s, before_), note);
     }
     std::fflush(stderr);
     printed_ = Clock::now();

@@ -17,6 +17,8 @@ class Progress {
     /// The bar if standard error is a terminal, else lines.
     static Style style_for_stderr();
 
+    /// Work that was done before this job began, so that it does not count for the pace.
+    void begin_at(std::size_t done) { before_ = done; }
     /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines).
     /// `note` is a short extra text, for example the present estimate of the headline metric.
     void update(std::size_t done, std::size_t failed, const std::string& note = {});
@@ -25,7 +27,7 @@ class Progress {
 
     /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. Pure, for tests.
     static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                  std::size_t failed, double elapsed_s);
+                                  std::size_t failed, double elapsed_s, std::size_t before = 0);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -35,6 +37,7 @@ class Progress {
     std::size_t total_;
     Style style_;
     std::size_t done_ = 0;
+    std::size_t before_ = 0;
     std::size_t failed_ = 0;
     std::string note_;
     Clock::time_point started_ = Clock::now();

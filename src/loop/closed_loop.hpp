@@ -3,34 +3,20 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <tuple>
 #include <vector>
 
 #include "actuation/actuator.hpp"
-#include "core/fields.hpp"
 #include "core/units.hpp"
 #include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
 #include "replay/decision_chain.hpp"
+#include "results/loop_config.hpp"
 #include "results/recording.hpp"
 #include "sumo/session.hpp"
 
 namespace clearway::loop {
 
-/// How the closed loop runs, the same in every condition of a study.
-struct LoopConfig {
-    double policy_period_s = 0.5;  ///< Between two decisions of the policy.
-    double link_radius_m = 50.0;
-
-    static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
-                        "Time between two decisions of the policy", "assumed: half a report interval"},
-            core::Field{"link_radius_m", "m", &LoopConfig::link_radius_m, 1.0, 1000.0,
-                        "Two vehicles nearer than this are linked",
-                        "assumed 50 m: the dissertation states no value"});
-    }
-};
+using results::LoopConfig;
 
 /// What a condition is made of, ready to run.
 struct Machinery {

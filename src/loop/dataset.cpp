@@ -141,7 +141,7 @@ core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     unit.replication = order.replication;
     UnitRun run(unit, work.path(), work.path());
     graph::LinkRules rules;
-    rules.radius_m = run.loop_config().link_radius_m;
+    rules.radius_m = LoopConfig{}.link_radius_m;
     switch (order.kind) {
         case results::DatasetKind::published:
             record_published(order, run, rules);

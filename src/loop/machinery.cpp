@@ -1,6 +1,16 @@
 #include "loop/machinery.hpp"
 
+#include <fmt/format.h>
+
 namespace clearway::loop {
+
+LoopConfig loop_config_of(const results::ConditionSpec& condition) {
+    LoopConfig config;
+    std::vector<core::Problem> problems = core::apply_settings(
+        condition.loop_settings, fmt::format("condition {}: loop.", condition.name), config);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return config;
+}
 
 Machinery make_machinery(const results::ConditionSpec& condition, const Surroundings& surroundings) {
     Machinery machinery;

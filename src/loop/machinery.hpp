@@ -7,6 +7,9 @@
 
 namespace clearway::loop {
 
+/// The loop's configuration under a condition. Throws core::InputError for settings that do not exist.
+LoopConfig loop_config_of(const results::ConditionSpec& condition);
+
 /// What every condition of a worker shares; references outlive what is made from it.
 struct Surroundings {
     const roads::Network& network;

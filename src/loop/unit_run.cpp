@@ -170,8 +170,9 @@ LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepL
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
-        .loop = loop_};
-    ClosedLoop loop(*session_, make_machinery(condition, surroundings), loop_, recorder_, listener);
+        .loop = loop_config_of(condition)};
+    ClosedLoop loop(*session_, make_machinery(condition, surroundings), surroundings.loop, recorder_,
+                    listener);
     loop.run(core::Seconds(prepared_.time.horizon_s));
     leases = totals_of(loop.actuator());
     return loop.timing();
@@ -217,12 +218,13 @@ void UnitRun::open_all_signals() {
 }
 
 results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& condition) const {
+    const LoopConfig loop = loop_config_of(condition);
     return {.key = {unit_.scenario, condition.name, unit_.replication},
             .condition = condition,
             .provenance = provenance(""),
             .settings = {.step_length_s = prepared_.time.step_length_s,
-                         .policy_period_s = loop_.policy_period_s,
-                         .link_radius_m = loop_.link_radius_m,
+                         .policy_period_s = loop.policy_period_s,
+                         .link_radius_m = loop.link_radius_m,
                          .network_hash = core::content_hash(core::read_file(network_.file))}};
 }
 

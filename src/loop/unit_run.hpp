@@ -36,7 +36,6 @@ class UnitRun {
     void record(const results::ConditionSpec& condition, StepListener& listener);
 
     const roads::Network& network() const { return network_.network; }
-    const LoopConfig& loop_config() const { return loop_; }
     /// When the first emergency vehicle departs; the end of the warm-up without any.
     core::Seconds first_emergency() const;
     std::string configuration_hash() const { return scenario::configuration_hash(config_); }
@@ -58,7 +57,6 @@ class UnitRun {
     scenario::ScenarioConfig config_;
     scenario::BuiltNetwork network_;
     scenario::Prepared prepared_;
-    LoopConfig loop_;
     std::filesystem::path folder_;
     std::unique_ptr<sumo::Session> session_;
     metrics::Recorder recorder_;

@@ -1,6 +1,6 @@
 #include "loop/worker.hpp"
 
-#include <cerrno>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "loop/unit_run.hpp"
+#include "loop/watch.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -32,35 +33,86 @@ results::RunKey key_of(const results::UnitSpec& unit, const results::ConditionSp
     return {unit.scenario, condition.name, unit.replication};
 }
 
-void store_failure(const results::Store& store, const results::RunKey& key, const core::Error& error,
-                   const std::filesystem::path& folder) {
+/// What the failures of one unit have in common.
+struct Unit {
+    const results::UnitSpec& spec;
+    const results::Store& store;
+    std::filesystem::path file;
+};
+
+results::FailureRecord failure_of(const Unit& unit, const results::RunKey& key,
+                                  const std::filesystem::path& folder) {
     results::FailureRecord failure;
     failure.key = key;
+    failure.log_tail = core::tail(folder / "sumo.log", log_lines);
+    failure.command = core::shell_text({core::program_folder() / "clearway-run", "--unit", unit.file});
+    return failure;
+}
+
+void store_failure(const Unit& unit, const results::RunKey& key, const core::Error& error,
+                   const std::filesystem::path& folder) {
+    results::FailureRecord failure = failure_of(unit, key, folder);
     failure.cause = error.exit_code() == core::ExitCode::bad_input ? results::FailureCause::bad_input
                                                                    : results::FailureCause::simulator;
     failure.message = error.what();
     failure.exit_code = static_cast<int>(error.exit_code());
-    failure.log_tail = core::tail(folder / "sumo.log", log_lines);
-    store.write(failure);
+    unit.store.write(failure);
+}
+
+/// Throws core::EnvironmentError on a full disk, which makes SUMO fail in many ways: then no run is to blame.
+void require_space(const std::filesystem::path& folder) {
+    const std::filesystem::path probe = folder / "probe";
+    core::write_atomically(probe, std::string(std::size_t{1} << 18, ' '));
+    std::filesystem::remove(probe);
+}
+
+/// Records the end of a process that could not do it itself.
+void store_failure(const Unit& unit, const results::RunKey& key, const WatchedEnd& end,
+                   const std::filesystem::path& folder) {
+    results::FailureRecord failure = failure_of(unit, key, folder);
+    failure.signal = WTERMSIG(end.status);
+    if (end.by == WatchedEnd::By::wall_limit) {
+        failure.cause = results::FailureCause::time_limit;
+        failure.message = fmt::format("did not end within {:g} s", unit.spec.limits.wall_s);
+    } else if (end.by == WatchedEnd::By::memory_limit) {
+        failure.cause = results::FailureCause::memory;
+        failure.message = fmt::format("needed more than {} MiB", unit.spec.limits.memory_mib);
+    } else {
+        failure.cause = results::FailureCause::signal;
+        failure.message = core::Exit{.signal = failure.signal}.describe();
+    }
+    unit.store.write(failure);
+}
+
+/// Ok, or environment when the disk is at fault or the failure cannot be stored either.
+core::ExitCode try_to_store_failure(const Unit& unit, const results::RunKey& key, const core::Error& error,
+                                    const std::filesystem::path& folder) {
+    try {
+        require_space(folder);
+        store_failure(unit, key, error, folder);
+        return core::ExitCode::ok;
+    } catch (const core::EnvironmentError& environment) {
+        fmt::print(stderr, "{}: {}\n", results::to_text(key), environment.what());
+        return core::ExitCode::environment;
+    }
 }
 
 /// The forked child's whole life. Never returns: the parent's objects must not be destroyed twice.
-[[noreturn]] void be_condition(UnitRun& run, const results::Store& store, const results::RunKey& key,
-                               const results::ConditionSpec& condition, const std::filesystem::path& folder) {
+[[noreturn]] void be_condition(UnitRun& run, const Unit& unit, const results::ConditionSpec& condition,
+                               const std::filesystem::path& folder) {
+    const results::RunKey key = key_of(unit.spec, condition);
     core::ExitCode code = core::ExitCode::ok;
     try {
         core::make_folder(folder);
         results::RunTiming timing;
         const results::RunRecord record = run.finish_in(folder, condition, timing);
-        store.write(record, timing);
+        unit.store.write(record, timing);
         std::filesystem::remove_all(folder);
     } catch (const core::Error& error) {
         fmt::print(stderr, "{}: {}\n", results::to_text(key), error.what());
         code = error.exit_code();
-        if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input) {
-            store_failure(store, key, error, folder);
-            code = core::ExitCode::ok;
-        }
+        if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input)
+            code = try_to_store_failure(unit, key, error, folder);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", results::to_text(key), error.what());
         std::fflush(nullptr);
@@ -70,22 +122,23 @@ void store_failure(const results::Store& store, const results::RunKey& key, cons
     _exit(static_cast<int>(code));
 }
 
-/// Wait status of the child that ran the condition.
-int fork_condition(UnitRun& run, const results::Store& store, const results::RunKey& key,
-                   const results::ConditionSpec& condition, const std::filesystem::path& folder) {
+/// Runs a condition in a child of its own; answers the child's exit code, ok when a failure is on record.
+core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const results::ConditionSpec& condition,
+                              const std::filesystem::path& folder) {
+    const results::RunKey key = key_of(unit.spec, condition);
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child < 0) throw core::EnvironmentError(fmt::format("cannot fork for {}", results::to_text(key)));
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGTERM);
-        be_condition(run, store, key, condition, folder);
+        be_condition(run, unit, condition, folder);
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR)
-            throw core::EnvironmentError(fmt::format("cannot wait for {}", results::to_text(key)));
-    }
-    return status;
+    const WatchedEnd end = watch(child, unit.spec.limits);
+    if (WIFEXITED(end.status)) return static_cast<core::ExitCode>(WEXITSTATUS(end.status));
+    const int signal = WTERMSIG(end.status);
+    if (signal == SIGINT || signal == SIGTERM) std::raise(signal);  // interrupted, which is no failure
+    store_failure(unit, key, end, folder);
+    return core::ExitCode::ok;
 }
 
 Places places_of(const results::UnitSpec& unit, const results::Store& store,
@@ -98,42 +151,35 @@ Places places_of(const results::UnitSpec& unit, const results::Store& store,
     return places;
 }
 
-/// Ends this process as its child ended, so that the study sees the signal.
-[[noreturn]] void die_by(int signal) {
-    std::fflush(nullptr);
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-    std::abort();
-}
-
 }  // namespace
 
 core::ExitCode run_unit(const std::filesystem::path& unit_file) {
     const results::UnitSpec unit = results::read_unit(unit_file);
     const results::Store store = results::Store::open(unit.output);
     const Places places = places_of(unit, store, unit_file);
+    const Unit shared{unit, store, std::filesystem::absolute(unit_file)};
+    std::vector<results::RunKey> keys;
+    for (const results::ConditionSpec& condition : unit.conditions)
+        keys.push_back(key_of(unit, condition));
     std::optional<UnitRun> run;
     try {
         run.emplace(unit, places.demand, places.work);
     } catch (const core::SimulatorError& error) {
-        for (const results::ConditionSpec& condition : unit.conditions) {
-            store_failure(store, key_of(unit, condition), error, places.work);
-        }
+        require_space(places.work);
+        for (const results::RunKey& key : keys)
+            store_failure(shared, key, error, places.work);
         return core::ExitCode::ok;
     }
-    int signal = 0;
+    const ChildSignals signals;
     for (const results::ConditionSpec& condition : unit.conditions) {
-        const results::RunKey key = key_of(unit, condition);
         if (store.done(unit, condition)) continue;
-        const int status = fork_condition(*run, store, key, condition, places.work / condition.name);
-        if (WIFSIGNALED(status)) signal = WTERMSIG(status);
-        if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(core::ExitCode::environment)) {
-            return core::ExitCode::environment;
-        }
+        const core::ExitCode code = fork_condition(*run, shared, condition, places.work / condition.name);
+        if (code != core::ExitCode::ok) return code;
     }
-    if (signal != 0) die_by(signal);
     run.reset();
-    std::filesystem::remove_all(places.work);
+    store.flush(keys);
+    const auto is_complete = [&](const results::RunKey& key) { return store.complete(key); };
+    if (std::ranges::all_of(keys, is_complete)) std::filesystem::remove_all(places.work);
     return core::ExitCode::ok;
 }
 

@@ -37,6 +37,11 @@ Json to_object(const Manifest& manifest) {
     object["conditions"] = Json::array();
     for (const ConditionSpec& condition : manifest.conditions)
         object["conditions"].push_back(detail::to_json(condition));
+    if (manifest.precision) {
+        object["precision"] = {{"metric", manifest.precision->metric},
+                               {"half_width", manifest.precision->half_width},
+                               {"at_most", manifest.precision->at_most}};
+    }
     return object;
 }
 
@@ -64,14 +69,44 @@ void check_format(const Json& object, const std::string& where) {
 
 }  // namespace
 
+void Manifest::for_each_run(const std::function<void(const RunKey&)>& visit) const {
+    const auto sorted_names = [](const auto& entries) {
+        std::vector<std::string> names;
+        for (const auto& entry : entries)
+            names.push_back(entry.name);
+        std::ranges::sort(names);
+        return names;
+    };
+    const std::vector<std::string> condition_names = sorted_names(conditions);
+    for (const std::string& scenario : sorted_names(scenarios)) {
+        for (const std::string& condition : condition_names) {
+            for (std::uint32_t replication = 0; replication < replications; ++replication)
+                visit({scenario, condition, replication});
+        }
+    }
+}
+
 std::vector<RunKey> Manifest::runs() const {
     std::vector<RunKey> keys;
-    for (const ScenarioEntry& scenario : scenarios)
-        for (const ConditionSpec& condition : conditions)
-            for (std::uint32_t replication = 0; replication < replications; ++replication)
-                keys.push_back({scenario.name, condition.name, replication});
-    std::ranges::sort(keys);
+    keys.reserve(run_count());
+    for_each_run([&](const RunKey& key) { keys.push_back(key); });
     return keys;
+}
+
+std::string differences(const Manifest& left, const Manifest& right) {
+    std::string list;
+    const auto add = [&](bool differs, const char* part) {
+        if (differs) list += (list.empty() ? "" : ", ") + std::string(part);
+    };
+    add(left.study != right.study, "study name");
+    add(left.clearway_version != right.clearway_version, "Clearway version");
+    add(left.sumo_version != right.sumo_version, "SUMO version");
+    add(left.study_seed != right.study_seed, "seed");
+    add(left.replications != right.replications, "replications");
+    add(left.scenarios != right.scenarios, "scenarios");
+    add(left.conditions != right.conditions, "conditions");
+    add(left.precision != right.precision, "precision");
+    return list;
 }
 
 std::string manifest_hash(const Manifest& manifest) {
@@ -100,6 +135,14 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
         manifest.scenarios.push_back(scenario_from(scenario, where + ": scenarios", problems));
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
         manifest.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
+    if (object.contains("precision")) {
+        PrecisionTarget& target = manifest.precision.emplace();
+        ObjectReader precision(reader.child("precision", Json::value_t::object), where + ": precision",
+                               problems);
+        precision.read("metric", target.metric);
+        precision.read("half_width", target.half_width);
+        precision.read("at_most", target.at_most);
+    }
     reader.read("hash", hash);
     if (problems.empty() && hash != manifest_hash(manifest)) reader.problem("hash", "does not fit the rest");
     if (!problems.empty()) throw core::InputError(problems);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +24,15 @@ struct ScenarioEntry {
     bool operator==(const ScenarioEntry&) const = default;
 };
 
+/// How exact a study is to become, instead of a number of replications.
+struct PrecisionTarget {
+    std::string metric = "emergency_travel_time_s";  ///< Of metrics::RunMetrics.
+    double half_width = 0.0;                         ///< Of the 95 % interval, in the metric's unit; > 0.
+    std::uint32_t at_most = 0;                       ///< Replications.
+
+    bool operator==(const PrecisionTarget&) const = default;
+};
+
 /// What a study is: with it and the same versions, every run can be made again.
 struct Manifest {
     int format = 2;  ///< Of the run folder. Other formats are refused.
@@ -28,14 +40,21 @@ struct Manifest {
     std::string clearway_version;
     std::string sumo_version;
     std::uint64_t study_seed = 1;
-    std::uint32_t replications = 0;
+    std::uint32_t replications = 0;  ///< With a precision target: those asked for so far.
     std::vector<ScenarioEntry> scenarios;
     std::vector<ConditionSpec> conditions;
+    std::optional<PrecisionTarget> precision;
 
     bool operator==(const Manifest&) const = default;
     /// Every run of the study, sorted.
     std::vector<RunKey> runs() const;
+    std::size_t run_count() const { return scenarios.size() * conditions.size() * replications; }
+    /// The same one by one, for studies of which a list would be large.
+    void for_each_run(const std::function<void(const RunKey&)>& visit) const;
 };
+
+/// Names of the parts in which two manifests differ, `seed, conditions`; empty for the same study.
+std::string differences(const Manifest& left, const Manifest& right);
 
 /// Deterministic JSON with a `hash` of the rest.
 std::string to_json(const Manifest& manifest);

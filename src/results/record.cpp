@@ -7,8 +7,8 @@
 namespace clearway::results {
 namespace {
 
-constexpr std::array causes = {FailureCause::simulator, FailureCause::signal, FailureCause::time_limit,
-                               FailureCause::bad_input, FailureCause::other};
+constexpr std::array causes = {FailureCause::simulator, FailureCause::signal,    FailureCause::time_limit,
+                               FailureCause::memory,    FailureCause::bad_input, FailureCause::other};
 
 }  // namespace
 
@@ -24,6 +24,8 @@ std::string_view name(FailureCause cause) {
             return "signal";
         case FailureCause::time_limit:
             return "time_limit";
+        case FailureCause::memory:
+            return "memory";
         case FailureCause::bad_input:
             return "bad_input";
         case FailureCause::other:

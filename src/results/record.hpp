@@ -96,6 +96,7 @@ enum class FailureCause : std::uint8_t {
     simulator,   ///< SUMO reported an error.
     signal,      ///< The process was killed, usually by an assertion or a bad access inside SUMO.
     time_limit,  ///< It ran into the wall time limit.
+    memory,      ///< It held more memory than its limit.
     bad_input,   ///< The scenario does not work out; never tried again.
     other,
 };
@@ -112,7 +113,8 @@ struct FailureRecord {
     int exit_code = 0;
     int signal = 0;
     int attempts = 1;
-    std::string log_tail;  ///< Last lines of the worker's log.
+    std::string log_tail;  ///< Last lines of SUMO's log and of the worker's.
+    std::string command;   ///< Makes the same run again, for a shell.
 
     bool operator==(const FailureRecord&) const = default;
 };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -49,8 +51,8 @@ class PartFolder {
     const fs::path& path() const { return part_; }
 
     /// False when the target exists. rename(2) never replaces a folder that is not empty, on any file system.
-    /// Folders are not flushed (5 ms each here, against runs of 70 ms): a rename that is lost with the power
-    /// is a run to do again.
+    /// The folder around it is not flushed here (8 ms each, against runs of 70 ms) but once a unit, by
+    /// Store::flush: a rename that is lost with the power is a run to do again.
     bool put_in_place() {
         if (::rename(part_.c_str(), target_.c_str()) != 0) {
             if (errno == EEXIST || errno == ENOTEMPTY) return false;
@@ -65,20 +67,10 @@ class PartFolder {
     fs::path part_;
 };
 
-/// Names of the parts in which two manifests differ.
-std::string differences(const Manifest& stored, const Manifest& wanted) {
-    std::string list;
-    const auto add = [&](bool differs, const char* part) {
-        if (differs) list += (list.empty() ? "" : ", ") + std::string(part);
-    };
-    add(stored.study != wanted.study, "study name");
-    add(stored.clearway_version != wanted.clearway_version, "Clearway version");
-    add(stored.sumo_version != wanted.sumo_version, "SUMO version");
-    add(stored.study_seed != wanted.study_seed, "seed");
-    add(stored.replications != wanted.replications, "replications");
-    add(stored.scenarios != wanted.scenarios, "scenarios");
-    add(stored.conditions != wanted.conditions, "conditions");
-    return list;
+void link_or_copy(const fs::path& file, const fs::path& place) {
+    std::error_code error;
+    fs::create_hard_link(file, place, error);
+    if (error) core::write_atomically(place, core::read_file(file));
 }
 
 bool holds_something(const fs::path& folder) {
@@ -122,6 +114,11 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
         Store store = open(folder);
         const std::string differing = differences(store.manifest(), manifest);
         if (differing.empty()) return store;
+        if (differing == "replications" && manifest.precision &&
+            manifest.replications > store.manifest().replications) {
+            core::write_atomically(file, to_json(manifest));
+            return {folder, manifest};
+        }
         throw core::InputError({folder.string(), "holds another study: different " + differing, "",
                                 "Choose another folder with --out, or ask for the same study to resume it"});
     }
@@ -176,6 +173,80 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
     }
     forget_failure(record.key);
     return first ? Written::first : Written::already_there;
+}
+
+Store::Written Store::adopt(const Store& other, const RunKey& key) const {
+    const fs::path source = other.run_folder(key);
+    const fs::path target = run_folder(key);
+    bool first = false;
+    if (!complete(key)) {
+        core::make_folder(target.parent_path());
+        PartFolder part(target);
+        for (const auto& entry : fs::directory_iterator(source))
+            link_or_copy(entry.path(), part.path() / entry.path().filename());
+        first = part.put_in_place();
+    }
+    const fs::path recording = recording_file(other.folder_, key);
+    const fs::path recording_place = recording_file(folder_, key);
+    if (fs::exists(recording) && !fs::exists(recording_place)) {
+        core::make_folder(recording_place.parent_path());
+        link_or_copy(recording, recording_place);
+    }
+    if (!first) {
+        for (const char* const name : {"run.json", "vehicles.csv"}) {
+            if (core::read_file(source / name) == core::read_file(target / name)) continue;
+            throw core::ConflictError(
+                fmt::format("run {} differs between {} and {} ({}). Equal inputs must give equal bytes; keep "
+                            "both folders and compare versions and machines",
+                            to_text(key), source.string(), target.string(), name));
+        }
+    }
+    forget_failure(key);
+    return first ? Written::first : Written::already_there;
+}
+
+std::vector<RunKey> Store::complete_runs() const {
+    std::vector<RunKey> keys;
+    for_each_file(folder_ / "runs", [&](const RunKey& key) {
+        if (complete(key)) keys.push_back(key);
+    });
+    return keys;
+}
+
+std::vector<RunKey> Store::failed_runs() const {
+    std::vector<RunKey> keys;
+    for_each_file(folder_ / "failures", [&](const RunKey& key) {
+        if (!complete(key)) keys.push_back(key);
+    });
+    return keys;
+}
+
+void Store::for_each_file(const fs::path& root, const std::function<void(const RunKey&)>& visit) const {
+    for (const ScenarioEntry& scenario : manifest_.scenarios) {
+        for (const ConditionSpec& condition : manifest_.conditions) {
+            std::error_code none;
+            const fs::path folder = root / scenario.name / condition.name;
+            for (auto entry = fs::directory_iterator(folder, none);
+                 !none && entry != fs::directory_iterator(); entry.increment(none)) {
+                const std::string stem = entry->path().stem().string();
+                std::uint32_t replication = 0;
+                const auto [end, error] =
+                    std::from_chars(stem.data(), stem.data() + stem.size(), replication);
+                const bool whole = error == std::errc() && end == stem.data() + stem.size();
+                if (whole && replication < manifest_.replications)
+                    visit({scenario.name, condition.name, replication});
+            }
+        }
+    }
+}
+
+void Store::flush(const std::vector<RunKey>& keys) const {
+    std::set<fs::path> folders;
+    for (const RunKey& key : keys) {
+        if (complete(key)) folders.insert(run_folder(key).parent_path());
+    }
+    for (const fs::path& folder : folders)
+        core::flush_folder(folder);
 }
 
 void Store::write(const FailureRecord& failure) const {

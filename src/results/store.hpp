@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,15 @@ class Store {
     /// bring the same bytes, else core::ConflictError. Throws core::EnvironmentError (disk full) and then
     /// leaves no trace.
     Written write(const RunRecord& record, const RunTiming& timing) const;
+    /// Takes a complete run over from another store of the same study: its files are linked, or copied where
+    /// that cannot be. As with `write`, the first wins and a second must be equal.
+    Written adopt(const Store& other, const RunKey& key) const;
+    /// Runs that are complete, and runs that failed and are not, as the folders have them: in no order.
+    std::vector<RunKey> complete_runs() const;
+    std::vector<RunKey> failed_runs() const;
+    /// Waits until the names of these runs, as far as they are complete, are on the disk. Their content
+    /// already is.
+    void flush(const std::vector<RunKey>& keys) const;
     /// Replaces an earlier failure of the same run; does nothing when the run is complete.
     void write(const FailureRecord& failure) const;
 
@@ -85,6 +95,9 @@ class Store {
   private:
     Store(std::filesystem::path folder, Manifest manifest);
     std::filesystem::path failure_file(const RunKey& key) const;
+    /// Runs of which `root` (runs or failures) has an entry.
+    void for_each_file(const std::filesystem::path& root,
+                       const std::function<void(const RunKey&)>& visit) const;
     /// The record without its vehicles, and their text. Throws core::InputError unless both fit their hashes.
     RunRecord read_checked(const RunKey& key, std::string& vehicles) const;
     void check(const RunKey& key) const;

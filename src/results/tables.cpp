@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "core/atomic_file.hpp"
 #include "results/detail/csv.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
-#include "results/store.hpp"
+#include "results/table_writer.hpp"
 
 namespace clearway::results {
 namespace {
@@ -29,6 +29,50 @@ std::string incomplete_line(const RunKey& key, std::string_view outcome, std::st
     return line;
 }
 
+std::string runs_header() {
+    std::string line = "scenario,condition,replication,outcome,cause";
+    detail::append_header<metrics::RunMetrics>(line);
+    detail::append_header<Provenance>(line);
+    return line;
+}
+
+void append_vehicles(const RunRecord& run, std::string& text) {
+    const std::string key = key_cells(run.key);
+    for (const metrics::VehicleRow& vehicle : run.vehicles)
+        text += key + "," + detail::vehicle_cells(vehicle) + "\n";
+}
+
+std::string vehicles_header() {
+    return "scenario,condition,replication," + detail::vehicle_header();
+}
+
+/// Gives every run of a study, in the manifest's order, to a writer of tables.
+template <class Writer>
+void write_all(const Results& results, Writer& writer) {
+    // All three lists are sorted, and together they are the manifest's runs.
+    auto run = results.runs.begin();
+    auto failure = results.failures.begin();
+    results.manifest.for_each_run([&](const RunKey& key) {
+        if (run != results.runs.end() && run->key == key) {
+            writer.add(*run++);
+        } else if (failure != results.failures.end() && failure->key == key) {
+            writer.add(*failure++);
+        } else {
+            writer.add_missing(key);
+        }
+    });
+}
+
+/// `runs.csv` as text.
+struct RunLines {
+    std::string text = runs_header() + "\n";
+    void add(const RunRecord& run) { text += complete_line(run) + "\n"; }
+    void add(const FailureRecord& failure) {
+        text += incomplete_line(failure.key, "failed", name(failure.cause)) + "\n";
+    }
+    void add_missing(const RunKey& key) { text += incomplete_line(key, "missing", "") + "\n"; }
+};
+
 }  // namespace
 
 Results read_results(const Store& store, VehicleRows rows) {
@@ -47,40 +91,81 @@ Results read_results(const Store& store, VehicleRows rows) {
 }
 
 std::string runs_csv(const Results& results) {
-    std::string text = "scenario,condition,replication,outcome,cause";
-    detail::append_header<metrics::RunMetrics>(text);
-    detail::append_header<Provenance>(text);
-    text += "\n";
-    // All three lists are sorted, and together they are the manifest's runs.
-    auto run = results.runs.begin();
-    auto failure = results.failures.begin();
-    for (const RunKey& key : results.manifest.runs()) {
-        if (run != results.runs.end() && run->key == key) {
-            text += complete_line(*run++);
-        } else if (failure != results.failures.end() && failure->key == key) {
-            text += incomplete_line(key, "failed", name((failure++)->cause));
-        } else {
-            text += incomplete_line(key, "missing", "");
-        }
-        text += "\n";
-    }
-    return text;
+    RunLines lines;
+    write_all(results, lines);
+    return lines.text;
 }
 
 std::string vehicles_csv(const Results& results) {
-    std::string text = "scenario,condition,replication," + detail::vehicle_header() + "\n";
-    for (const RunRecord& run : results.runs) {
-        const std::string key = key_cells(run.key);
-        for (const metrics::VehicleRow& vehicle : run.vehicles)
-            text += key + "," + detail::vehicle_cells(vehicle) + "\n";
-    }
+    std::string text = vehicles_header() + "\n";
+    for (const RunRecord& run : results.runs)
+        append_vehicles(run, text);
     return text;
 }
 
+struct TableWriter::Files {
+    explicit Files(const Store& store)
+        : runs(store.runs_csv()),
+          vehicles(store.vehicles_csv()),
+          database(store.folder() / "results.sqlite", store.manifest()) {
+        runs.write(runs_header() + "\n");
+        vehicles.write(vehicles_header() + "\n");
+    }
+    core::AtomicFile runs;
+    core::AtomicFile vehicles;
+    detail::DatabaseWriter database;
+};
+
+TableWriter::TableWriter(const Store& store) : files_(std::make_unique<Files>(store)) {}
+TableWriter::~TableWriter() = default;
+
+void TableWriter::add(const RunRecord& run) {
+    files_->runs.write(complete_line(run) + "\n");
+    std::string lines;
+    append_vehicles(run, lines);
+    files_->vehicles.write(lines);
+    files_->database.add(run);
+}
+
+void TableWriter::add(const FailureRecord& failure) {
+    files_->runs.write(incomplete_line(failure.key, "failed", name(failure.cause)) + "\n");
+    files_->database.add(failure);
+}
+
+void TableWriter::add_missing(const RunKey& key) {
+    files_->runs.write(incomplete_line(key, "missing", "") + "\n");
+    files_->database.add_missing(key);
+}
+
+void TableWriter::finish() {
+    files_->runs.commit();
+    files_->vehicles.commit();
+    files_->database.finish();
+}
+
 void write_tables(const Store& store, const Results& results) {
-    core::write_atomically(store.runs_csv(), runs_csv(results));
-    core::write_atomically(store.vehicles_csv(), vehicles_csv(results));
-    detail::write_database(store.folder() / "results.sqlite", results);
+    TableWriter writer(store);
+    write_all(results, writer);
+    writer.finish();
+}
+
+RunCounts write_tables(const Store& store) {
+    TableWriter writer(store);
+    RunCounts counts;
+    store.manifest().for_each_run([&](const RunKey& key) {
+        if (const auto run = store.read(key)) {
+            writer.add(*run);
+            ++counts.complete;
+        } else if (const auto failure = store.read_failure(key)) {
+            writer.add(*failure);
+            ++counts.failed;
+        } else {
+            writer.add_missing(key);
+            ++counts.missing;
+        }
+    });
+    writer.finish();
+    return counts;
 }
 
 }  // namespace clearway::results

@@ -58,6 +58,8 @@ Json to_json(const ConditionSpec& condition) {
     object["parts"] = condition.parts;
     object["engine"] = results::name(condition.engine);
     object["safety_checks"] = text_of(condition.safety_checks);
+    if (!condition.failure_settings.empty()) object["failure_settings"] = condition.failure_settings;
+    if (!condition.loop_settings.empty()) object["loop_settings"] = condition.loop_settings;
     return object;
 }
 
@@ -71,6 +73,8 @@ ConditionSpec condition_from(const Json& object, const std::string& where,
     reader.read("parts", condition.parts);
     reader.read_name("engine", condition.engine, engine_from);
     reader.read_name("safety_checks", condition.safety_checks, safety_checks_from);
+    reader.read_if_there("failure_settings", condition.failure_settings);
+    reader.read_if_there("loop_settings", condition.loop_settings);
     return condition;
 }
 
@@ -88,6 +92,8 @@ std::string to_json(const UnitSpec& unit) {
     object["conditions"] = detail::Json::array();
     for (const ConditionSpec& condition : unit.conditions)
         object["conditions"].push_back(detail::to_json(condition));
+    object["wall_limit_s"] = unit.limits.wall_s;
+    object["memory_limit_mib"] = unit.limits.memory_mib;
     object["output"] = unit.output.string();
     return detail::to_text(object);
 }
@@ -110,6 +116,8 @@ UnitSpec read_unit(const std::filesystem::path& file) {
     reader.read_name("recording", unit.recording, recording_from);
     for (const detail::Json& condition : reader.child("conditions", detail::Json::value_t::array))
         unit.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
+    reader.read("wall_limit_s", unit.limits.wall_s);
+    reader.read("memory_limit_mib", unit.limits.memory_mib);
     reader.read("output", output);
     if (!problems.empty()) throw core::InputError(problems);
     unit.scenario_file = scenario_file;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/settings.hpp"
 #include "traffic/command.hpp"
 
 namespace clearway::results {
@@ -34,8 +35,18 @@ struct ConditionSpec {
     std::vector<std::string> parts;  ///< Policy parts; empty: the car-following model alone.
     Engine engine = Engine::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
+    core::Settings failure_settings = {};  ///< Members of sensing::FailureConfig that differ from the preset.
+    core::Settings loop_settings = {};     ///< Members of LoopConfig that differ from its defaults.
 
     bool operator==(const ConditionSpec&) const = default;
+};
+
+/// What a run may use before it is ended. A run over a limit has failed; the others of its unit go on.
+struct RunLimits {
+    double wall_s = 3600.0;  ///< > 0, shared warm-up excluded. Assumed: far above any run met so far.
+    long memory_mib = 0;     ///< Resident size of its process; 0: no limit. Looked at 20 times a second.
+
+    bool operator==(const RunLimits&) const = default;
 };
 
 /// What one worker process does: one scenario, one replication, one engine, several conditions forked from
@@ -49,6 +60,7 @@ struct UnitSpec {
     Engine engine = Engine::standard;
     StepRecording recording = StepRecording::off;  ///< Of all conditions but those of engine `solo`.
     std::vector<ConditionSpec> conditions;
+    RunLimits limits;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
 
     bool operator==(const UnitSpec&) const = default;

@@ -99,6 +99,26 @@ toml::table parse(const std::filesystem::path& file, const std::string& shown) {
     }
 }
 
+/// Puts `value`, as TOML writes it, at a dotted key.
+void set_key(toml::table& root, const std::string& dotted, const std::string& value) {
+    toml::table* table = &root;
+    std::size_t begin = 0;
+    for (std::size_t dot = dotted.find('.'); dot != std::string::npos; dot = dotted.find('.', begin)) {
+        const std::string key = dotted.substr(begin, dot - begin);
+        table->insert(key, toml::table{});
+        toml::table* const next = table->get(key)->as_table();
+        if (next == nullptr)
+            throw core::InputError(
+                {fmt::format("factor scenario.{}", dotted), fmt::format("{} is no table", key), "", ""});
+        table = next;
+        begin = dot + 1;
+    }
+    const toml::table parsed = toml::parse("value = " + value);
+    const std::string last = dotted.substr(begin);
+    table->erase(last);  // with its place in the file
+    parsed.get("value")->visit([&](const auto& node) { table->insert(last, node); });
+}
+
 }  // namespace
 
 DemandKind ScenarioConfig::demand_kind() const {
@@ -118,7 +138,10 @@ ScenarioConfig load(const std::string& name_or_path, const Options& options) {
     config.folder = file.parent_path().empty() ? "." : file.parent_path();
     Reading reading;
     reading.file = file.string();
-    read_root(parse(file, reading.file), reading, config);
+    toml::table table = parse(file, reading.file);
+    for (const auto& [key, value] : options.settings)
+        set_key(table, key, value);
+    read_root(table, reading, config);
     config.origins = reading.origins;
     detail::apply(options, config, reading.problems);
     detail::check(config, reading.problems);

@@ -344,6 +344,9 @@ struct Options {
     std::optional<IdmPreset> idm;           ///< --idm
     std::string traffic_kinds;              ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
     std::string emergency_kinds;            ///< --emergency-kinds, `ambulance=1,police_car=1`
+    /// Keys of scenario.toml that replace the file's before it is read, `demand.human` -> `40` as TOML writes
+    /// the value. Lists of tables cannot be reached.
+    std::map<std::string, std::string> settings = {};
 };
 
 /// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks the whole.

@@ -1,13 +1,16 @@
 #include "study/config.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "metrics/run_metrics.hpp"
 #include "study/conditions.hpp"
+#include "study/detail/factors.hpp"
 #include "study/detail/strict_table.hpp"
 
 namespace clearway::study {
@@ -22,11 +25,14 @@ void append(Problems& problems, const core::InputError& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
 }
 
-scenario::Options read_overrides(StrictTable& root, const std::string& file, Problems& problems) {
+/// Keys of `[overrides]`, which factors of scenarios may set, too.
+const std::vector<std::string> override_keys = {
+    "variant",       "density", "automated_share", "road_limit_kmh", "warm_up_s", "horizon_s",
+    "step_length_s", "idm",     "traffic_kinds",   "emergency_kinds"};
+
+scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
-    const toml::table* table = root.table("overrides");
-    if (table == nullptr) return options;
-    StrictTable reader(*table, "overrides", file, problems);
+    StrictTable reader(table, "overrides", file, problems);
     reader.word<scenario::Variant>(
         "variant", {{"standard", scenario::Variant::standard}, {"dense", scenario::Variant::dense}},
         options.variant);
@@ -41,6 +47,25 @@ scenario::Options read_overrides(StrictTable& root, const std::string& file, Pro
     reader.text("traffic_kinds", options.traffic_kinds);
     reader.text("emergency_kinds", options.emergency_kinds);
     reader.finish();
+    return options;
+}
+
+/// The overrides under a combination of factors.
+scenario::Options options_with(const toml::table& overrides, const detail::Assignment& assignment,
+                               const std::string& file, Problems& problems) {
+    toml::table changed = overrides;
+    core::Settings settings;
+    for (const auto& [factor, value] : assignment) {
+        if (std::ranges::find(override_keys, factor->key) == override_keys.end()) {
+            settings[factor->key] = value->toml;
+        } else {
+            const toml::table parsed = toml::parse("value = " + value->toml);
+            parsed.get("value")->visit(
+                [&, key = factor->key](const auto& node) { changed.insert_or_assign(key, node); });
+        }
+    }
+    scenario::Options options = read_overrides(changed, file, problems);
+    options.settings = settings;
     return options;
 }
 
@@ -88,20 +113,90 @@ std::string resolve(const std::string& scenario, const std::filesystem::path& st
     return is_name ? scenario : (study_file.parent_path() / path).string();
 }
 
-void read_scenarios(StrictTable& root, const std::filesystem::path& file, const scenario::Options& options,
-                    Problems& problems, StudyConfig& config) {
+void add_scenario(const std::string& path, const scenario::Options& options, const std::string& suffix,
+                  Problems& problems, StudyConfig& config) {
+    try {
+        scenario::ScenarioConfig loaded = scenario::load(path, options);
+        loaded.name += suffix;
+        config.scenarios.push_back(std::move(loaded));
+    } catch (const core::InputError& error) {
+        append(problems, error);
+    }
+}
+
+void read_scenarios(StrictTable& root, const std::filesystem::path& file,
+                    const std::vector<detail::Factor>& factors, Problems& problems, StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("scenarios", names);
     if (names.empty())
         root.problem("scenarios", "the study has no scenario", "names of `clearway list`, folders or files",
                      "");
-    for (const std::string& name : names) {
-        try {
-            config.scenarios.push_back(scenario::load(resolve(name, file), options));
-        } catch (const core::InputError& error) {
-            append(problems, error);
+    const toml::table* const given = root.table("overrides");
+    const toml::table overrides = given == nullptr ? toml::table{} : *given;
+    for (const detail::Assignment& assignment : detail::combinations(factors, {"scenario"})) {
+        const scenario::Options options = options_with(overrides, assignment, file.string(), problems);
+        for (const std::string& name : names)
+            add_scenario(resolve(name, file), options, detail::name_of(assignment, factors), problems,
+                         config);
+    }
+}
+
+/// Puts in the place of each condition that has a policy, a predictor or failing sensors one for each
+/// combination of the factors.
+void vary_conditions(const std::vector<detail::Factor>& factors, Problems& problems, StudyConfig& config) {
+    const std::vector<detail::Assignment> all =
+        detail::combinations(factors, {"condition", "failure", "loop"});
+    if (all.size() == 1 && all.front().empty()) return;
+    if (std::ranges::none_of(config.conditions, detail::is_varied)) {
+        problems.push_back({"factors", "no condition has failures, a predictor or a policy to vary",
+                            "a condition beside baseline and solo", "Add one to the conditions"});
+        return;
+    }
+    std::vector<results::ConditionSpec> varied;
+    for (const results::ConditionSpec& condition : config.conditions) {
+        if (!detail::is_varied(condition)) {
+            varied.push_back(condition);
+            continue;
+        }
+        for (const detail::Assignment& assignment : all) {
+            varied.push_back(detail::with(condition, assignment, problems));
+            varied.back().name += detail::name_of(assignment, factors);
         }
     }
+    config.conditions = std::move(varied);
+}
+
+std::vector<std::string> metric_names() {
+    std::vector<std::string> names;
+    core::for_each_field<metrics::RunMetrics>([&](const auto& field) { names.emplace_back(field.name); });
+    return names;
+}
+
+void read_precision(StrictTable& root, const std::string& file, Problems& problems, StudyConfig& config) {
+    const toml::table* const table = root.table("precision");
+    if (table == nullptr) return;
+    results::PrecisionTarget& target = config.precision.emplace();
+    target.at_most = most_replications;
+    StrictTable reader(*table, "precision", file, problems);
+    reader.text("metric", target.metric);
+    std::optional<double> half_width;
+    reader.number("half_width", half_width);
+    reader.integer<std::uint32_t>("at_most", least_replications, most_replications, target.at_most);
+    reader.finish();
+    const std::vector<std::string> names = metric_names();
+    if (std::ranges::find(names, target.metric) == names.end()) {
+        const std::string near = core::nearest(target.metric, names);
+        reader.problem("metric", fmt::format("'{}' is no metric", target.metric), "columns of runs.csv",
+                       near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+    }
+    if (!half_width || !(*half_width > 0.0) || !std::isfinite(*half_width))
+        reader.problem("half_width",
+                       half_width ? fmt::format("{} is not positive", *half_width) : "is missing",
+                       "a number above 0, in the metric's unit", "");
+    target.half_width = half_width.value_or(0.0);
+    if (root.has("replications"))
+        root.problem("replications", "is given beside [precision]", "either of them", "Remove one");
+    config.replications = least_replications;
 }
 
 /// Leaves of `all` those that are named, in their old order; unknown names are problems.
@@ -176,9 +271,13 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     root.text("name", config.name);
     root.integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(), config.seed);
     root.integer<std::uint32_t>("replications", 1, most_replications, config.replications);
-    const scenario::Options options = read_overrides(root, name, problems);
-    read_scenarios(root, file, options, problems, config);
+    read_precision(root, name, problems, config);
+    const toml::table* const factor_table = root.table("factors");
+    std::vector<detail::Factor> factors;
+    if (factor_table != nullptr) factors = detail::read_factors(*factor_table, name, problems);
+    read_scenarios(root, file, factors, problems, config);
     read_conditions(root, name, problems, config);
+    vary_conditions(factors, problems, config);
     read_quick(root, name, extent, problems, config);
     root.finish();
     if (!problems.empty()) throw core::InputError(problems);

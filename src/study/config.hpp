@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "results/manifest.hpp"
 #include "results/unit.hpp"
 #include "scenario/config.hpp"
 
@@ -17,7 +19,13 @@ struct StudyConfig {
     std::uint32_t replications = 20;  ///< 1 to 100000. FHWA asks for at least 10.
     std::vector<scenario::ScenarioConfig> scenarios;
     std::vector<results::ConditionSpec> conditions;
+    /// Instead of a number of replications; `replications` is then that of the first round.
+    std::optional<results::PrecisionTarget> precision;
 };
+
+/// FHWA's least number of replications (Traffic Analysis Toolbox III, 2019 update), and the first round's of
+/// a study with a precision target.
+inline constexpr std::uint32_t least_replications = 10;
 
 /// The dissertation's study: its three scenarios, its three conditions, the two controls and solo.
 StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
@@ -41,6 +49,17 @@ enum class Extent : std::uint8_t {
 ///     [overrides]                                 # as the options of `clearway run`; all optional
 ///     variant = "dense"
 ///     step_length_s = 0.1
+///
+///     [precision]                                 # instead of replications
+///     metric = "emergency_travel_time_s"
+///     half_width = 2.0                            # of the 95 % interval, in the metric's unit
+///     at_most = 200                               # replications
+///
+///     [factors]                                   # each with the values it takes; all combinations are run
+///     condition.failure = ["B5", "B20"]
+///     failure.dark_share = [0.1, 0.3]
+///     loop.policy_period_s = [0.5, 1.0]
+///     scenario.demand.human = [40, 80]
 ///
 ///     [[condition]]                               # beside the named ones
 ///     name = "b20"

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -23,8 +25,8 @@ constexpr const char* scenario_file_name = "scenario.toml";
 /// Names become folders.
 bool is_folder_name(const std::string& name) {
     const auto allowed = [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' ||
-               letter == '.';
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+               std::string_view("_-.+=").find(letter) != std::string_view::npos;
     };
     return !name.empty() && name.front() != '.' && std::ranges::all_of(name, allowed);
 }
@@ -33,7 +35,7 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
                 std::vector<core::Problem>& problems) {
     if (!is_folder_name(name))
         problems.push_back({what, fmt::format("\"{}\" cannot be the name of a folder", name),
-                            "letters, digits, '_', '-' and '.', not starting with '.'", "Rename it"});
+                            "letters, digits and _ - . + =, not starting with '.'", "Rename it"});
     if (!seen.insert(name).second)
         problems.push_back(
             {what, fmt::format("\"{}\" is there twice", name), "each name once", "Rename one"});
@@ -83,20 +85,8 @@ results::Manifest make_manifest(const StudyConfig& config, const Versions& versi
                                       scenario.network.attribution});
     }
     manifest.conditions = config.conditions;
+    manifest.precision = config.precision;
     return manifest;
-}
-
-/// The conditions of one engine as one unit, or no unit when there are none.
-void add_unit(const StudyConfig& config, results::UnitSpec unit, Engine engine,
-              std::vector<PlannedUnit>& units) {
-    unit.engine = engine;
-    for (const results::ConditionSpec& condition : config.conditions) {
-        if (condition.engine == engine) unit.conditions.push_back(condition);
-    }
-    if (unit.conditions.empty()) return;
-    const std::string name =
-        fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, results::name(engine));
-    units.push_back({name, std::move(unit)});
 }
 
 /// Stores a scenario and its network as a whole or not at all.
@@ -122,7 +112,10 @@ void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& ta
 }  // namespace
 
 std::size_t Plan::run_count() const {
-    return manifest.scenarios.size() * manifest.conditions.size() * manifest.replications;
+    std::size_t count = 0;
+    for (const PlannedUnit& planned : units)
+        count += planned.unit.conditions.size();
+    return count;
 }
 
 Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::path& folder) {
@@ -131,20 +124,38 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
     plan.manifest = make_manifest(config, versions);
     plan.scenarios = config.scenarios;
     const fs::path output = fs::absolute(folder);
-    for (std::uint32_t replication = 0; replication < config.replications; ++replication) {
-        for (const scenario::ScenarioConfig& scenario : config.scenarios) {
-            results::UnitSpec unit;
-            unit.scenario = scenario.name;
-            unit.scenario_file = output / "scenarios" / scenario.name / scenario_file_name;
-            unit.network_folder = output / "scenarios" / scenario.name / network_name;
-            unit.study_seed = config.seed;
-            unit.replication = replication;
-            unit.output = output;
-            for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo})
-                add_unit(config, unit, engine, plan.units);
-        }
+    for (const UnitPlace& place : units_of(plan.manifest)) {
+        results::UnitSpec unit;
+        unit.scenario = plan.manifest.scenarios[place.scenario].name;
+        unit.scenario_file = output / "scenarios" / unit.scenario / scenario_file_name;
+        unit.network_folder = output / "scenarios" / unit.scenario / network_name;
+        unit.study_seed = config.seed;
+        unit.replication = place.replication;
+        unit.engine = place.engine;
+        std::ranges::copy_if(config.conditions, std::back_inserter(unit.conditions),
+                             [&](const auto& condition) { return condition.engine == place.engine; });
+        unit.output = output;
+        const std::string name =
+            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, results::name(unit.engine));
+        plan.units.push_back({name, std::move(unit)});
     }
     return plan;
+}
+
+std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
+    std::vector<Engine> engines;
+    for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo}) {
+        const auto needs_it = [&](const auto& condition) { return condition.engine == engine; };
+        if (std::ranges::any_of(manifest.conditions, needs_it)) engines.push_back(engine);
+    }
+    std::vector<UnitPlace> places;
+    for (std::uint32_t replication = 0; replication < manifest.replications; ++replication) {
+        for (std::size_t scenario = 0; scenario < manifest.scenarios.size(); ++scenario) {
+            for (const Engine engine : engines)
+                places.push_back({scenario, replication, engine});
+        }
+    }
+    return places;
 }
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {

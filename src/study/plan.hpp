@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,13 +19,23 @@ struct PlannedUnit {
     results::UnitSpec unit;
 };
 
+/// Where a unit stands in a study. `scenario` is a row of the manifest's scenarios.
+struct UnitPlace {
+    std::size_t scenario = 0;
+    std::uint32_t replication = 0;
+    results::Engine engine = results::Engine::standard;
+};
+/// All units of a study in their order: replications first, so that an interrupted study has whole
+/// replications of every scenario.
+std::vector<UnitPlace> units_of(const results::Manifest& manifest);
+
 /// What a study consists of. A pure function of configuration and versions.
 struct Plan {
     results::Manifest manifest;
     std::vector<scenario::ScenarioConfig> scenarios;
-    /// Replications first, so that an interrupted study has whole replications of every scenario.
-    std::vector<PlannedUnit> units;
+    std::vector<PlannedUnit> units;  ///< In the order of `units_of`; all, or those of a shard.
 
+    /// Of `units`.
     std::size_t run_count() const;
 };
 

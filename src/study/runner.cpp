@@ -35,7 +35,8 @@ RunKey key_of(const results::UnitSpec& unit, const results::ConditionSpec& condi
 
 /// What a worker's end says about the runs that it left without a record.
 FailureCause cause_of(const detail::WorkerEnd& end) {
-    if (end.timed_out) return FailureCause::time_limit;
+    if (end.ended_by == detail::EndedBy::time_limit) return FailureCause::time_limit;
+    if (end.ended_by == detail::EndedBy::memory_limit) return FailureCause::memory;
     if (end.exit.signal != 0) return FailureCause::signal;
     if (end.exit.code == static_cast<int>(ExitCode::bad_input)) return FailureCause::bad_input;
     return FailureCause::other;
@@ -51,7 +52,7 @@ class Runner {
           options_(options),
           on_progress_(on_progress),
           lock_(store.folder()),
-          pool_({worker_count(options), options.unit_time_limit_s, options.termination_grace_s}) {
+          pool_({worker_count(options), options.termination_grace_s}) {
         if (options_.worker_program.empty())
             options_.worker_program = core::program_folder() / "clearway-run";
         core::make_folder(store.unit_file("").parent_path());
@@ -106,12 +107,18 @@ class Runner {
             const results::UnitSpec& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit);
             if (!open.empty()) queue_.push_back(job);
-            for (const results::ConditionSpec& condition : open)
-                store_.forget_failure(key_of(unit, condition));
+            forget_failures(unit, open);
             count(unit, settled_);
         }
         progress_.total = plan_.run_count();
         progress_.resumed = settled_.complete;
+        lock_.note(settled_.complete + settled_.failed);
+    }
+
+    void forget_failures(const results::UnitSpec& unit,
+                         const std::vector<results::ConditionSpec>& conditions) const {
+        for (const results::ConditionSpec& condition : conditions)
+            store_.forget_failure(key_of(unit, condition));
     }
 
     void start_next() {
@@ -121,6 +128,8 @@ class Runner {
         results::UnitSpec unit = planned.unit;
         uncount(unit, settled_);
         unit.conditions = open_conditions(unit);
+        unit.limits = options_.limits;
+        forget_failures(unit, unit.conditions);
         ++attempts_[job];
         const auto file = store_.unit_file(planned.name);
         core::write_atomically(file, results::to_json(unit));
@@ -128,7 +137,8 @@ class Runner {
         command.program = options_.worker_program;
         command.arguments = {"--unit", file.string()};
         command.output = log_file(job);
-        pool_.start(job, command);
+        const auto places = static_cast<double>(unit.conditions.size() + 1);  // one for the shared warm-up
+        pool_.start(job, command, {options_.limits.wall_s * places, options_.limits.memory_mib});
     }
 
     std::filesystem::path log_file(std::size_t job) const {
@@ -139,19 +149,29 @@ class Runner {
     void handle(const detail::WorkerEnd& end) {
         const results::UnitSpec& unit = plan_.units[end.job].unit;
         stop_if_environment(end);
-        std::vector<RunKey> open;
+        bool retry = false;
         for (const results::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
-            if (!store_.complete(key) && !store_.read_failure(key)) open.push_back(key);
+            if (!store_.complete(key)) retry = settle(end, key) || retry;
         }
-        const FailureCause cause = cause_of(end);
-        if (!open.empty() && results::worth_retrying(cause) && attempts_[end.job] < options_.attempts) {
-            queue_.push_front(end.job);
-        } else {
-            for (const RunKey& key : open)
-                store_.write(failure_of(key, end, cause));
-        }
+        if (retry) queue_.push_front(end.job);
         count(unit, settled_);
+    }
+
+    /// Records why a run has no result; true when it is to be tried again instead.
+    bool settle(const detail::WorkerEnd& end, const RunKey& key) const {
+        auto failure = store_.read_failure(key);
+        const bool told_by_worker = failure.has_value();
+        if (!failure) failure = failure_of(key, end);
+        if (!results::worth_retrying(failure->cause)) {
+            if (!told_by_worker) store_.write(*failure);
+            return false;
+        }
+        if (attempts_[end.job] < options_.attempts) return true;
+        failure->attempts = attempts_[end.job];
+        if (told_by_worker) failure->log_tail += core::tail(log_file(end.job), log_lines);
+        store_.write(*failure);
+        return false;
     }
 
     void stop_if_environment(const detail::WorkerEnd& end) {
@@ -169,24 +189,29 @@ class Runner {
             throw core::ConflictError(core::tail(log_file(end.job), log_lines));
     }
 
-    results::FailureRecord failure_of(const RunKey& key, const detail::WorkerEnd& end,
-                                      FailureCause cause) const {
+    /// Of a run about which its worker left no word.
+    results::FailureRecord failure_of(const RunKey& key, const detail::WorkerEnd& end) const {
         results::FailureRecord failure;
         failure.key = key;
-        failure.cause = cause;
+        failure.cause = cause_of(end);
         failure.exit_code = end.exit.code;
         failure.signal = end.exit.signal;
         failure.attempts = attempts_[end.job];
         failure.log_tail = core::tail(log_file(end.job), log_lines);
-        if (end.timed_out) {
-            failure.message = fmt::format("did not end within {:.0f} s", options_.unit_time_limit_s);
-        } else if (end.exit.ok()) {
-            failure.message = "the worker ended without a record of this run";
-        } else {
-            failure.message = "the worker was " + end.exit.describe();
-            if (end.exit.signal == 0) failure.message = "the worker ended with " + end.exit.describe();
-        }
+        failure.command = core::shell_text({options_.worker_program.string(), "--unit",
+                                            store_.unit_file(plan_.units[end.job].name).string()});
+        failure.message = message_of(end);
         return failure;
+    }
+
+    std::string message_of(const detail::WorkerEnd& end) const {
+        if (end.ended_by == detail::EndedBy::time_limit)
+            return fmt::format("its unit did not end within {:g} s a run", options_.limits.wall_s);
+        if (end.ended_by == detail::EndedBy::memory_limit)
+            return fmt::format("the warm-up needed more than {} MiB", options_.limits.memory_mib);
+        if (end.exit.signal != 0) return "the worker was " + end.exit.describe();
+        return end.exit.ok() ? "the worker ended without a record of this run"
+                             : "the worker ended with " + end.exit.describe();
     }
 
     struct Counts {

@@ -15,9 +15,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::vector<std::string> every_verb = {"reproduce", "run",    "study",  "report",  "compare",
-                                             "results",   "replay", "verify", "dataset", "train",
-                                             "list",      "init",   "doctor", "links"};
+const std::vector<std::string> every_verb = {
+    "reproduce", "run",    "study",   "status", "submit", "merge", "report", "compare", "results",
+    "replay",    "verify", "dataset", "train",  "list",   "init",  "doctor", "links"};
 
 class HelpTest : public UserTest {};
 
@@ -60,6 +60,14 @@ TEST_F(HelpTest, of_every_verb_shows_an_example_and_a_default_for_each_option_wi
                 << verb << " does not tell the default of:\n"
                 << option;
         }
+    }
+}
+
+TEST_F(HelpTest, of_every_verb_fits_110_columns) {
+    for (const std::string& verb : every_verb) {
+        std::istringstream lines(clearway({verb, "--help"}).out);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_LE(line.size(), 110U) << verb << ": " << line;
     }
 }
 

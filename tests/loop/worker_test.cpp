@@ -1,5 +1,9 @@
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <map>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -81,20 +85,40 @@ TEST(Worker, GivesTheSameRecordWhetherAConditionIsForkedFirstLastOrAlone) {
     EXPECT_EQ(record_of(together, "city", "baseline"), record_of(reversed, "city", "baseline"));
 }
 
-TEST(Worker, EqualsARunWithoutFork) {
-    const test::StudyFolder folder("city", {}, {repaired});
-    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
-    const results::UnitSpec unit = folder.unit(0);
-    loop::UnitRun unforked(unit, folder.path() / "scenarios" / "city" / "demand" / "0",
-                           folder.path() / "unforked");
+/// The bytes that a run left in a folder.
+std::map<std::string, std::string> stored_bytes(const results::Store& store, const results::RunKey& key) {
+    std::map<std::string, std::string> files;
+    for (const char* const name : {"run.json", "vehicles.csv"})
+        files[name] = core::read_file(store.run_folder(key) / name);
+    return files;
+}
+
+/// libsumo holds one simulation a process, so each scenario without a fork has a process of its own: a test.
+void expect_equal_without_fork(const std::string& scenario, const scenario::Options& options) {
+    const test::StudyFolder forked(scenario, options, {baseline, repaired});
+    ASSERT_TRUE(run_worker(forked, forked.unit(0)).ok());
+    const test::StudyFolder alone(scenario, options, {baseline, repaired});
+    loop::UnitRun unforked(alone.unit(0), alone.path() / "demand", alone.path() / "unforked");
     results::RunTiming timing;
-    results::RunRecord record = unforked.finish_here(repaired, timing);
+    const results::RunRecord record = unforked.finish_here(repaired, timing);
     EXPECT_FALSE(record.traffic.approaches.empty());
     EXPECT_FALSE(record.traffic.recovery.empty());
     EXPECT_FALSE(record.traffic.journeys.empty());
-    EXPECT_EQ(record.traffic.journeys, folder.store().read_journeys({"city", "repaired", 0}));
-    record.traffic.journeys.clear();  // they are not read back with the rest
-    EXPECT_EQ(record, record_of(folder, "city", "repaired"));
+    EXPECT_EQ(record.traffic.journeys, forked.store().read_journeys({scenario, "repaired", 0}));
+    alone.store().write(record, timing);
+    const results::RunKey key{scenario, "repaired", 0};
+    EXPECT_GT(alone.store().read(key)->metrics.leases_issued, 0U);
+    EXPECT_EQ(stored_bytes(alone.store(), key), stored_bytes(forked.store(), key));
+}
+
+TEST(Worker, EqualsARunWithoutForkInTheCity) {
+    expect_equal_without_fork("city", {});
+}
+
+TEST(Worker, EqualsARunWithoutForkInBologna) {
+    scenario::Options shortened;
+    shortened.horizon_s = 900.0;  // measured demand with 600 s of warm-up; the whole takes minutes
+    expect_equal_without_fork("bologna", shortened);
 }
 
 TEST(Worker, RunsEmergencyVehiclesAloneForTheSoloTime) {
@@ -134,6 +158,67 @@ TEST(Worker, RecordsAFailureOfTheSimulatorWithItsLog) {
     ASSERT_TRUE(failure.has_value());
     EXPECT_EQ(failure->cause, results::FailureCause::simulator);
     EXPECT_THAT(failure->message + failure->log_tail, testing::HasSubstr("cable_car"));
+}
+
+/// The first child of a process, once it has one.
+pid_t child_of(pid_t process) {
+    const std::string file = fmt::format("/proc/{0}/task/{0}/children", process);
+    for (pid_t child = 0;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+        std::ifstream stream(file);
+        if (stream >> child) return child;
+    }
+}
+
+TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
+    const test::StudyFolder folder("city", {}, {repaired, baseline});
+    const std::filesystem::path file = folder.write(folder.unit(0));
+    const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
+                                            .arguments = {"--unit", file.string()},
+                                            .environment = {},
+                                            .output = folder.path() / "worker.log"});
+    kill(child_of(worker.pid), SIGSEGV);
+    EXPECT_TRUE(core::wait(worker).ok());
+    const results::RunKey key{"city", "repaired", 0};
+    const auto failure = folder.store().read_failure(key);
+    ASSERT_TRUE(failure.has_value());
+    EXPECT_EQ(failure->cause, results::FailureCause::signal);
+    EXPECT_EQ(failure->signal, SIGSEGV);
+    EXPECT_TRUE(folder.store().complete({"city", "baseline", 0})) << "the other condition goes on";
+    EXPECT_EQ(std::system(failure->command.c_str()), 0);
+    EXPECT_TRUE(folder.store().complete(key));
+    EXPECT_FALSE(folder.store().read_failure(key));
+}
+
+TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
+    const test::StudyFolder folder("city", {}, {baseline});
+    const results::RunKey key{"city", "baseline", 0};
+    results::UnitSpec unit = folder.unit(0);
+    unit.limits.wall_s = 0.01;
+    ASSERT_TRUE(run_worker(folder, unit).ok());
+    EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::time_limit);
+    EXPECT_THAT(folder.store().read_failure(key)->message, testing::HasSubstr("0.01 s"));
+    unit.limits = {.wall_s = 60.0, .memory_mib = 5};
+    ASSERT_TRUE(run_worker(folder, unit).ok());
+    EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::memory);
+    EXPECT_THAT(folder.store().read_failure(key)->message, testing::HasSubstr("5 MiB"));
+    unit.limits.memory_mib = 1000;
+    ASSERT_TRUE(run_worker(folder, unit).ok());
+    EXPECT_TRUE(folder.store().complete(key));
+}
+
+TEST(Worker, GivesParametersOfFailureAndLoopToACondition) {
+    ConditionSpec often = perfect;
+    often.name = "often";
+    often.loop_settings = {{"policy_period_s", "0.25"}};
+    ConditionSpec dark = repaired;
+    dark.name = "dark";
+    dark.failure_settings = {{"dark_share", "0.9"}};
+    const test::StudyFolder folder("intersection", {}, {perfect, often, repaired, dark});
+    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
+    EXPECT_GT(record_of(folder, "intersection", "often").metrics.leases_renewed,
+              record_of(folder, "intersection", "perfect").metrics.leases_renewed);
+    EXPECT_NE(record_of(folder, "intersection", "dark").provenance.trace_hash,
+              record_of(folder, "intersection", "repaired").provenance.trace_hash);
 }
 
 }  // namespace

@@ -79,6 +79,7 @@ inline FailureRecord failure(const RunKey& key) {
     result.message = "killed by signal 11 (Segmentation fault)";
     result.signal = 11;
     result.attempts = 3;
+    result.command = "clearway-run --unit '/out/units/a b.json'";
     result.log_tail = "last \"words\"\n";
     return result;
 }

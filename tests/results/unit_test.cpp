@@ -24,7 +24,10 @@ UnitSpec example() {
     condition.parts = {"dissertation", "preempt"};
     condition.engine = Engine::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
+    condition.failure_settings = {{"mean_outage_s", "20"}, {"detection", "range"}};
+    condition.loop_settings = {{"policy_period_s", "1"}};
     unit.conditions = {condition, ConditionSpec{}};
+    unit.limits = {.wall_s = 12.5, .memory_mib = 300};
     unit.output = "/out";
     return unit;
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/error.hpp"
 #include "results/store.hpp"
@@ -29,12 +30,21 @@ bool first_time(const results::Store& store, const results::RunKey& key) {
     return true;
 }
 
-void refuse(const results::Store& store, const results::RunKey& key) {
+void tell(const results::Store& store, const results::RunKey& key, results::FailureCause cause,
+          const std::string& message) {
     results::FailureRecord failure;
     failure.key = key;
-    failure.cause = results::FailureCause::simulator;
-    failure.message = "SUMO said no";
+    failure.cause = cause;
+    failure.message = message;
+    failure.command = "clearway-run --unit it";
     store.write(failure);
+}
+
+/// Holds 200 MiB of memory that is really used.
+void hog() {
+    const std::vector<char> memory(std::size_t{200} << 20, 'x');
+    pause_ms(600000);
+    std::printf("%c", memory.back());
 }
 
 /// Ends the process where the condition says so; true when a record was written.
@@ -48,7 +58,10 @@ void work(const results::Store& store, const results::RunKey& key) {
     if (name == "bad_input") std::exit(3);
     if (name == "disk_full") std::exit(4);
     if (name == "forgetful") return;
-    if (name == "refused") return refuse(store, key);
+    if (name == "refused") return tell(store, key, results::FailureCause::simulator, "SUMO said no");
+    if (name == "told_crash") return tell(store, key, results::FailureCause::signal, "child was killed");
+    if (name == "told_memory") return tell(store, key, results::FailureCause::memory, "too much");
+    if (name == "hog") hog();
     if (name.starts_with("slow")) pause_ms(40);
     store.write(results::synthetic::record(key, 40.0 + key.replication), {});
 }

@@ -66,7 +66,7 @@ class Study : public testing::Test {
     support::TemporaryFolder folder_;
     StudyConfig config_;
     RunnerOptions options_{.worker_program = std::string(CLEARWAY_BINARY_DIR) + "/tests/study_fake_worker",
-                           .unit_time_limit_s = 60.0,
+                           .limits = {.wall_s = 60.0},
                            .termination_grace_s = 0.2};
     std::vector<StudyProgress> reported_;
 };
@@ -116,7 +116,7 @@ TEST_F(Study, RecordsACrashAfterThreeAttemptsAndGoesOn) {
 
 TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
     plan({"baseline", "hang"}, 1);
-    options_.unit_time_limit_s = 0.3;
+    options_.limits.wall_s = 0.1;
     options_.attempts = 2;
     const StudyResult result = run_in("out");
     EXPECT_EQ(result.exit_code, ExitCode::runs_failed);
@@ -125,6 +125,44 @@ TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
     EXPECT_EQ(failure->cause, FailureCause::time_limit);
     EXPECT_EQ(failure->attempts, 2);
     EXPECT_TRUE(store_in("out").complete({"alpha", "baseline", 0}));
+}
+
+TEST_F(Study, EndsAWorkerThatNeedsTooMuchMemoryAndDoesNotTryItAgain) {
+    plan({"baseline", "hog"}, 1);
+    options_.limits.memory_mib = 64;
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
+    const auto failure = store_in("out").read_failure({"beta", "hog", 0});
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->cause, FailureCause::memory);
+    EXPECT_EQ(failure->attempts, 1);
+    EXPECT_THAT(failure->message, testing::HasSubstr("64 MiB"));
+    EXPECT_TRUE(store_in("out").complete({"beta", "baseline", 0}));
+}
+
+TEST_F(Study, TriesAgainWhatAWorkerTellsOfACrashButNotOfMemory) {
+    plan({"baseline", "told_crash", "told_memory"}, 1);
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
+    const results::Store store = store_in("out");
+    const auto crash = store.read_failure({"alpha", "told_crash", 0});
+    ASSERT_TRUE(crash);
+    EXPECT_EQ(crash->attempts, 3);
+    EXPECT_EQ(crash->command, "clearway-run --unit it");
+    EXPECT_THAT(crash->log_tail, testing::HasSubstr("run alpha/told_crash/0"));
+    const auto third_log = core::read_file(store.log_file("alpha-00000-standard.3"));
+    EXPECT_THAT(third_log, testing::Not(testing::HasSubstr("told_memory")));
+    EXPECT_EQ(store.read_failure({"alpha", "told_memory", 0})->attempts, 1);
+}
+
+TEST_F(Study, TellsHowToMakeACrashAgain) {
+    plan({"baseline", "crash"}, 1);
+    run_in("out");
+    const auto failure = store_in("out").read_failure({"alpha", "crash", 0});
+    ASSERT_TRUE(failure);
+    const results::Store store = store_in("out");
+    const auto unit = store.unit_file("alpha-00000-standard");
+    EXPECT_EQ(failure->command, options_.worker_program.string() + " --unit " + unit.string());
+    EXPECT_EQ(results::read_unit(unit).conditions.at(0).name, "crash");
+    EXPECT_NE(std::system((failure->command + " > /dev/null").c_str()), 0);
 }
 
 TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {

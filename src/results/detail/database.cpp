@@ -1,6 +1,5 @@
 #include "results/detail/database.hpp"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/files.hpp"
 #include "results/detail/json.hpp"
 
 namespace clearway::results::detail {
@@ -144,80 +144,109 @@ void write_study(Database& database, const Manifest& manifest) {
     }
 }
 
-void write_runs(Database& database, const Results& results) {
+void create_tables(Database& database) {
     database.execute(fmt::format("CREATE TABLE runs ({}{}{}, PRIMARY KEY (scenario, condition, replication))",
                                  key_columns, columns<metrics::RunMetrics>(), columns<Provenance>()));
-    Inserter row(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(0));
-    for (const RunRecord& run : results.runs) {
-        row.add_key(run.key);
-        row.add_fields(run.metrics);
-        row.add_fields(run.provenance);
-        row.insert();
-    }
-}
-
-void write_vehicles(Database& database, const Results& results) {
     database.execute(
         fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
                     key_columns, columns<metrics::VehicleRow>()));
-    Inserter row(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4));
-    for (const RunRecord& run : results.runs) {
-        for (const metrics::VehicleRow& vehicle : run.vehicles) {
-            row.add_key(run.key);
-            row.add(std::string_view(vehicle.id));
-            row.add(traffic::name(vehicle.vehicle_class));
-            row.add(traffic::name(vehicle.kind));
-            row.add(metrics::name(vehicle.outcome));
-            row.add_fields(vehicle);
-            row.insert();
-        }
-    }
-}
-
-void write_failures(Database& database, const Results& results) {
     database.execute(
         fmt::format("CREATE TABLE failures ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
-    Inserter row(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)");
-    for (const FailureRecord& failure : results.failures) {
-        row.add_key(failure.key);
-        row.add(std::string_view("failed"));
-        row.add(name(failure.cause));
-        row.add(std::string_view(failure.message));
-        row.insert();
-    }
-    for (const RunKey& key : results.missing) {
-        row.add_key(key);
-        row.add(std::string_view("missing"));
-        row.add(std::string_view());
-        row.add(std::string_view());
-        row.insert();
-    }
+}
+
+/// An empty database in which a study begins.
+Database begin_database(const std::filesystem::path& file, const Manifest& manifest) {
+    std::filesystem::remove(file);
+    Database database(file);
+    // A damaged part is thrown away whole, so it needs no journal; the file is flushed once, at the end.
+    database.execute("PRAGMA journal_mode = OFF");
+    database.execute("BEGIN");
+    write_study(database, manifest);
+    create_tables(database);
+    return database;
 }
 
 }  // namespace
 
-void write_database(const std::filesystem::path& file, const Results& results) {
-    const std::filesystem::path part = file.string() + fmt::format(".{}.part", ::getpid());
+struct DatabaseWriter::Tables {
+    Tables(const std::filesystem::path& part, const Manifest& manifest)
+        : database(begin_database(part, manifest)),
+          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(0)),
+          vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
+          failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
+
+    void add_failure(const RunKey& key, std::string_view outcome, std::string_view cause,
+                     std::string_view message) {
+        failures.add_key(key);
+        failures.add(outcome);
+        failures.add(cause);
+        failures.add(message);
+        failures.insert();
+    }
+
+    Database database;
+    Inserter runs;
+    Inserter vehicles;
+    Inserter failures;
+};
+
+DatabaseWriter::DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest)
+    : file_(file), part_(file.string() + fmt::format(".{}.part", ::getpid())) {
     try {
-        std::filesystem::remove(part);
-        Database database(part);
-        // A damaged part is thrown away whole, so it needs no journal; the file is flushed once, at the end.
-        database.execute("PRAGMA journal_mode = OFF");
-        database.execute("BEGIN");
-        write_study(database, results.manifest);
-        write_runs(database, results);
-        write_vehicles(database, results);
-        write_failures(database, results);
-        database.execute("COMMIT");
+        tables_ = std::make_unique<Tables>(part_, manifest);
     } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
+        discard();
         throw;
     }
+}
+
+DatabaseWriter::~DatabaseWriter() {
+    discard();
+}
+
+void DatabaseWriter::discard() {
+    tables_.reset();
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+}
+
+void DatabaseWriter::add(const RunRecord& run) {
+    Inserter& row = tables_->runs;
+    row.add_key(run.key);
+    row.add_fields(run.metrics);
+    row.add_fields(run.provenance);
+    row.insert();
+    for (const metrics::VehicleRow& vehicle : run.vehicles)
+        add(run.key, vehicle);
+}
+
+void DatabaseWriter::add(const RunKey& key, const metrics::VehicleRow& vehicle) {
+    Inserter& row = tables_->vehicles;
+    row.add_key(key);
+    row.add(std::string_view(vehicle.id));
+    row.add(traffic::name(vehicle.vehicle_class));
+    row.add(traffic::name(vehicle.kind));
+    row.add(metrics::name(vehicle.outcome));
+    row.add_fields(vehicle);
+    row.insert();
+}
+
+void DatabaseWriter::add(const FailureRecord& failure) {
+    tables_->add_failure(failure.key, "failed", name(failure.cause), failure.message);
+}
+
+void DatabaseWriter::add_missing(const RunKey& key) {
+    tables_->add_failure(key, "missing", "", "");
+}
+
+void DatabaseWriter::finish() {
+    tables_->database.execute("COMMIT");
+    tables_.reset();
     std::error_code error;
-    std::filesystem::rename(part, file, error);
-    if (error) throw core::EnvironmentError(fmt::format("{}: {}", file.string(), error.message()));
+    std::filesystem::rename(part_, file_, error);
+    if (error) throw core::EnvironmentError(fmt::format("{}: {}", file_.string(), error.message()));
+    core::flush_folder(file_.parent_path());
 }
 
 }  // namespace clearway::results::detail

@@ -1,13 +1,35 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "results/store.hpp"
 
 namespace clearway::results::detail {
 
-/// Writes all of a study into one SQLite file: tables `study` (key, value), `runs`, `vehicles`, `failures`,
-/// with the columns of the CSV files. Written aside and renamed. Throws core::EnvironmentError.
-void write_database(const std::filesystem::path& file, const Results& results);
+/// Writes a study into one SQLite file, run by run: tables `study` (key, value), `runs`, `vehicles`,
+/// `failures`, with the columns of the CSV files. Written aside and renamed by `finish`; without it nothing
+/// remains. All members throw core::EnvironmentError.
+class DatabaseWriter {
+  public:
+    DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest);
+    ~DatabaseWriter();
+    DatabaseWriter(const DatabaseWriter&) = delete;
+    DatabaseWriter& operator=(const DatabaseWriter&) = delete;
+
+    void add(const RunRecord& run);
+    void add(const FailureRecord& failure);
+    void add_missing(const RunKey& key);
+    void finish();
+
+  private:
+    struct Tables;
+    void add(const RunKey& key, const metrics::VehicleRow& vehicle);
+    void discard();
+
+    std::filesystem::path file_;
+    std::filesystem::path part_;
+    std::unique_ptr<Tables> tables_;
+};
 
 }  // namespace clearway::results::detail

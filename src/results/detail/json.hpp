@@ -48,6 +48,11 @@ class ObjectReader {
             convert(key, *node, target);
         }
     }
+    /// A key that may be left out.
+    template <class Value>
+    void read_if_there(const char* key, Value& target) {
+        if (object_.is_object() && object_.contains(key)) read(key, target);
+    }
     /// A key that must be there and hold the name of an enumerator.
     template <class Enum, class FromName>
     void read_name(const char* key, Enum& target, FromName&& from_name) {

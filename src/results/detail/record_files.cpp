@@ -162,6 +162,7 @@ std::string failure_to_json(const FailureRecord& failure) {
     object["signal"] = failure.signal;
     object["attempts"] = failure.attempts;
     object["log_tail"] = failure.log_tail;
+    object["command"] = failure.command;
     return to_text(object);
 }
 
@@ -177,6 +178,7 @@ FailureRecord failure_from_json(const std::string& text, const std::string& wher
     reader.read("signal", failure.signal);
     reader.read("attempts", failure.attempts);
     reader.read("log_tail", failure.log_tail);
+    reader.read_if_there("command", failure.command);
     if (!problems.empty()) throw core::InputError(problems);
     return failure;
 }

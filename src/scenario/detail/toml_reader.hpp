@@ -21,6 +21,7 @@ struct Reading {
     std::map<std::string, std::string> origins;
 
     std::string place(const toml::source_region& source, const std::string& key) const {
+        if (source.begin.line == 0) return fmt::format("{}: {}, set by a factor", file, key);
         return fmt::format("{}:{}:{}: {}", file, source.begin.line, source.begin.column, key);
     }
     void add(const std::string& where, std::string what, std::string allowed, std::string cure = "") {

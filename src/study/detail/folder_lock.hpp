@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace clearway::study::detail {
 
@@ -8,14 +11,27 @@ namespace clearway::study::detail {
 /// process dies, however it dies.
 class FolderLock {
   public:
-    /// Throws core::EnvironmentError, naming the other process, when the folder is taken or not writable.
+    /// Throws core::EnvironmentError, naming the other process, when the folder is taken, not writable,
+    /// or on a file system without locks.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
+    /// Notes for those who look from outside how many runs had ended when the work began.
+    void note(std::size_t ended_runs) const;
+
   private:
     int descriptor_;
 };
+
+/// What a FolderLock tells.
+struct LockNote {
+    std::string holder;           ///< `process 4711 on host`.
+    double started_unix_s = 0.0;  ///< When it was taken, by the clock of that host.
+    std::size_t ended_runs = 0;   ///< Runs that had ended then.
+};
+/// Of the lock that any process holds on `folder`; nothing when none does. Does not disturb it.
+std::optional<LockNote> holder_of(const std::filesystem::path& folder);
 
 }  // namespace clearway::study::detail

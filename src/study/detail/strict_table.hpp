@@ -50,6 +50,7 @@ class StrictTable {
     /// The tables of `[[key]]`.
     std::vector<const toml::table*> tables(const std::string& key);
     void finish();
+    bool has(const std::string& key) const { return table_.contains(key); }
 
     /// `study.toml:3:1: condition.name`; of a key that is not there, the place of the table.
     std::string where(const std::string& key) const;

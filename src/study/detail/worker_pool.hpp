@@ -10,20 +10,28 @@
 
 namespace clearway::study::detail {
 
+/// Who ended a worker.
+enum class EndedBy : std::uint8_t { itself, time_limit, memory_limit };
+
 /// How a worker ended.
 struct WorkerEnd {
     std::size_t job = 0;
     core::Exit exit;
-    bool timed_out = false;
+    EndedBy ended_by = EndedBy::itself;
 };
 
 struct PoolLimits {
     std::size_t workers = 1;
-    double time_limit_s = 3600.0;
     double grace_s = 5.0;  ///< From SIGTERM to SIGKILL.
 };
 
-/// Child processes with a time limit each. No child outlives the pool.
+/// What one child may use, not counting children of its own.
+struct ChildLimits {
+    double wall_s = 3600.0;
+    long memory_mib = 0;  ///< Resident size; 0: no limit.
+};
+
+/// Child processes with limits each. No child outlives the pool.
 class WorkerPool {
   public:
     explicit WorkerPool(PoolLimits limits) : limits_(limits) {}
@@ -36,8 +44,8 @@ class WorkerPool {
     /// Jobs of the children that run.
     std::vector<std::size_t> jobs() const;
     /// `job` comes back in WorkerEnd.
-    void start(std::size_t job, const core::Command& command);
-    /// Ends children over their time, and answers those that ended since the last call.
+    void start(std::size_t job, const core::Command& command, const ChildLimits& limits);
+    /// Ends children over their limits, and answers those that ended since the last call.
     std::vector<WorkerEnd> collect();
     /// SIGTERM to all, SIGKILL after the grace; returns when none is left.
     void end_all();
@@ -47,13 +55,16 @@ class WorkerPool {
     struct Running {
         std::size_t job = 0;
         core::Child child;
-        bool timed_out = false;
+        ChildLimits limits;
+        EndedBy ended_by = EndedBy::itself;
         std::optional<Clock::time_point> terminated;  ///< When SIGTERM was sent.
     };
-    void enforce_limit(Running& running) const;
+    void enforce_limits(Running& running, bool look_at_memory) const;
+    bool memory_is_due();
 
     PoolLimits limits_;
     std::vector<Running> running_;
+    Clock::time_point looked_at_memory_{};
 };
 
 }  // namespace clearway::study::detail

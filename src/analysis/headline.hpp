@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate.hpp"
+#include "results/store.hpp"
+
+namespace clearway::analysis {
+
+/// The number that a study is run for, while it runs: EV travel time in the first condition that is compared
+/// with a baseline, less the baseline's, in the first scenario; the mean of the first condition where nothing
+/// is compared. Each pair of runs is read once.
+class Headline {
+  public:
+    explicit Headline(const results::Store& store);
+
+    /// Reads what has been completed since the last call. Throws core::InputError for a damaged record.
+    void refresh();
+    /// Nothing before the first pair.
+    std::optional<Estimate> estimate() const;
+    const std::string& scenario() const { return scenario_; }
+    const std::string& condition() const { return condition_; }
+    /// Empty where nothing is compared.
+    const std::string& baseline() const { return baseline_; }
+    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`; empty before the first pair.
+    std::string text() const;
+
+  private:
+    void choose();
+    /// False when the pair is not complete.
+    bool read(std::uint32_t replication);
+
+    results::Store store_;
+    std::string scenario_;
+    std::string condition_;
+    std::string baseline_;
+    std::set<std::uint32_t> open_;  ///< Replications not read yet.
+    std::vector<double> values_s_;
+};
+
+}  // namespace clearway::analysis

@@ -1,0 +1,67 @@
+#include "analysis/replications.hpp"
+
+#include <cmath>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace clearway::analysis {
+namespace {
+
+bool suffices(std::size_t n, double deviation, double half_width, double level) {
+    const boost::math::students_t distribution(static_cast<double>(n - 1));
+    const double t = boost::math::quantile(distribution, 0.5 * (1.0 + level));
+    return static_cast<double>(n) >= std::pow(t * deviation / half_width, 2.0);
+}
+
+const std::optional<Estimate>& difference_of(const MetricSummary& metric) {
+    static const std::optional<Estimate> none;
+    return metric.comparison ? metric.comparison->difference : none;
+}
+
+/// The largest need over all conditions, each seen through `estimate_of`.
+template <class EstimateOf>
+std::optional<Precision> widest_by(const Summary& summary, const std::string& metric, double half_width,
+                                   EstimateOf&& estimate_of) {
+    std::optional<Precision> found;
+    for (const ScenarioSummary& scenario : summary.scenarios) {
+        for (const ConditionSummary& condition : scenario.conditions) {
+            const MetricSummary& values = condition.metric(metric);
+            const std::optional<Estimate>& estimate = estimate_of(values);
+            if (!estimate || !estimate->interval) continue;
+            const std::size_t required =
+                required_replications(estimate->deviation, half_width, summary.level);
+            if (found && required <= found->required) continue;
+            found = Precision{scenario.scenario,
+                              condition.condition.name,
+                              estimate->interval->half_width(),
+                              estimate->n,
+                              required,
+                              values.values.size() - estimate->n};
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+std::size_t required_replications(double deviation, double half_width, double level) {
+    std::size_t enough = 2;
+    while (!suffices(enough, deviation, half_width, level))
+        enough *= 2;
+    std::size_t too_few = enough / 2;
+    while (enough - too_few > 1 && enough > 2) {
+        const std::size_t middle = too_few + (enough - too_few) / 2;
+        (suffices(middle, deviation, half_width, level) ? enough : too_few) = middle;
+    }
+    return enough;
+}
+
+std::optional<Precision> widest(const Summary& summary, const std::string& metric, double half_width) {
+    const auto compared = widest_by(summary, metric, half_width, difference_of);
+    if (compared) return compared;
+    return widest_by(
+        summary, metric, half_width,
+        [](const MetricSummary& values) -> const std::optional<Estimate>& { return values.estimate; });
+}
+
+}  // namespace clearway::analysis

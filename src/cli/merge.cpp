@@ -1,0 +1,86 @@
+#include "study/merge.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/common_options.hpp"
+#include "cli/verb.hpp"
+#include "core/progress.hpp"
+
+namespace clearway::cli {
+namespace {
+
+struct Arguments {
+    std::vector<std::string> sources;
+    std::string out;
+    Printing printing = Printing::text;
+};
+
+std::string text_of(const study::MergeResult& result, const std::string& out) {
+    const results::RunCounts& counts = result.counts;
+    std::string text =
+        fmt::format("{}: {} runs complete, {} failed, {} missing; {} new, {} seen before\n", out,
+                    counts.complete, counts.failed, counts.missing, result.adopted, result.duplicates);
+    if (!result.absent_shards.empty())
+        text += fmt::format("not there: shard {}\n", joined(result.absent_shards));
+    for (const results::RunKey& key : result.missing)
+        text += fmt::format("missing: {}\n", results::to_text(key));
+    if (result.missing.size() < counts.missing)
+        text += fmt::format("and {} more, in {}\n", counts.missing - result.missing.size(),
+                            (std::filesystem::path(out) / "runs.csv").string());
+    return text;
+}
+
+std::string json_of(const study::MergeResult& result, const std::string& out) {
+    nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+    for (const results::RunKey& key : result.missing)
+        missing.push_back(results::to_text(key));
+    const nlohmann::ordered_json object = {{"folder", out},
+                                           {"complete_runs", result.counts.complete},
+                                           {"failed_runs", result.counts.failed},
+                                           {"missing_runs", result.counts.missing},
+                                           {"new_runs", result.adopted},
+                                           {"runs_seen_before", result.duplicates},
+                                           {"absent_shards", result.absent_shards},
+                                           {"first_missing", std::move(missing)}};
+    return object.dump(2) + "\n";
+}
+
+core::ExitCode merge(const Arguments& arguments) {
+    const std::vector<std::filesystem::path> sources(arguments.sources.begin(), arguments.sources.end());
+    std::size_t folders = 0;
+    for (const std::filesystem::path& source : sources)
+        folders += study::run_folders(source).size();
+    core::Progress progress("folders", folders, core::Progress::style_for_stderr());
+    const study::MergeResult result =
+        study::merge(sources, arguments.out, [&](std::size_t done) { progress.update(done, 0); });
+    progress.update(folders, 0);
+    progress.finish();
+    fmt::print("{}", arguments.printing == Printing::json ? json_of(result, arguments.out)
+                                                          : text_of(result, arguments.out));
+    if (result.counts.missing > 0) return core::ExitCode::incomplete;
+    return result.counts.failed > 0 ? core::ExitCode::runs_failed : core::ExitCode::ok;
+}
+
+}  // namespace
+
+Action configure_merge(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("folders", arguments->sources,
+                   "Run folders of the shards, or folders with them in shards/")
+        ->required()
+        ->option_text("DIR ... (required)");
+    app.add_option("--out", arguments->out, "Run folder of the whole study; may hold some runs already")
+        ->required()
+        ->option_text("DIR (required)");
+    add_json_option(app, arguments->printing, "what was merged");
+    return [arguments](const Invocation&) { return merge(*arguments); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "results/store.hpp"
+#include "results/unit.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::cli {
+
+/// What a run costs, shared warm-up excluded.
+struct RunCost {
+    std::optional<double> wall_s;  ///< Nothing where nobody can tell.
+    double disk_bytes = 0.0;
+    bool measured = false;  ///< From runs of this scenario on this disk; else rough.
+};
+
+/// Costs of runs, from those that are in a run folder and in its neighbours.
+class CostBook {
+  public:
+    /// `folder` need not exist. Neighbours are the run folders beside it.
+    explicit CostBook(const std::filesystem::path& folder);
+
+    /// Mean over the first ten runs of this scenario (by its configuration) with this engine. Without any: 10
+    /// us a vehicle and step over 120 s on the road and 0.2 s for the rest, nothing where the demand is
+    /// measured; 12 KiB and 160 bytes a vehicle on the disk. Right within a factor of about three.
+    RunCost of(const scenario::ScenarioConfig& config, results::Engine engine) const;
+
+  private:
+    std::vector<results::Store> stores_;
+};
+
+}  // namespace clearway::cli

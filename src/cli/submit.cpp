@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/names.hpp"
+#include "cli/plan_text.hpp"
+#include "cli/run_plan.hpp"
+#include "cli/verb.hpp"
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "study/submission.hpp"
+
+namespace clearway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Work of a shard that one asks for when nobody says how many there are: long enough to outweigh starting
+/// it, short enough to lose little with a node.
+constexpr double usual_shard_s = 300.0;
+/// Where the time cannot be estimated.
+constexpr std::uint32_t usual_shards = 16;
+/// Slurm's default MaxArraySize is 1001, which excludes itself; larger arrays need its administrator.
+constexpr std::uint32_t most_shards = 1000;
+/// Slurm's limit for a shard, as a multiple of its estimated time: the estimate is right within a factor of
+/// three.
+constexpr double limit_factor = 6.0;
+constexpr double least_limit_s = 600.0;
+
+enum class Start : std::uint8_t { write_only, go };
+
+struct Arguments {
+    std::string file;
+    std::string out;
+    study::SubmitEngine engine = study::SubmitEngine::local;
+    std::uint32_t shards = 0;
+    Start start = Start::write_only;
+    results::RunLimits limits;
+    Printing printing = Printing::text;
+};
+
+const std::map<std::string, study::SubmitEngine>& engines() {
+    static const std::map<std::string, study::SubmitEngine> all = {
+        {"slurm", study::SubmitEngine::slurm},
+        {"parallel", study::SubmitEngine::parallel},
+        {"local", study::SubmitEngine::local}};
+    return all;
+}
+
+std::uint32_t shard_count(const Arguments& arguments, const study::Plan& plan, std::optional<double> time_s) {
+    const auto units = static_cast<std::uint32_t>(plan.units.size());
+    if (arguments.shards != 0) {
+        if (arguments.shards <= units) return arguments.shards;
+        throw core::InputError({"--shards",
+                                fmt::format("{} is more than the study has units", arguments.shards),
+                                fmt::format("1 to {}", units), ""});
+    }
+    if (!time_s) return std::min(usual_shards, units);
+    const double wanted = std::clamp(std::ceil(*time_s / usual_shard_s), 1.0, double{most_shards});
+    return std::min(static_cast<std::uint32_t>(wanted), units);
+}
+
+/// The number of shards is fixed with the first submission: shards of two divisions would do much work twice.
+void claim(const fs::path& folder, std::uint32_t shards) {
+    const fs::path file = folder / "shards.txt";
+    const std::string text = fmt::format("{}\n", shards);
+    if (!fs::exists(file)) return core::write_atomically(file, text);
+    const std::string held = core::read_file(file);
+    if (held == text) return;
+    throw core::InputError(
+        {folder.string(),
+         fmt::format("is divided into {} shards already, not {}", held.substr(0, held.find('\n')), shards),
+         "the same --shards, or another folder", "Choose another folder with --out"});
+}
+
+std::vector<std::string> limit_options(const results::RunLimits& limits) {
+    const results::RunLimits usual;
+    std::vector<std::string> options = {"--jobs", "1"};
+    if (limits.wall_s != usual.wall_s) {
+        options.insert(options.end(), {"--run-time-limit", fmt::format("{}", limits.wall_s)});
+    }
+    if (limits.memory_mib != usual.memory_mib) {
+        options.insert(options.end(), {"--memory-limit", fmt::format("{}", limits.memory_mib)});
+    }
+    return options;
+}
+
+study::Submission submission_of(const Arguments& arguments, const study::Plan& plan) {
+    const auto time_s = estimated_time_left_s(plan, arguments.out, 1);
+    study::Submission submission;
+    submission.engine = arguments.engine;
+    submission.shards = shard_count(arguments, plan, time_s);
+    submission.program = core::program_folder() / "clearway";
+    submission.study = fs::absolute(arguments.file);
+    submission.folder = fs::absolute(arguments.out);
+    submission.shard_limit_s =
+        std::max(least_limit_s, limit_factor * time_s.value_or(0.0) / submission.shards);
+    submission.study_options = limit_options(arguments.limits);
+    return submission;
+}
+
+void write_scripts(const study::Submission& submission) {
+    for (const study::Script& script : study::scripts_of(submission)) {
+        const fs::path file = submission.folder / script.name;
+        core::write_atomically(file, script.text);
+        fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add);
+    }
+}
+
+void print_submission(const study::Submission& submission, const study::Plan& plan, Printing printing) {
+    const std::string script = (submission.folder / "submit.sh").string();
+    if (printing == Printing::json) {
+        const nlohmann::ordered_json object = {{"script", script},
+                                               {"shards", submission.shards},
+                                               {"runs", plan.run_count()},
+                                               {"shard_limit_s", submission.shard_limit_s}};
+        fmt::print("{}\n", object.dump(2));
+    } else {
+        fmt::print("{}: {} runs in {} shards\n", script, plan.run_count(), submission.shards);
+    }
+}
+
+core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) {
+    const study::StudyConfig config = study::read_study(arguments.file);
+    if (config.precision)
+        throw core::InputError({arguments.file, "has a precision target, which needs all its runs at once",
+                                "a study with replications", "Give the number of replications"});
+    RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing, invocation.command};
+    const study::Plan plan = plan_for(config, options);
+    const study::Submission submission = submission_of(arguments, plan);
+    core::make_folder(submission.folder);
+    claim(submission.folder, submission.shards);
+    write_scripts(submission);
+    print_submission(submission, plan, arguments.printing);
+    std::fflush(stdout);
+    if (arguments.start == Start::write_only) return core::ExitCode::ok;
+    const core::Exit exit = core::run({.program = "bash", .arguments = {submission.folder / "submit.sh"}});
+    return exit.signal != 0 ? core::ExitCode::terminated : static_cast<core::ExitCode>(exit.code);
+}
+
+}  // namespace
+
+Action configure_submit(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("file", arguments->file, "Study file")->required()->option_text("FILE (required)");
+    app.add_option("--out", arguments->out, "Folder on a file system that all machines see")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option_function<std::string>(
+           "--engine", [arguments](const std::string& name) { arguments->engine = engines().at(name); },
+           "What runs the shards")
+        ->check(CLI::IsMember(engines()))
+        ->option_text("slurm|parallel|local [local]");
+    app.add_option("--shards", arguments->shards, "Number of shards; 0: about five minutes of work each")
+        ->check(CLI::Range(0U, 1000000U))
+        ->option_text("N, 0 to 1000000 [0]");
+    app.add_flag_callback(
+        "--go", [arguments] { arguments->start = Start::go; }, "Run submit.sh, too [only write it]");
+    add_limit_options(app, arguments->limits);
+    add_json_option(app, arguments->printing, "what was written");
+    return [arguments](const Invocation& invocation) { return submit(*arguments, invocation); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+#include "results/store.hpp"
+
+namespace clearway::results {
+
+/// Writes `runs.csv`, `vehicles.csv` and `results.sqlite` of a run folder run by run, so that no more than
+/// one need be in memory. Equal runs give equal bytes. Nothing is replaced before `finish`.
+class TableWriter {
+  public:
+    /// Throws core::EnvironmentError, as the other members do.
+    explicit TableWriter(const Store& store);
+    ~TableWriter();
+    TableWriter(const TableWriter&) = delete;
+    TableWriter& operator=(const TableWriter&) = delete;
+
+    // Once for each run of the manifest, in its order (Manifest::for_each_run).
+    void add(const RunRecord& run);
+    void add(const FailureRecord& failure);
+    void add_missing(const RunKey& key);
+
+    void finish();
+
+  private:
+    struct Files;
+    std::unique_ptr<Files> files_;
+};
+
+/// How many runs of a study are there.
+struct RunCounts {
+    std::size_t complete = 0;
+    std::size_t failed = 0;
+    std::size_t missing = 0;
+};
+
+/// Writes the tables of a run folder straight from its files. Time is about proportional to the number of
+/// runs; memory is that of one run. Throws core::InputError for a damaged record.
+RunCounts write_tables(const Store& store);
+
+}  // namespace clearway::results

@@ -1,0 +1,223 @@
+#include "study/detail/factors.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/settings.hpp"
+#include "results/loop_config.hpp"
+
+namespace clearway::study::detail {
+namespace {
+
+using Problems = std::vector<core::Problem>;
+
+const std::vector<std::string> groups = {"condition", "failure", "loop", "scenario"};
+const std::vector<std::string> condition_keys = {"engine", "failure", "parts", "predictor", "safety_checks"};
+
+std::string place(const toml::node& node, const std::string& file, const std::string& key) {
+    return fmt::format("{}:{}:{}: factors.{}", file, node.source().begin.line, node.source().begin.column,
+                       key);
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words)
+        list += (list.empty() ? "" : ", ") + word;
+    return list;
+}
+
+void add_unknown(const std::string& where, const std::string& word, const std::vector<std::string>& known,
+                 Problems& problems) {
+    const std::string near = core::nearest(word, known);
+    problems.push_back({where, fmt::format("'{}' is unknown", word), list_of(known),
+                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+}
+
+bool read_value(const toml::node& node, FactorValue& value) {
+    std::ostringstream toml_text;
+    if (const toml::array* list = node.as_array()) {
+        for (const toml::node& element : *list) {
+            const auto word = element.value_exact<std::string>();
+            if (!word) return false;
+            value.words.push_back(*word);
+            value.text += (value.text.empty() ? "" : ".") + *word;
+        }
+        toml_text << *list;
+    } else if (const auto text = node.value_exact<std::string>()) {
+        value.text = *text;
+        toml_text << *node.as_string();
+    } else if (const auto whole = node.value_exact<std::int64_t>()) {
+        value.text = fmt::format("{}", *whole);
+        toml_text << *whole;
+    } else if (const auto number = node.value_exact<double>()) {
+        value.text = fmt::format("{}", *number);
+        toml_text << *node.as_floating_point();
+    } else if (const auto truth = node.value_exact<bool>()) {
+        value.text = *truth ? "true" : "false";
+        toml_text << value.text;
+    } else {
+        return false;
+    }
+    value.toml = toml_text.str();
+    return true;
+}
+
+void read_list(const toml::array& list, Factor factor, std::vector<Factor>& factors, Problems& problems) {
+    if (list.empty())
+        problems.push_back({factor.where, "has no values", "one value or more", "Name them, or remove it"});
+    for (const toml::node& node : list) {
+        FactorValue value;
+        if (read_value(node, value)) {
+            factor.values.push_back(std::move(value));
+        } else {
+            problems.push_back({factor.where, "holds something else than values",
+                                "numbers, texts, truth values, or lists of texts", ""});
+        }
+    }
+    factors.push_back(std::move(factor));
+}
+
+void read_group(const toml::table& table, const std::string& file, const std::string& group,
+                const std::string& prefix, std::vector<Factor>& factors, Problems& problems) {
+    for (const auto& [name, node] : table) {
+        const std::string key = prefix + std::string(name.str());
+        Factor factor{group, key, place(node, file, group + "." + key), {}};
+        if (const toml::table* deeper = node.as_table(); deeper != nullptr && group == "scenario") {
+            read_group(*deeper, file, group, key + ".", factors, problems);
+        } else if (const toml::array* list = node.as_array()) {
+            read_list(*list, std::move(factor), factors, problems);
+        } else {
+            problems.push_back({factor.where, "is not a list", "a list of values, [0.1, 0.3]", ""});
+        }
+    }
+}
+
+void check_names(const std::vector<Factor>& factors, Problems& problems) {
+    for (const Factor& factor : factors) {
+        if (factor.group == "condition" &&
+            std::ranges::find(condition_keys, factor.key) == condition_keys.end())
+            add_unknown(factor.where, factor.key, condition_keys, problems);
+        if (factor.group != "loop") continue;
+        results::LoopConfig loop;
+        for (const FactorValue& value : factor.values) {
+            for (const core::Problem& problem : core::apply_settings({{factor.key, value.text}}, "", loop))
+                problems.push_back({factor.where, problem.what, problem.allowed, problem.cure});
+        }
+    }
+}
+
+template <class Enum, class FromName>
+void set_word(const Factor& factor, const FactorValue& value, FromName&& from_name, Enum& target,
+              Problems& problems) {
+    if (const auto known = from_name(value.text)) {
+        target = *known;
+    } else {
+        problems.push_back({factor.where, fmt::format("\"{}\" is not known", value.text), "", ""});
+    }
+}
+
+std::optional<traffic::SafetyChecks> safety_checks_from(const std::string& word) {
+    if (word == "on") return traffic::SafetyChecks::on;
+    if (word == "off") return traffic::SafetyChecks::off;
+    return std::nullopt;
+}
+
+void set_condition_key(const Factor& factor, const FactorValue& value, results::ConditionSpec& condition,
+                       Problems& problems) {
+    if (factor.key == "failure") condition.failure = value.text;
+    if (factor.key == "predictor") condition.predictor = value.text;
+    if (factor.key == "parts") condition.parts = value.words.empty() ? std::vector{value.text} : value.words;
+    if (factor.key == "engine") set_word(factor, value, results::engine_from, condition.engine, problems);
+    if (factor.key == "safety_checks")
+        set_word(factor, value, safety_checks_from, condition.safety_checks, problems);
+}
+
+/// Names become folders; what cannot be in one becomes `_`.
+std::string folder_text(std::string text) {
+    for (char& letter : text) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                           std::string_view("_-.").find(letter) != std::string_view::npos;
+        if (!plain) letter = '_';
+    }
+    return text;
+}
+
+std::string last_part(const std::string& key) {
+    return key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);
+}
+
+}  // namespace
+
+std::vector<Factor> read_factors(const toml::table& table, const std::string& file, Problems& problems) {
+    std::vector<Factor> factors;
+    for (const auto& [name, node] : table) {
+        const std::string group(name.str());
+        const std::string where = place(node, file, group);
+        if (std::ranges::find(groups, group) == groups.end()) {
+            const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
+            if (bare)
+                problems.push_back(
+                    {where, "is unknown", list_of(groups), "Did you mean 'condition." + group + "'?"});
+            if (!bare) add_unknown(where, group, groups, problems);
+        } else if (const toml::table* below = node.as_table()) {
+            read_group(*below, file, group, "", factors, problems);
+        } else {
+            problems.push_back({where, "is not a table", group + ".NAME = [values]",
+                                group == "failure" ? "Did you mean 'condition.failure'?" : ""});
+        }
+    }
+    check_names(factors, problems);
+    return factors;
+}
+
+std::vector<Assignment> combinations(const std::vector<Factor>& factors,
+                                     const std::vector<std::string>& wanted) {
+    std::vector<Assignment> all = {{}};
+    for (const Factor& factor : factors) {
+        if (std::ranges::find(wanted, factor.group) == wanted.end()) continue;
+        std::vector<Assignment> longer;
+        for (const Assignment& assignment : all) {
+            for (const FactorValue& value : factor.values) {
+                longer.push_back(assignment);
+                longer.back().emplace_back(&factor, &value);
+            }
+        }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+std::string name_of(const Assignment& assignment, const std::vector<Factor>& factors) {
+    std::string name;
+    for (const auto& [factor, value] : assignment) {
+        const std::string key = last_part(factor->key);
+        const auto alike =
+            std::ranges::count_if(factors, [&](const Factor& other) { return last_part(other.key) == key; });
+        name += fmt::format("+{}={}", alike > 1 ? factor->group + "." + factor->key : key,
+                            folder_text(value->text));
+    }
+    return name;
+}
+
+results::ConditionSpec with(results::ConditionSpec condition, const Assignment& assignment,
+                            Problems& problems) {
+    for (const auto& [factor, value] : assignment) {
+        if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
+        if (factor->group == "failure") condition.failure_settings[factor->key] = value->text;
+        if (factor->group == "loop") condition.loop_settings[factor->key] = value->text;
+    }
+    return condition;
+}
+
+bool is_varied(const results::ConditionSpec& condition) {
+    results::ConditionSpec plain;
+    plain.name = condition.name;
+    plain.engine = condition.engine;
+    return condition.engine != results::Engine::solo && condition != plain;
+}
+
+}  // namespace clearway::study::detail

@@ -1,0 +1,159 @@
+#include "study/merge.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "study/detail/folder_lock.hpp"
+#include "study/shard.hpp"
+
+namespace clearway::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t named_missing = 10;
+
+void require_same_study(const results::Store& first, const results::Store& other) {
+    const std::string differing = results::differences(first.manifest(), other.manifest());
+    if (differing.empty()) return;
+    throw core::InputError(
+        {other.folder().string(),
+         fmt::format("is of another study than {}: different {}", first.folder().string(), differing),
+         "shards of one study", "Merge only what one study file made"});
+}
+
+/// Copies a folder as a whole or not at all; does nothing when the target exists.
+void copy_folder(const fs::path& source, const fs::path& target) {
+    if (fs::exists(target) || !fs::exists(source)) return;
+    core::make_folder(target.parent_path());
+    const fs::path part =
+        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    try {
+        fs::copy(source, part, fs::copy_options::recursive);
+        fs::rename(part, target);
+    } catch (const fs::filesystem_error& error) {
+        std::error_code ignored;
+        fs::remove_all(part, ignored);
+        throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
+    }
+}
+
+/// Everything beside the runs that a report needs: configurations, networks, pictures, the command.
+void copy_surroundings(const results::Store& source, const results::Store& target) {
+    for (const results::ScenarioEntry& scenario : source.manifest().scenarios) {
+        const fs::path from = source.scenario_folder(scenario.name);
+        // The picture is made last, so that a scenario that has it is whole.
+        if (fs::exists(from / "network.svg")) copy_folder(from, target.scenario_folder(scenario.name));
+    }
+    copy_folder(source.folder() / "training", target.folder() / "training");
+    const fs::path command = source.folder() / "command.txt";
+    if (fs::exists(command) && !fs::exists(target.folder() / "command.txt"))
+        core::write_atomically(target.folder() / "command.txt", core::read_file(command));
+}
+
+/// The one of `folders` that has a run, for messages.
+std::string holder_of(const results::RunKey& key, std::span<const fs::path> folders) {
+    for (const fs::path& folder : folders) {
+        if (results::Store::open(folder).complete(key)) return folder.string();
+    }
+    return "an earlier merge";
+}
+
+/// Takes over the runs of `folders[number]`.
+void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const results::Store& target,
+                MergeResult& result) {
+    const results::Store source = results::Store::open(folders[number]);
+    for (const results::RunKey& key : source.complete_runs()) {
+        try {
+            const bool first = target.adopt(source, key) == results::Store::Written::first;
+            ++(first ? result.adopted : result.duplicates);
+        } catch (const core::ConflictError& error) {
+            throw core::ConflictError(fmt::format("{}. The other one is from {}", error.what(),
+                                                  holder_of(key, std::span(folders).first(number))));
+        }
+    }
+}
+
+void adopt_failures(const results::Store& source, const results::Store& target) {
+    for (const results::RunKey& key : source.failed_runs()) {
+        if (const auto failure = source.read_failure(key)) target.write(*failure);
+    }
+}
+
+std::vector<std::string> absent_shards(const std::vector<fs::path>& folders) {
+    std::set<std::uint32_t> counts;
+    std::set<std::uint32_t> present;
+    for (const fs::path& folder : folders) {
+        const Shard shard = shard_of(folder);
+        counts.insert(shard.count);
+        present.insert(shard.index);
+    }
+    std::vector<std::string> absent;
+    if (counts.size() != 1) return absent;
+    for (std::uint32_t index = 1; index <= *counts.begin(); ++index) {
+        if (!present.contains(index)) absent.push_back(to_text(Shard{index, *counts.begin()}));
+    }
+    return absent;
+}
+
+std::vector<results::RunKey> first_missing(const results::Store& store) {
+    std::vector<results::RunKey> missing;
+    store.manifest().for_each_run([&](const results::RunKey& key) {
+        if (missing.size() < named_missing && !store.complete(key) && !store.read_failure(key))
+            missing.push_back(key);
+    });
+    return missing;
+}
+
+}  // namespace
+
+std::vector<fs::path> run_folders(const fs::path& path) {
+    if (fs::exists(path / "manifest.json")) return {path};
+    std::vector<fs::path> folders;
+    std::error_code none;
+    for (auto entry = fs::directory_iterator(path / "shards", none);
+         !none && entry != fs::directory_iterator(); entry.increment(none)) {
+        if (fs::exists(entry->path() / "manifest.json")) folders.push_back(entry->path());
+    }
+    std::ranges::sort(folders);
+    if (folders.empty())
+        throw core::InputError(
+            {path.string(), "is no run folder and has none in shards/", "a folder written with --out", ""});
+    return folders;
+}
+
+MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
+                  const std::function<void(std::size_t)>& on_folder) {
+    std::vector<fs::path> folders;
+    for (const fs::path& source : sources)
+        std::ranges::copy(run_folders(source), std::back_inserter(folders));
+    const results::Store first = results::Store::open(folders.front());
+    for (const fs::path& folder : folders)
+        require_same_study(first, results::Store::open(folder));
+    claim(out, {});
+    const detail::FolderLock lock(out);
+    const results::Store target = results::Store::create(out, first.manifest());
+    MergeResult result;
+    for (std::size_t number = 0; number < folders.size(); ++number) {
+        on_folder(number);
+        copy_surroundings(results::Store::open(folders[number]), target);
+        adopt_runs(folders, number, target, result);
+    }
+    for (const fs::path& folder : folders)
+        adopt_failures(results::Store::open(folder), target);
+    target.remove_leftovers();
+    result.counts = results::write_tables(target);
+    if (result.counts.missing > 0) {
+        result.missing = first_missing(target);
+        result.absent_shards = absent_shards(folders);
+    }
+    return result;
+}
+
+}  // namespace clearway::study

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/store.hpp"
+
+namespace clearway::study {
+
+enum class State : std::uint8_t {
+    running,   ///< A process works in the folder.
+    stopped,   ///< Nobody does, and runs are missing: interrupted, killed, or not begun.
+    complete,  ///< Every run is complete.
+    failed,    ///< Every run has ended, some without a result.
+};
+/// `running`, `stopped`, ...
+std::string_view name(State state);
+
+/// A condition in a scenario.
+struct CellStatus {
+    std::string scenario;
+    std::string condition;
+    std::size_t runs = 0;
+    std::size_t complete = 0;
+    std::size_t failed = 0;
+};
+
+/// How far the study in a run folder is, seen from outside.
+struct StudyStatus {
+    std::filesystem::path folder;
+    State state = State::stopped;
+    std::string holder;  ///< `process 4711 on host` while it runs.
+    std::vector<CellStatus> cells;
+    std::size_t runs = 0;
+    std::size_t complete = 0;
+    std::size_t failed = 0;
+    /// Time to the end at the pace since the running process began; nothing before its first run.
+    std::optional<double> time_left_s;
+};
+
+/// Reads a run folder while anybody or nobody works in it, and disturbs nothing. Takes about the time of
+/// listing its folders. Throws core::InputError when it is none.
+StudyStatus read_status(const std::filesystem::path& folder);
+
+}  // namespace clearway::study

@@ -1,0 +1,158 @@
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "study/config.hpp"
+#include "study/plan.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::study {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Factors : public testing::Test {
+  protected:
+    Factors() { setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1); }
+    StudyConfig read(const std::string& factors) {
+        return read_study(folder_.write("study.toml", R"(
+replications = 2
+scenarios = ["merge"]
+conditions = ["baseline", "graph_simulation", "solo"]
+)" + factors));
+    }
+    std::string problems(const std::string& factors) {
+        try {
+            read(factors);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+    static std::vector<std::string> names(const auto& entries) {
+        std::vector<std::string> list;
+        for (const auto& entry : entries)
+            list.push_back(entry.name);
+        return list;
+    }
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(Factors, CrossWithConditionsThatTheyConcern) {
+    const StudyConfig config = read(R"([factors]
+condition.failure = ["B5", "B20"]
+failure.dark_share = [0.1, 0.25]
+)");
+    EXPECT_THAT(names(config.conditions),
+                ElementsAre("baseline", "graph_simulation+failure=B5+dark_share=0.1",
+                            "graph_simulation+failure=B5+dark_share=0.25",
+                            "graph_simulation+failure=B20+dark_share=0.1",
+                            "graph_simulation+failure=B20+dark_share=0.25", "solo"));
+    EXPECT_EQ(config.conditions[4].failure, "B20");
+    EXPECT_EQ(config.conditions[4].failure_settings.at("dark_share"), "0.25");
+    EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out")) << "the names can be folders";
+}
+
+TEST_F(Factors, OfScenariosMakeScenarios) {
+    const StudyConfig config = read(R"([factors]
+scenario.drivers.speed_factor_mean = [0.9, 1.1]
+scenario.density = [1, 2]
+loop.policy_period_s = [0.5, 1]
+condition.parts = [["dissertation"], ["clear_lane", "preempt_signals"]]
+)");
+    EXPECT_THAT(names(config.scenarios), testing::Contains("merge+density=2+speed_factor_mean=1.1"));
+    ASSERT_EQ(config.scenarios.size(), 4U);
+    for (const auto& scenario : config.scenarios) {
+        const bool fast = scenario.name.ends_with("speed_factor_mean=1.1");
+        EXPECT_DOUBLE_EQ(scenario.drivers.speed_factor_mean, fast ? 1.1 : 0.9);
+    }
+    EXPECT_EQ(config.conditions.size(), 2U + 4U);
+    const auto two = std::ranges::find_if(config.conditions, [](const auto& condition) {
+        return condition.name == "graph_simulation+parts=clear_lane.preempt_signals+policy_period_s=1";
+    });
+    ASSERT_NE(two, config.conditions.end());
+    EXPECT_THAT(two->parts, ElementsAre("clear_lane", "preempt_signals"));
+    EXPECT_EQ(two->loop_settings.at("policy_period_s"), "1");
+}
+
+TEST_F(Factors, ThatAreUnknownNameTheNearest) {
+    EXPECT_THAT(problems("[factors]\nfaliure.dark_share = [0.1]\n"),
+                testing::AllOf(HasSubstr("study.toml:6:"), HasSubstr("Did you mean 'failure'?")));
+    EXPECT_THAT(problems("[factors]\ncondition.predictr = [\"none\"]\n"), HasSubstr("'predictor'"));
+    EXPECT_THAT(problems("[factors]\npredictor = [\"none\"]\n"), HasSubstr("'condition.predictor'"));
+    EXPECT_THAT(problems("[factors]\nloop.policy_perod_s = [1]\n"), HasSubstr("'policy_period_s'"));
+    EXPECT_THAT(problems("[factors]\nscenario.demand.humn = [1]\n"),
+                testing::AllOf(HasSubstr("demand.humn"), HasSubstr("'human'")));
+    EXPECT_THAT(problems("[factors]\nscenario.name.x = [1]\n"), HasSubstr("name is no table"));
+}
+
+TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {
+    EXPECT_THAT(problems("[factors]\nfailure.dark_share = []\n"), HasSubstr("has no values"));
+    EXPECT_THAT(problems("[factors]\nfailure.dark_share = 0.5\n"), HasSubstr("is not a list"));
+    EXPECT_THAT(problems("[factors]\nfailure = [\"B5\"]\n"), HasSubstr("'condition.failure'"));
+    EXPECT_THAT(problems("[factors]\nloop.policy_period_s = [99]\n"), HasSubstr("99 is out of range"));
+    EXPECT_THAT(problems("[factors]\ncondition.engine = [\"warp\"]\n"), HasSubstr("\"warp\" is not known"));
+    EXPECT_THAT(problems("[factors]\nscenario.demand.human = [-4]\n"),
+                testing::AllOf(HasSubstr("-4 is negative"), HasSubstr("set by a factor")));
+    EXPECT_THAT(problems("[factors]\nscenario.variant = [\"denser\"]\n"),
+                HasSubstr("\"denser\" is not known"));
+}
+
+TEST_F(Factors, NeedAConditionToVary) {
+    try {
+        read_study(folder_.write("study.toml",
+                                 "scenarios = [\"merge\"]\nconditions = [\"baseline\", \"solo\"]\n"
+                                 "[factors]\ncondition.failure = [\"B5\"]\n"));
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no condition has failures"));
+    }
+}
+
+TEST_F(Factors, TwiceTheSameValueIsRefusedByName) {
+    const StudyConfig config = read("[factors]\nfailure.dark_share = [0.1, 0.1]\n");
+    EXPECT_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out"), core::InputError);
+}
+
+class Precision : public testing::Test {
+  protected:
+    Precision() { setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1); }
+    std::string problems(const std::string& text) {
+        try {
+            read_study(
+                folder_.write("study.toml", "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n" + text));
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(Precision, BeginsWithFhwasLeastAndKeepsItsCap) {
+    const StudyConfig config = read_study(
+        folder_.write("study.toml",
+                      "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n"
+                      "[precision]\nmetric = \"waiting_time_s\"\nhalf_width = 0.5\nat_most = 40\n"));
+    EXPECT_EQ(config.replications, 10U);
+    ASSERT_TRUE(config.precision);
+    EXPECT_EQ(config.precision->metric, "waiting_time_s");
+    EXPECT_DOUBLE_EQ(config.precision->half_width, 0.5);
+    EXPECT_EQ(config.precision->at_most, 40U);
+}
+
+TEST_F(Precision, ThatCannotBeMeantIsRefused) {
+    EXPECT_THAT(problems("[precision]\nhalf_width = 0\n"), HasSubstr("0 is not positive"));
+    EXPECT_THAT(problems("[precision]\nhalf_width = nan\n"), HasSubstr("is not positive"));
+    EXPECT_THAT(problems("[precision]\nat_most = 20\n"), HasSubstr("half_width: is missing"));
+    EXPECT_THAT(problems("[precision]\nhalf_width = 1\nat_most = 3\n"), HasSubstr("10 to"));
+    EXPECT_THAT(problems("[precision]\nhalf_width = 1\nmetric = \"emergency_travel_time\"\n"),
+                HasSubstr("'emergency_travel_time_s'"));
+    EXPECT_THAT(problems("replications = 5\n[precision]\nhalf_width = 1\n"),
+                HasSubstr("replications: is given beside [precision]"));
+}
+
+}  // namespace
+}  // namespace clearway::study

@@ -1,0 +1,204 @@
+#include "study/merge.hpp"
+
+#include <algorithm>
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "results/synthetic.hpp"
+#include "study/detail/folder_lock.hpp"
+#include "study/shard.hpp"
+#include "study/status.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::study {
+namespace {
+
+using results::RunKey;
+using results::Store;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::uint32_t replications = 5;
+
+class Merge : public testing::Test {
+  protected:
+    std::filesystem::path place(const std::string& name) const { return folder_.path() / name; }
+    Store store(const std::string& name, std::uint64_t seed = 1) const {
+        results::Manifest manifest = results::synthetic::manifest(replications);
+        manifest.study_seed = seed;
+        return Store::create(place(name), manifest);
+    }
+    /// Run folders `FIRST1` to `FIRSTn`, each with every n-th run.
+    std::vector<std::filesystem::path> divided(std::size_t count, const std::string& first) const {
+        std::vector<std::filesystem::path> folders;
+        const std::vector<RunKey> keys = results::synthetic::manifest(replications).runs();
+        for (std::size_t part = 0; part < count; ++part) {
+            const std::string name = first + std::to_string(part + 1);
+            claim(place(name), {static_cast<std::uint32_t>(part + 1), static_cast<std::uint32_t>(count)});
+            const Store shard = store(name);
+            for (std::size_t i = part; i < keys.size(); i += count)
+                shard.write(results::synthetic::record(keys[i], 40.0 + static_cast<double>(i)), {});
+            folders.push_back(place(name));
+        }
+        return folders;
+    }
+    MergeResult merge_into(const std::string& out, const std::vector<std::filesystem::path>& sources) const {
+        return merge(sources, place(out), [](std::size_t) {});
+    }
+    std::string tables_of(const std::string& name) const {
+        std::string all;
+        for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
+            all += core::read_file(place(name) / file);
+        return all;
+    }
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(Merge, GivesTheSameBytesForAnyNumberAndOrderOfShards) {
+    EXPECT_EQ(merge_into("whole", divided(1, "a")).counts.complete, 20U);
+    merge_into("thirds", divided(3, "b"));
+    auto reversed = divided(7, "c");
+    std::ranges::reverse(reversed);
+    merge_into("sevenths", reversed);
+    EXPECT_EQ(tables_of("thirds"), tables_of("whole"));
+    EXPECT_EQ(tables_of("sevenths"), tables_of("whole"));
+    const Store single = store("whole");
+    results::write_tables(single, results::read_results(single));
+    EXPECT_EQ(tables_of("thirds"), tables_of("whole")) << "as a study on one machine writes them";
+}
+
+TEST_F(Merge, TakesDuplicatesThatAreEqualOnce) {
+    auto sources = divided(2, "a");
+    const auto again = divided(2, "b");
+    sources.insert(sources.end(), again.begin(), again.end());
+    const MergeResult result = merge_into("out", sources);
+    EXPECT_EQ(result.counts.complete, 20U);
+    EXPECT_EQ(result.adopted, 20U);
+    EXPECT_EQ(result.duplicates, 20U);
+}
+
+TEST_F(Merge, NamesTheRunOfWhichTwoRecordsDiffer) {
+    const RunKey key{"beta", "treated", 3};
+    store("a").write(results::synthetic::record(key, 50.0), {});
+    store("b").write(results::synthetic::record(key, 50.5), {});
+    try {
+        merge_into("out", {place("a"), place("b")});
+        FAIL();
+    } catch (const core::ConflictError& error) {
+        EXPECT_EQ(error.exit_code(), core::ExitCode::conflict);
+        EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("beta/treated/3"), HasSubstr(place("a").string()),
+                                                 HasSubstr(place("b").string())));
+    }
+    EXPECT_TRUE(store("a").complete(key)) << "nothing is lost";
+    EXPECT_TRUE(store("b").complete(key));
+}
+
+TEST_F(Merge, RefusesAnotherStudyBeforeItTouchesAnything) {
+    store("a");
+    store("b", 2);
+    try {
+        merge_into("out", {place("a"), place("b")});
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(HasSubstr(place("b").string()), HasSubstr("different seed")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(place("out")));
+    EXPECT_THROW(merge_into("out", {folder_.path() / "nothing"}), core::InputError);
+}
+
+TEST_F(Merge, SaysWhatIsMissingAndIsCompletedLater) {
+    auto sources = divided(4, "a");
+    const auto last = sources.back();
+    sources.pop_back();
+    const MergeResult part = merge_into("out", sources);
+    EXPECT_EQ(part.counts.missing, 5U);
+    EXPECT_THAT(part.absent_shards, ElementsAre("4/4"));
+    ASSERT_EQ(part.missing.size(), 5U);
+    EXPECT_EQ(results::to_text(part.missing.front()), "alpha/baseline/3");
+    EXPECT_EQ(merge_into("out", {last}).counts.complete, 20U);
+    merge_into("whole", divided(1, "b"));
+    EXPECT_EQ(tables_of("out"), tables_of("whole"));
+}
+
+TEST_F(Merge, PrefersARecordToAFailureOfTheSameRun) {
+    const RunKey done{"alpha", "baseline", 0};
+    const RunKey failed{"alpha", "baseline", 1};
+    for (const RunKey& key : {done, failed})
+        store("a").write(results::synthetic::failure(key));
+    store("b").write(results::synthetic::record(done), {});
+    const MergeResult result = merge_into("out", {place("b"), place("a")});
+    EXPECT_EQ(result.counts.complete, 1U);
+    EXPECT_EQ(result.counts.failed, 1U);
+    EXPECT_EQ(store("out").read_failure(failed)->cause, results::FailureCause::signal);
+}
+
+TEST_F(Merge, FindsTheShardsOfASubmission) {
+    const Store shard = Store::create(place("all") / "shards" / "1-of-2", results::synthetic::manifest(1));
+    std::filesystem::create_directories(place("all") / "shards" / "2-of-2");
+    EXPECT_THAT(run_folders(place("all")), ElementsAre(shard.folder()));
+}
+
+TEST_F(Merge, LeavesNoTraceOfAFolderThatCannotBeWritten) {
+    const auto sources = divided(2, "a");
+    core::write_atomically(place("file"), "");
+    EXPECT_THROW(merge_into("file/out", sources), core::EnvironmentError);
+    EXPECT_TRUE(store("a1").complete({"alpha", "baseline", 0}));
+}
+
+class Status : public Merge {};
+
+TEST_F(Status, CountsRunsByCellInAnyState) {
+    const Store shared = store("out");
+    EXPECT_EQ(read_status(place("out")).state, State::stopped);
+    shared.write(results::synthetic::record({"alpha", "treated", 0}), {});
+    shared.write(results::synthetic::failure({"alpha", "treated", 1}));
+    const StudyStatus part = read_status(place("out"));
+    EXPECT_EQ(part.runs, 20U);
+    EXPECT_EQ(part.complete, 1U);
+    EXPECT_EQ(part.failed, 1U);
+    EXPECT_EQ(part.cells.at(1).condition, "treated");
+    EXPECT_EQ(part.cells.at(1).failed, 1U);
+    shared.manifest().for_each_run(
+        [&](const RunKey& key) { shared.write(results::synthetic::record(key), {}); });
+    EXPECT_EQ(read_status(place("out")).state, State::complete);
+}
+
+TEST_F(Status, CountsTheRunsOfAShard) {
+    claim(place("half"), {1, 2});
+    store("half");
+    EXPECT_EQ(read_status(place("half")).runs, 10U);
+}
+
+TEST_F(Status, SeesWhoWorksThereFromAnotherProcessAndWhenHeIsDead) {
+    store("out");
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    const pid_t worker = fork();
+    if (worker == 0) {
+        const detail::FolderLock lock(place("out"));
+        lock.note(3);
+        (void)!write(ready[1], "x", 1);
+        pause();
+    }
+    char letter = 0;
+    ASSERT_EQ(read(ready[0], &letter, 1), 1);
+    const StudyStatus running = read_status(place("out"));
+    EXPECT_EQ(running.state, State::running);
+    EXPECT_THAT(running.holder, HasSubstr("process " + std::to_string(worker)));
+    EXPECT_FALSE(running.time_left_s) << "no run has ended since it began";
+    EXPECT_THROW(detail::FolderLock second(place("out")), core::EnvironmentError) << "looking took no lock";
+    kill(worker, SIGKILL);
+    waitpid(worker, nullptr, 0);
+    EXPECT_EQ(read_status(place("out")).state, State::stopped);
+    close(ready[0]);
+    close(ready[1]);
+}
+
+}  // namespace
+}  // namespace clearway::study
