@@ -94,7 +94,7 @@ core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
     unit.replication = order.replication;
     UnitRun run(unit, work.path(), work.path());
     graph::LinkRules rules;
-    rules.radius_m = run.loop_config().link_radius_m;
+    rules.radius_m = LoopConfig{}.link_radius_m;
     LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(order, run.network(), rules, evaluator);
     results::ConditionSpec plain_traffic;

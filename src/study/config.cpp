@@ -277,8 +277,8 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     if (factor_table != nullptr) factors = detail::read_factors(*factor_table, name, problems);
     read_scenarios(root, file, factors, problems, config);
     read_conditions(root, name, problems, config);
-    vary_conditions(factors, problems, config);
     read_quick(root, name, extent, problems, config);
+    vary_conditions(factors, problems, config);
     root.finish();
     if (!problems.empty()) throw core::InputError(problems);
     return config;
