@@ -42,7 +42,7 @@ struct Arguments {
 
 void declare_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--data", arguments.data,
-                   "Data set of `clearway dataset`; with --corrected, of `clearway dataset --samples`")
+                   "Data set of `clearway dataset`; with --corrected, of `... --samples`")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out, "Folder for the results; made when absent")

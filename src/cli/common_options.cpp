@@ -15,9 +15,7 @@ void add_json_option(CLI::App& app, Printing& printing, const std::string& what)
 void add_record_option(CLI::App& app, results::StepRecording& recording) {
     app.add_flag_callback(
         "--record", [&recording] { recording = results::StepRecording::on; },
-        "Keep every step of every run below recordings/, for clearway replay. Changes no result; runs that "
-        "are "
-        "complete but not recorded are made again [off]");
+        "Keep every step below recordings/, for clearway replay; changes no result [off]");
 }
 
 void add_jobs_option(CLI::App& app, unsigned& jobs) {

@@ -109,15 +109,13 @@ Action configure_compare(CLI::App& app) {
         ->required()
         ->option_text("DIR (required)");
     app.add_option("other", arguments->second,
-                   "Second run folder of the same seed and scenarios: its runs are compared with the same "
-                   "runs of the first")
+                   "Second run folder: its runs are compared with the same runs of the first")
         ->option_text("DIR [none]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         ->allow_extra_args(false)
         ->option_text(fmt::format("NAME [{}]", joined(arguments->metrics)));
     app.add_option("--tolerance", arguments->tolerances,
-                   "Exit with 6 unless the 95 % interval shows that the metric is worse by at most this, in "
-                   "its unit; a bare number is of emergency_travel_time_s, s; may be repeated")
+                   "Exit with 6 unless worse by at most this (95 %), in the metric's unit; repeatable")
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER [none]");
     add_json_option(app, arguments->printing, "the comparison");

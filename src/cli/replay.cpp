@@ -237,12 +237,11 @@ core::ExitCode replay_file(const Arguments& arguments) {
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
     const char* const group = "Export for people, in place of a replay";
-    CLI::Option* const csv = app.add_option("--csv", arguments->table,
-                                            "Print a table of the recording as CSV, units in its header: " +
-                                                joined(results::recording_table_names()))
-                                 ->check(CLI::IsMember(results::recording_table_names()))
-                                 ->option_text("TABLE [none: replay]")
-                                 ->group(group);
+    CLI::Option* const csv =
+        app.add_option("--csv", arguments->table, "As CSV: " + joined(results::recording_table_names()))
+            ->check(CLI::IsMember(results::recording_table_names()))
+            ->option_text("TABLE [none: replay]")
+            ->group(group);
     for (CLI::Option* const other : others)
         csv->excludes(other);
     app.add_option("--from", arguments->from_s, "First simulation time of the table, s")
@@ -259,9 +258,8 @@ Action configure_replay(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway replay FILE --csv belief --from 60 --to 90 > belief.csv\n\n" +
                open_loop);
-    app.add_option(
-           "file", arguments->file,
-           "Recording: recordings/SCENARIO/CONDITION/REPLICATION.recording in a run folder (run --record)")
+    app.add_option("file", arguments->file,
+                   "A file recordings/SCENARIO/CONDITION/REPLICATION.recording of a run folder")
         ->required()
         ->option_text("FILE (required)");
     std::vector<CLI::Option*> thinking;

@@ -106,7 +106,7 @@ Action configure_study(CLI::App& app) {
         "Print cells, runs, estimated time and disk, and run nothing [off]");
     app.add_flag_callback(
         "--quick", [arguments] { arguments->extent = study::Extent::quick; },
-        "Run what [quick] of the file leaves of the study, into runs/NAME-quick [the whole study]");
+        "Run what [quick] of the file leaves, into runs/NAME-quick [the whole study]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
     add_limit_options(app, arguments->limits);

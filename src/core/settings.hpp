@@ -62,12 +62,13 @@ std::vector<Problem> apply_settings(const Settings& settings, const std::string&
         names.emplace_back(field.name);
         list += (list.empty() ? "" : ", ") + names.back();
     });
-    for (const auto& [name, text] : settings) {
+    for (const auto& setting : settings) {
+        const std::string& name = setting.first;  // no binding: clang 14 cannot capture one
         bool known = false;
         for_each_field<Struct>([&](const auto& field) {
             if (name != field.name) return;
             known = true;
-            if (auto problem = set_member(field, text, where + name, target.*field.member))
+            if (auto problem = set_member(field, setting.second, where + name, target.*field.member))
                 problems.push_back(*problem);
         });
         if (known) continue;

@@ -369,7 +369,7 @@ package_list_is_well_formed() {
     while read -r name part purpose; do
         [[ -z $name || $name == '#'* ]] && continue
         [[ $name =~ ^[a-z0-9][a-z0-9.+-]+$ ]] || fail "not a package name: $name"
-        [[ $part == run || $part == test ]] || fail "$name: the part is run or test, not $part"
+        [[ $part == run || $part == test || $part == cluster ]] || fail "$name: part $part"
         [[ -n $purpose ]] || fail "$name: who needs it?"
     done <"$source_dir/packaging/packages.txt"
     expect_equal "$(grep -v '^#' "$source_dir/packaging/packages.txt" | cut -d' ' -f1 | sort | uniq -d)" '' 'duplicates'
