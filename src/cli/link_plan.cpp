@@ -146,6 +146,7 @@ void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::Sce
 }
 
 /// Reads one predictor's runs of some replications, scenario by scenario.
+// NOLINTNEXTLINE(readability-function-size): whose runs, which, and two lists to fill
 void read_runs(const LinkPlan& plan, const RunFiles& files, const LinkPredictor& predictor,
                const study::SeedRange& range, std::vector<results::LinkRun>& runs,
                std::vector<results::LinkTiming>* timings) {

@@ -53,6 +53,7 @@ void Progress::finish() {
     print(true);
 }
 
+// NOLINTNEXTLINE(readability-function-size): what a line shows
 std::string Progress::render_bar(const std::string& label, std::size_t done, std::size_t total,
                                  std::size_t failed, double elapsed_s, std::size_t before) {
     const std::size_t filled = total == 0 ? bar_width : std::min(bar_width, bar_width * done / total);

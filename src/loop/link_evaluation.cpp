@@ -144,14 +144,13 @@ void LinkTrial::describe_candidates(const prediction::Scene& scene, const LinkTr
 }
 
 bool LinkTrial::is_ahead_of_emergency(const prediction::Tracks& tracks, prediction::RowPair pair) const {
-    for (const auto& [from, to] : {std::pair(pair.left, pair.right), std::pair(pair.right, pair.left)}) {
-        if (!is_emergency(tracks.vehicle_class[from])) continue;
+    const auto is_ahead = [&](std::uint32_t from, std::uint32_t to) {
+        if (!is_emergency(tracks.vehicle_class[from])) return false;
         const traffic::Roster& roster = *observation_.roster;
-        if (distance_ahead(network_, roster, tracks.key[from], tracks.state[from], tracks.state[to]) ||
-            distance_ahead(network_, roster, tracks.key[from], tracks.last[from], tracks.last[to]))
-            return true;
-    }
-    return false;
+        return distance_ahead(network_, roster, tracks.key[from], tracks.state[from], tracks.state[to]) ||
+               distance_ahead(network_, roster, tracks.key[from], tracks.last[from], tracks.last[to]);
+    };
+    return is_ahead(pair.left, pair.right) || is_ahead(pair.right, pair.left);
 }
 
 void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,

@@ -98,8 +98,10 @@ void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t se
     fmt::format_to(out, "<polygon class=\"band s{}\" points=\"", series % palette_size);
     for (const auto& [x, low, high] : bounds)
         fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(high));
-    for (auto bound = bounds.rbegin(); bound != bounds.rend(); ++bound)
-        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place((*bound)[0]), y_.place((*bound)[1]));
+    for (std::size_t at = bounds.size(); at > 0; --at) {
+        const auto& [x, low, high] = bounds[at - 1];
+        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(low));
+    }
     fmt::format_to(out, "\"/>\n");
 }
 
