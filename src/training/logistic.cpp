@@ -129,7 +129,7 @@ Parameters fit(const std::vector<const PairSampleFile*>& files, const LogisticCo
             }
             Slope there = slope_at(next, files, config.ridge);
             if (there.loss > slope.loss + 1e-12 && halving < most_halvings) continue;
-            slope = std::move(there);
+            slope = there;
             parameters = next;
             break;
         }

@@ -81,6 +81,7 @@ void read_list(const toml::array& list, Factor factor, std::vector<Factor>& fact
     factors.push_back(std::move(factor));
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table, its place, and two lists to fill
 void read_group(const toml::table& table, const std::string& file, const std::string& group,
                 const std::string& prefix, std::vector<Factor>& factors, Problems& problems) {
     for (const auto& [name, node] : table) {

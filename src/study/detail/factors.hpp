@@ -38,7 +38,7 @@ std::vector<Factor> read_factors(const toml::table& table, const std::string& fi
 /// All combinations of the factors of these groups, the last factor fastest; one empty combination when there
 /// is no such factor.
 std::vector<Assignment> combinations(const std::vector<Factor>& factors,
-                                     const std::vector<std::string>& groups);
+                                     const std::vector<std::string>& wanted);
 
 /// `+failure=B5+mean_outage_s=20`, with full keys where short ones would mean two factors.
 std::string name_of(const Assignment& assignment, const std::vector<Factor>& factors);
