@@ -115,7 +115,7 @@ Action configure_compare(CLI::App& app) {
         ->allow_extra_args(false)
         ->option_text(fmt::format("NAME [{}]", joined(arguments->metrics)));
     app.add_option("--tolerance", arguments->tolerances,
-                   "Exit with 6 unless worse by at most this (95 %), in the metric's unit; repeatable")
+                   "Exit with 6 unless worse by at most this (95 %), in its unit; repeatable")
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER [none]");
     add_json_option(app, arguments->printing, "the comparison");

@@ -238,7 +238,7 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
     const char* const group = "Export for people, in place of a replay";
     CLI::Option* const csv =
-        app.add_option("--csv", arguments->table, "As CSV: " + joined(results::recording_table_names()))
+        app.add_option("--csv", arguments->table, "CSV: " + joined(results::recording_table_names()))
             ->check(CLI::IsMember(results::recording_table_names()))
             ->option_text("TABLE [none: replay]")
             ->group(group);
