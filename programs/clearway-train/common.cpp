@@ -18,11 +18,6 @@ std::string figure(const std::optional<double>& value) {
     return value ? fmt::format("{:.3f}", *value) : "undefined";
 }
 
-void watch_signals() {
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
-}
-
 bool stop_requested() {
     return received_signal != 0;
 }
@@ -50,6 +45,20 @@ core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& loss
         return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
     }
     return core::ExitCode::ok;
+}
+
+int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
+                    const std::function<core::ExitCode()>& train) {
+    try {
+        app.parse(argument_count, argument_values);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
+    }
+    std::signal(SIGINT, remember_signal);
+    std::signal(SIGTERM, remember_signal);
+    const core::ExitCode code = train();
+    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
+    return static_cast<int>(code);
 }
 
 }  // namespace clearway::training

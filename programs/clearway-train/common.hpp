@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,8 +22,7 @@ namespace clearway::training {
 
 enum class Printing { epochs, closing_only, json };
 
-/// SIGINT and SIGTERM end the training after the present epoch, with what it has.
-void watch_signals();
+/// Whether SIGINT or SIGTERM came: the training ends after the present epoch, with what it has.
 bool stop_requested();
 
 /// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
@@ -70,6 +70,10 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
 
 /// The exit code of a training, after saying on standard error how it ended before its time.
 core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model);
+
+/// Parses the command line and trains; the program's exit code. Throws core::Error.
+int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
+                    const std::function<core::ExitCode()>& train);
 
 /// `clearway train graphsage`.
 int run_graphsage(int argument_count, char** argument_values);

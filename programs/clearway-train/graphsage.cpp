@@ -106,16 +106,10 @@ int run_graphsage(int argument_count, char** argument_values) {
     app.name("clearway train graphsage");
     Arguments arguments;
     declare_options(app, arguments);
-    try {
-        app.parse(argument_count, argument_values);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
-    }
-    watch_signals();
-    core::make_folder(arguments.out);
-    const core::ExitCode code = train(arguments);
-    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
-    return static_cast<int>(code);
+    return parse_and_train(app, argument_count, argument_values, [&] {
+        core::make_folder(arguments.out);
+        return train(arguments);
+    });
 }
 
 }  // namespace clearway::training

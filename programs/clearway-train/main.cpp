@@ -225,16 +225,10 @@ int run(int argument_count, char** argument_values) {
     app.set_version_flag("--version", "clearway-train " CLEARWAY_VERSION);
     Arguments arguments;
     declare_options(app, arguments);
-    try {
-        app.parse(argument_count, argument_values);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
-    }
-    watch_signals();
-    core::make_folder(arguments.out);
-    const core::ExitCode code = train_as(arguments);
-    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
-    return static_cast<int>(code);
+    return parse_and_train(app, argument_count, argument_values, [&] {
+        core::make_folder(arguments.out);
+        return train_as(arguments);
+    });
 }
 
 }  // namespace
