@@ -88,25 +88,20 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
     return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
 }
 
-std::size_t replications_needed(double deviation, double half_width, double level) {
+std::size_t required_replications(double deviation, double half_width, double level) {
     assert(half_width > 0.0);
-    constexpr std::size_t most = 100000000;  // beyond any study
     const auto suffices = [&](std::size_t n) {
         return clearway::analysis::half_width(deviation, n, level) <= half_width;
     };
-    std::size_t high = fewest_replications;
-    while (high < most && !suffices(high))
-        high *= 2;
-    std::size_t low = std::max(fewest_replications, high / 2);
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (suffices(middle)) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
+    std::size_t enough = 2;
+    while (!suffices(enough))
+        enough *= 2;
+    std::size_t too_few = enough / 2;
+    while (enough - too_few > 1 && enough > 2) {
+        const std::size_t middle = too_few + (enough - too_few) / 2;
+        (suffices(middle) ? enough : too_few) = middle;
     }
-    return low;
+    return enough;
 }
 
 double geh(double modelled_per_hour, double counted_per_hour) {

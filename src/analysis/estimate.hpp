@@ -77,9 +77,12 @@ std::optional<double> effect_size(std::span<const double> condition, std::span<c
 /// `deviation`.
 double half_width(double deviation, std::size_t n, double level = usual_level);
 
-/// Replications for a half width of `half_width` > 0 at `level` when differences scatter with `deviation`:
-/// FHWA's n = (t(n - 1) s / e)^2, Traffic Analysis Toolbox III (2019), and never below its minimum of 10.
-std::size_t replications_needed(double deviation, double half_width, double level = usual_level);
+/// Replications that an interval of half width `half_width` needs for a standard deviation of `deviation`:
+/// the least n of at least 2 with n >= (t(n - 1) deviation / half_width)^2. FHWA, Traffic Analysis Toolbox
+/// III (FHWA-HOP-18-036, 2019), section on the number of runs, its equation iterated because t depends on n.
+/// `half_width` > 0, `deviation` >= 0, both in one unit.
+std::size_t required_replications(double deviation, double half_width, double level = usual_level);
+/// FHWA's minimum, whatever the equation says.
 inline constexpr std::size_t fewest_replications = 10;
 
 /// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros left out, ties at mean

@@ -1,17 +1,7 @@
 #include "analysis/replications.hpp"
 
-#include <cmath>
-
-#include <boost/math/distributions/students_t.hpp>
-
 namespace clearway::analysis {
 namespace {
-
-bool suffices(std::size_t n, double deviation, double half_width, double level) {
-    const boost::math::students_t distribution(static_cast<double>(n - 1));
-    const double t = boost::math::quantile(distribution, 0.5 * (1.0 + level));
-    return static_cast<double>(n) >= std::pow(t * deviation / half_width, 2.0);
-}
 
 const std::optional<Estimate>& difference_of(const MetricSummary& metric) {
     static const std::optional<Estimate> none;
@@ -43,18 +33,6 @@ std::optional<Precision> widest_by(const Summary& summary, const std::string& me
 }
 
 }  // namespace
-
-std::size_t required_replications(double deviation, double half_width, double level) {
-    std::size_t enough = 2;
-    while (!suffices(enough, deviation, half_width, level))
-        enough *= 2;
-    std::size_t too_few = enough / 2;
-    while (enough - too_few > 1 && enough > 2) {
-        const std::size_t middle = too_few + (enough - too_few) / 2;
-        (suffices(middle, deviation, half_width, level) ? enough : too_few) = middle;
-    }
-    return enough;
-}
 
 std::optional<Precision> widest(const Summary& summary, const std::string& metric, double half_width) {
     const auto compared = widest_by(summary, metric, half_width, difference_of);

@@ -9,12 +9,6 @@
 
 namespace clearway::analysis {
 
-/// Replications that an interval of half width `half_width` needs for a standard deviation of `deviation`:
-/// the least n of at least 2 with n >= (t(n - 1) deviation / half_width)^2. FHWA, Traffic Analysis Toolbox
-/// III (FHWA-HOP-18-036, 2019), section on the number of runs, its equation iterated because t depends on n.
-/// `half_width` > 0, `deviation` >= 0, both in one unit.
-std::size_t required_replications(double deviation, double half_width, double level = usual_level);
-
 /// The widest interval of a metric in a study, and how many replications it wants.
 struct Precision {
     std::string scenario;

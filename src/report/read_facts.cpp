@@ -144,8 +144,9 @@ std::optional<Precision> precision_of(const std::vector<TravelTimePair>& pairs, 
         if (n >= first_drawn && ((pairs.size() - n) % stride == 0))
             precision.points.push_back({n, analysis::half_width(precision.deviation_s, n, level)});
     }
-    precision.needed = analysis::replications_needed(
-        precision.deviation_s, least_relevant_s > 0.0 ? least_relevant_s : usual_least_relevant_s, level);
+    const double wanted_s = least_relevant_s > 0.0 ? least_relevant_s : usual_least_relevant_s;
+    precision.needed = std::max(analysis::fewest_replications,
+                                analysis::required_replications(precision.deviation_s, wanted_s, level));
     return precision;
 }
 

@@ -120,11 +120,11 @@ TEST(Geh, AgreesWithTheWorkedExample) {
     EXPECT_LT(geh(1100.0, 1000.0), geh_limit);
 }
 
-TEST(ReplicationsNeeded, IsTheSmallestNumberWhoseIntervalIsNarrowEnough) {
+TEST(RequiredReplications, AreTheFewestWhoseIntervalIsNarrowEnough) {
     // s = 10, half width 3: n = 46 has t(45) 10 / sqrt(46) = 2.970, n = 45 has 3.004.
-    EXPECT_EQ(replications_needed(10.0, 3.0), 46U);
-    EXPECT_EQ(replications_needed(0.1, 3.0), fewest_replications);
-    EXPECT_GT(replications_needed(10.0, 0.3), 4200U);
+    EXPECT_EQ(required_replications(10.0, 3.0), 46U);
+    EXPECT_EQ(required_replications(0.1, 3.0), 2U);
+    EXPECT_GT(required_replications(10.0, 0.3), 4200U);
 }
 
 }  // namespace
