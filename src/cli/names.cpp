@@ -52,22 +52,6 @@ std::vector<std::string> part_names() {
     return names;
 }
 
-namespace {
-
-/// Parameters of a known failure model that factors set.
-void check_settings(const results::ConditionSpec& condition, const std::string& where,
-                    std::vector<core::Problem>& problems) {
-    const std::vector<std::string> known = failure_names();
-    if (std::ranges::find(known, condition.failure) == known.end()) return;
-    try {
-        sensing::failure_from(condition.failure, condition.failure_settings, where + "failure");
-    } catch (const core::InputError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-}
-
-}  // namespace
-
 void check_names(const std::vector<results::ConditionSpec>& conditions) {
     std::vector<core::Problem> problems;
     const auto check = [&](const std::string& where, const std::string& name,
@@ -79,7 +63,6 @@ void check_names(const std::vector<results::ConditionSpec>& conditions) {
     for (const results::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
         check_failure(where + "failure", condition.failure, problems);
-        check_settings(condition, where, problems);
         check(where + "predictor", condition.predictor, prediction::predictor_names());
         for (const std::string& part : condition.parts) {
             check(where + "policy", part, part_names());

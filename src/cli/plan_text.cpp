@@ -128,7 +128,6 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
                         {"condition", cell.condition.name},
                         {"engine", results::name(cell.condition.engine)},
                         {"failure", cell.condition.failure},
-                        {"failure_settings", cell.condition.failure_settings},
                         {"loop_settings", cell.condition.loop_settings},
                         {"predictor", cell.condition.predictor},
                         {"policy", cell.condition.parts},

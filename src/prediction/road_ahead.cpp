@@ -212,7 +212,7 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
         steps_.insert(steps_.end(), walked_.begin(), walked_.end());
         find_lines(observation, ahead);
         ahead.free_flow_m = std::min(free_flow_m(network_, walked_, age_s), ahead.reach_m);
-        ahead.has_left = !observation.exits_known && tracks.past_end_m[row] > 0.0F;
+        ahead.has_left = tracks.has_left(row);
     }
     steps.count = static_cast<std::uint32_t>(steps_.size()) - steps.first;
     lay_path(tracks, ahead);

@@ -17,9 +17,8 @@ DecisionChain::DecisionChain(const results::ConditionSpec& condition, const Chai
     : period_s_(context.policy_period_s) {
     graph::LinkRules rules;
     rules.radius_m = context.link_radius_m;
-    sensor_ = sensing::make_sensor(sensing::failure_from(condition.failure, condition.failure_settings,
-                                                         "condition " + condition.name + ": failure"),
-                                   context.random, {.network = context.network, .rules = rules});
+    sensor_ = sensing::make_sensor(sensing::failure_from(condition.failure), context.random,
+                                   {.network = context.network, .rules = rules});
     predictor_ = prediction::make_predictor(condition.predictor,
                                             {.network = context.network, .rules = rules, .model_file = {}});
     for (const std::string& part : condition.parts) {

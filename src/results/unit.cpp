@@ -58,7 +58,6 @@ Json to_json(const ConditionSpec& condition) {
     object["parts"] = condition.parts;
     object["engine"] = results::name(condition.engine);
     object["safety_checks"] = text_of(condition.safety_checks);
-    if (!condition.failure_settings.empty()) object["failure_settings"] = condition.failure_settings;
     if (!condition.loop_settings.empty()) object["loop_settings"] = condition.loop_settings;
     return object;
 }
@@ -73,7 +72,6 @@ ConditionSpec condition_from(const Json& object, const std::string& where,
     reader.read("parts", condition.parts);
     reader.read_name("engine", condition.engine, engine_from);
     reader.read_name("safety_checks", condition.safety_checks, safety_checks_from);
-    reader.read_if_there("failure_settings", condition.failure_settings);
     reader.read_if_there("loop_settings", condition.loop_settings);
     return condition;
 }

@@ -30,13 +30,12 @@ enum class StepRecording : std::uint8_t { off, on };
 /// A named combination of failure, predictor and policy parts.
 struct ConditionSpec {
     std::string name;
-    std::string failure = "perfect";  ///< Preset of sensing: perfect, B10, ...
+    std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
     std::string predictor = "none";
     std::vector<std::string> parts;  ///< Policy parts; empty: the car-following model alone.
     Engine engine = Engine::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    core::Settings failure_settings = {};  ///< Members of sensing::FailureConfig that differ from the preset.
-    core::Settings loop_settings = {};     ///< Members of LoopConfig that differ from its defaults.
+    core::Settings loop_settings = {};  ///< Members of LoopConfig that differ from its defaults.
 
     bool operator==(const ConditionSpec&) const = default;
 };

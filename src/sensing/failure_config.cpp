@@ -227,13 +227,4 @@ FailureConfig failure_from(const std::string& text) {
     return reader.config;
 }
 
-FailureConfig failure_from(const std::string& name, const core::Settings& settings,
-                           const std::string& where) {
-    FailureConfig config = failure_from(name);
-    std::vector<core::Problem> problems = core::apply_settings(settings, where + ".", config);
-    if (problems.empty()) problems = problems_of(config, where);
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    return config;
-}
-
 }  // namespace clearway::sensing

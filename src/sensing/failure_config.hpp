@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "core/settings.hpp"
 
 namespace clearway::sensing {
 
@@ -147,8 +146,5 @@ std::vector<FailurePreset> failure_presets();
 /// reports of 1 Hz that never fail are the start. Throws core::InputError with all that is wrong: unknown
 /// names (with the nearest), fields twice, values that are no numbers, out of range or do not go together.
 FailureConfig failure_from(const std::string& text);
-/// A preset of which some members are set by name. Throws core::InputError with every problem, saying
-/// `where`.
-FailureConfig failure_from(const std::string& name, const core::Settings& settings, const std::string& where);
 
 }  // namespace clearway::sensing

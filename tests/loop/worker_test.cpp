@@ -213,7 +213,7 @@ TEST(Worker, GivesParametersOfFailureAndLoopToACondition) {
     often.loop_settings = {{"policy_period_s", "0.25"}};
     ConditionSpec dark = repaired;
     dark.name = "dark";
-    dark.failure_settings = {{"dark_share", "0.9"}};
+    dark.failure += ",dark_share=0.9";
     const test::StudyFolder folder("intersection", {}, {perfect, often, repaired, dark});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
     EXPECT_GT(record_of(folder, "intersection", "often").metrics.leases_renewed,

@@ -19,12 +19,11 @@ UnitSpec example() {
     unit.recording = StepRecording::on;
     ConditionSpec condition;
     condition.name = "b10";
-    condition.failure = "B10";
+    condition.failure = "B10,mean_outage_s=20,detection=range";
     condition.predictor = "dead_reckoning";
     condition.parts = {"dissertation", "preempt"};
     condition.engine = Engine::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
-    condition.failure_settings = {{"mean_outage_s", "20"}, {"detection", "range"}};
     condition.loop_settings = {{"policy_period_s", "1"}};
     unit.conditions = {condition, ConditionSpec{}};
     unit.limits = {.wall_s = 12.5, .memory_mib = 300};

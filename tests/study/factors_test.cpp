@@ -50,8 +50,7 @@ failure.dark_share = [0.1, 0.25]
                             "graph_simulation+failure=B5+dark_share=0.25",
                             "graph_simulation+failure=B20+dark_share=0.1",
                             "graph_simulation+failure=B20+dark_share=0.25", "solo"));
-    EXPECT_EQ(config.conditions[4].failure, "B20");
-    EXPECT_EQ(config.conditions[4].failure_settings.at("dark_share"), "0.25");
+    EXPECT_EQ(config.conditions[4].failure, "B20,dark_share=0.25");
     EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out")) << "the names can be folders";
 }
 

@@ -208,7 +208,8 @@ results::ConditionSpec with(results::ConditionSpec condition, const Assignment& 
                             Problems& problems) {
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
-        if (factor->group == "failure") condition.failure_settings[factor->key] = value->text;
+        // Groups come in the order of their names, so the failure itself is set before its fields.
+        if (factor->group == "failure") condition.failure += fmt::format(",{}={}", factor->key, value->text);
         if (factor->group == "loop") condition.loop_settings[factor->key] = value->text;
     }
     return condition;
