@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "loop/road_layout.hpp"
 #include "results/recording.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -167,6 +168,8 @@ LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepL
                                   metrics::LeaseTotals& leases) {
     add_emergency_vehicles();
     watch_roads();
+    recorder_.configure(metrics::RecorderConfig::of_latency(
+        core::Seconds(sensing::failure_from(condition.failure).latency_s)));
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),

@@ -35,9 +35,13 @@ std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> 
                                          std::span<const traffic::EmergencyDeparture> emergency);
 
 struct RecorderConfig {
-    /// A believed vehicle whose report is older than this was not heard at the newest round; the latency of
-    /// the sensor plus rounding, s.
+    /// A believed vehicle whose report is older than this was not heard at the newest round, s.
     float fresh_age_s = 0.01F;
+
+    /// Where reports come late: their age, and rounding.
+    static RecorderConfig of_latency(core::Seconds latency) {
+        return {static_cast<float>(latency.value) + RecorderConfig{}.fresh_age_s};
+    }
 };
 
 /// What the recorder needs at the end of a run.

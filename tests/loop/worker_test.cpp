@@ -73,6 +73,20 @@ TEST(Worker, BelievesTheTrueGraphUnderPerfectSensing) {
     EXPECT_EQ(record.metrics.links_false_negative, 0U);
 }
 
+TEST(Worker, ReportsThatAreOnlyLateMakeNoVehicleDark) {
+    const ConditionSpec late = condition("late", "DL2", "dead_reckoning", {"dissertation"});
+    const ConditionSpec lost = condition("lost", "DL2,loss_rate=0.5", "dead_reckoning", {"dissertation"});
+    const test::StudyFolder folder("intersection", {}, {late, lost});
+    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
+    const auto dark_share = [&](const char* name) {
+        const metrics::RunMetrics run = record_of(folder, "intersection", name).metrics;
+        return static_cast<double>(run.dark_links_true_positive + run.dark_links_false_negative) /
+               static_cast<double>(run.links_true_positive + run.links_false_negative);
+    };
+    EXPECT_LT(dark_share("late"), 0.1) << "only those who entered in the last two seconds";
+    EXPECT_GT(dark_share("lost"), 2.0 * dark_share("late"));
+}
+
 TEST(Worker, GivesTheSameRecordWhetherAConditionIsForkedFirstLastOrAlone) {
     const test::StudyFolder together("city", {}, {baseline, repaired});
     const test::StudyFolder reversed("city", {}, {repaired, baseline});
