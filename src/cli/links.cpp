@@ -128,7 +128,8 @@ study::LinkBenchmark named_benchmark(const Arguments& arguments) {
     study::LinkBenchmark benchmark = study::read_link_benchmark(benchmark_file(arguments.benchmark));
     const std::size_t all = benchmark.scenarios.size();
     keep_scenarios(arguments.scenarios, benchmark);
-    const bool part = benchmark.scenarios.size() < all || arguments.quick || !arguments.failures.empty();
+    const bool part = benchmark.scenarios.size() < all || arguments.quick || !arguments.failures.empty() ||
+                      !arguments.predictors.empty() || arguments.exits != "both";
     if (part) benchmark.name += " (a part of it)";
     return benchmark;
 }
