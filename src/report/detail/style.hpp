@@ -7,7 +7,7 @@ namespace clearway::report::detail {
 inline constexpr const char* style_sheet = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1c2126;--muted:#5a646e;--rule:#d9dee3;--panel:#f5f7f8;
 --better:#005f94;--worse:#b04300;--s1:#0072b2;--s2:#d55e00;--s3:#009e73;--s4:#b5588c;--s5:#c98500;--s6:#3a9bd0}
-@media(prefers-color-scheme:dark){:root{--paper:#14181c;--ink:#e4e8eb;--muted:#9ba6b0;--rule:#323a42;--panel:#1c2227;
+@media screen and (prefers-color-scheme:dark){:root{--paper:#14181c;--ink:#e4e8eb;--muted:#9ba6b0;--rule:#323a42;--panel:#1c2227;
 --better:#6cbcf0;--worse:#ff9a57;--s1:#4aa8e6;--s2:#f07c2a;--s3:#2bbf95;--s4:#d98cb8;--s5:#e69f00;--s6:#7cc8f2}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
@@ -79,8 +79,10 @@ footer{padding-top:2rem;padding-bottom:3rem;color:var(--muted);font-size:.85rem}
 tbody th{min-width:7.5rem}th,td{padding:.4rem .5rem}}
 @media(min-width:561px){.scroll table.paired tbody th,.scroll table.paired thead th:first-child{position:sticky;left:0;
 background:var(--paper)}}
-@media print{body{font-size:10.5pt}nav{display:none}h2{break-after:avoid}figure,.card,tr{break-inside:avoid}
-.scroll{overflow:visible}table{font-size:7.5pt}th,td{padding:.2rem .3rem}details:not([open]){display:none}}
+@media print{:root{color-scheme:light}body{font-size:10.5pt}nav{display:none}h2{break-after:avoid}
+figure,.card,tr{break-inside:avoid}.scroll,details .scroll{overflow:visible;max-height:none}table{font-size:7.5pt}
+th,td,table.data th,table.data td{padding:.2rem .3rem}thead th{white-space:normal}tbody th{min-width:0}
+td .range{display:block;margin-left:0}details:not([open]){display:none}}
 )css";
 
 }  // namespace clearway::report::detail
