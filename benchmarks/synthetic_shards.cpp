@@ -80,16 +80,15 @@ void write_run(const results::Store& store, const results::RunRecord& run) {
     write(folder / "timing.json", results::detail::timing_to_json({}));
 }
 
-void write_shard(const study::Shard& shard, std::uint32_t replications, const std::filesystem::path& root) {
-    study::Plan plan = plan_of(replications);
-    study::keep_shard(plan, shard);
+void write_shard(const study::Plan& plan, const study::Shard& shard, const std::filesystem::path& root) {
     const std::filesystem::path folder = root / "shards" / fmt::format("{}-of-{}", shard.index, shard.count);
     study::claim(folder, shard);
     const results::Store store = results::Store::create(folder, plan.manifest);
-    for (const study::PlannedUnit& planned : plan.units) {
-        for (const results::ConditionSpec& condition : planned.unit.conditions)
-            write_run(store, record_of({planned.unit.scenario, condition.name, planned.unit.replication},
-                                       condition));
+    for (std::size_t number = 0; number < plan.units.size(); ++number) {
+        if (!study::has_unit(shard, number)) continue;
+        const results::UnitSpec& unit = plan.units[number].unit;
+        for (const results::ConditionSpec& condition : unit.conditions)
+            write_run(store, record_of({unit.scenario, condition.name, unit.replication}, condition));
     }
 }
 
@@ -102,6 +101,7 @@ int main(int argument_count, char** arguments) {
     }
     const auto replications = static_cast<std::uint32_t>(std::strtoul(arguments[1], nullptr, 10));
     const auto shards = static_cast<std::uint32_t>(std::strtoul(arguments[2], nullptr, 10));
+    const study::Plan plan = plan_of(replications);
     for (std::uint32_t index = 1; index <= shards; ++index)
-        write_shard({index, shards}, replications, arguments[3]);
+        write_shard(plan, {index, shards}, arguments[3]);
 }

@@ -1,7 +1,6 @@
 #include "prediction/planar.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "prediction/detail/pairwise.hpp"
 #include "prediction/disc_probability.hpp"
 #include "prediction/kinematic.hpp"
+#include "prediction/motion_filter.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -63,91 +63,19 @@ class HeadingReckoning final : public PairwisePredictor {
     float speed_change_mps_;
 };
 
-/// One vehicle's filter: mean and covariance of (x, y, vx, vy).
+/// The filter of one vehicle and the time of the report that it has come to.
 struct Filter {
     core::VehicleKey key;
     double measured_s = 0.0;
-    std::array<float, 4> mean{};
-    std::array<std::array<float, 4>, 4> covariance{};
+    MotionFilter motion;
 };
-
-/// The same four numbers, measured, with the variance of each.
-struct Measurement {
-    std::array<float, 4> value;
-    std::array<float, 4> variance;
-};
-
-struct Noise {
-    float along_psd, across_psd;
-};
-
-void start(const Measurement& seen, Filter& filter) {
-    filter.mean = seen.value;
-    filter.covariance = {};
-    for (std::size_t i = 0; i < 4; ++i) {
-        filter.covariance[i][i] = seen.variance[i];
-    }
-}
-
-/// x += vx t; P = F P F' + Q, Q the noise of a direction times (t^3 / 3, t^2 / 2; t^2 / 2, t).
-void elapse(float elapsed_s, float heading_rad, const Noise& noise, Filter& filter) {
-    auto& mean = filter.mean;
-    auto& p = filter.covariance;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        mean[axis] += mean[axis + 2] * elapsed_s;
-        for (std::size_t i = 0; i < 4; ++i) {
-            p[axis][i] += elapsed_s * p[axis + 2][i];
-        }
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            p[i][axis] += elapsed_s * p[i][axis + 2];
-        }
-    }
-    const std::array<float, 2> ahead = {std::cos(heading_rad), std::sin(heading_rad)};
-    const float square = elapsed_s * elapsed_s;
-    for (std::size_t i = 0; i < 2; ++i) {
-        for (std::size_t j = 0; j < 2; ++j) {
-            const float psd = (noise.along_psd - noise.across_psd) * ahead[i] * ahead[j] +
-                              (i == j ? noise.across_psd : 0.0F);
-            p[i][j] += psd * square * elapsed_s / 3.0F;
-            p[i][j + 2] += psd * square / 2.0F;
-            p[i + 2][j] += psd * square / 2.0F;
-            p[i + 2][j + 2] += psd * elapsed_s;
-        }
-    }
-}
-
-/// The four measurements one after the other: their errors are independent. A position without a stated error
-/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
-/// gain across the heading, where the filter itself is certain.
-void correct(const Measurement& seen, Filter& filter) {
-    constexpr float least_position_var_m2 = 0.01F;
-    auto& p = filter.covariance;
-    for (std::size_t at = 0; at < 4; ++at) {
-        const float variance =
-            at < 2 ? std::max(seen.variance[at], least_position_var_m2) : seen.variance[at];
-        const float total = p[at][at] + variance;
-        const float innovation = seen.value[at] - filter.mean[at];
-        const std::array<float, 4> row = p[at];
-        for (std::size_t i = 0; i < 4; ++i) {
-            filter.mean[i] += row[i] / total * innovation;
-            for (std::size_t j = 0; j < 4; ++j) {
-                p[i][j] -= row[i] * row[j] / total;
-            }
-        }
-    }
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        if (seen.variance[axis] == 0.0F) filter.mean[axis] = seen.value[axis];
-    }
-}
 
 class Kalman final : public PairwisePredictor {
   public:
     Kalman(const PredictorContext& context, const KalmanConfig& config)
         : PairwisePredictor(context),
-          noise_{static_cast<float>(config.along_psd), static_cast<float>(config.across_psd)},
-          speed_var_(static_cast<float>(config.speed_sigma_mps * config.speed_sigma_mps)) {}
+          noise_{static_cast<float>(config.along_psd), static_cast<float>(config.across_psd),
+                 static_cast<float>(config.speed_sigma_mps * config.speed_sigma_mps)} {}
     std::string_view name() const override { return "kalman"; }
 
   private:
@@ -156,7 +84,7 @@ class Kalman final : public PairwisePredictor {
         const Tracks& tracks = scene.tracks;
         now_ = filters_;
         for (std::size_t row = 0; row < tracks.size(); ++row) {
-            Filter& now = now_[row];
+            MotionFilter& now = now_[row].motion;
             if (tracks.age_s[row] > 0.0F)
                 elapse(tracks.age_s[row], tracks.last[row].heading_rad, noise_, now);
             RowBelief& belief = beliefs[row];
@@ -171,7 +99,7 @@ class Kalman final : public PairwisePredictor {
         }
     }
 
-    static float sigma_along(const Filter& filter, float heading_rad) {
+    static float sigma_along(const MotionFilter& filter, float heading_rad) {
         const float cosine = std::cos(heading_rad);
         const float sine = std::sin(heading_rad);
         const auto& p = filter.covariance;
@@ -189,7 +117,7 @@ class Kalman final : public PairwisePredictor {
                 ++old;
             }
             const bool known = old != filters_.end() && old->key == tracks.key[row];
-            next_.push_back(known ? *old : Filter{.key = tracks.key[row], .measured_s = -1.0});
+            next_.push_back(known ? *old : Filter{.key = tracks.key[row], .measured_s = -1.0, .motion = {}});
             take_report(tracks, row, next_.back());
         }
         std::swap(filters_, next_);
@@ -200,15 +128,12 @@ class Kalman final : public PairwisePredictor {
         const double elapsed_s = measured_s - filter.measured_s;
         if (filter.measured_s >= 0.0 && std::abs(elapsed_s) < same_time_s) return;
         const traffic::MotionState& last = tracks.last[row];
-        const float position_var = tracks.sensor_sigma_m[row] * tracks.sensor_sigma_m[row];
-        const Measurement seen{{last.x_m, last.y_m, last.speed_mps * std::cos(last.heading_rad),
-                                last.speed_mps * std::sin(last.heading_rad)},
-                               {position_var, position_var, speed_var_, speed_var_}};
+        const float sigma_m = tracks.sensor_sigma_m[row];
         if (filter.measured_s < 0.0 || elapsed_s < 0.0) {
-            start(seen, filter);
+            start(last, sigma_m, noise_, filter.motion);
         } else {
-            elapse(static_cast<float>(elapsed_s), last.heading_rad, noise_, filter);
-            correct(seen, filter);
+            elapse(static_cast<float>(elapsed_s), last.heading_rad, noise_, filter.motion);
+            correct(last, sigma_m, noise_, filter.motion);
         }
         filter.measured_s = measured_s;
     }
@@ -218,8 +143,8 @@ class Kalman final : public PairwisePredictor {
         for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
             const RowPair pair = scene.candidates.rows[at];
             if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
-            const Filter& left = now_[pair.left];
-            const Filter& right = now_[pair.right];
+            const MotionFilter& left = now_[pair.left].motion;
+            const MotionFilter& right = now_[pair.right].motion;
             probabilities[at] =
                 probability_in_disc(static_cast<float>(rules().radius_m),
                                     {right.mean[0] - left.mean[0], right.mean[1] - left.mean[1],
@@ -229,8 +154,7 @@ class Kalman final : public PairwisePredictor {
         }
     }
 
-    Noise noise_;
-    float speed_var_;
+    FilterNoise noise_;
     std::vector<Filter> filters_, next_, now_;
 };
 

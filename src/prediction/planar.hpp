@@ -47,12 +47,9 @@ struct KalmanConfig {
     }
 };
 
-/// A constant-velocity Kalman filter for each vehicle over its reports (position, and velocity from speed and
-/// heading): state (x, y, vx, vy), continuous white noise acceleration (Bar-Shalom, Li, Kirubarajan 2001,
-/// "Estimation with Applications to Tracking and Navigation", 6.2.2) that is stronger along the heading than
-/// across it, measurement noise the sensor's stated position error and `speed_sigma_mps`. P(d < r) from the
-/// covariances of both ends (disc_probability.hpp). A report older than the one before (another run) starts a
-/// vehicle's filter anew.
+/// A Kalman filter for each vehicle over its reports (motion_filter.hpp), measurement noise the sensor's
+/// stated position error and `speed_sigma_mps`. P(d < r) from the covariances of both ends
+/// (disc_probability.hpp). A report older than the one before (another run) starts a vehicle's filter anew.
 std::unique_ptr<Predictor> make_kalman(const PredictorContext& context, const KalmanConfig& config = {});
 
 }  // namespace clearway::prediction

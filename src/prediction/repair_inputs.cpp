@@ -65,7 +65,7 @@ void put_vehicle_on_way(RowWriter& out, const VehicleOnWay& vehicle, float displ
 }  // namespace
 
 FeatureSchema repair_schema() {
-    return {"repair", 1, node_width};
+    return {"repair", 2, node_width};
 }
 
 void RepairInputs::clear() {
@@ -73,7 +73,7 @@ void RepairInputs::clear() {
     nodes.clear();
     x_m.clear();
     y_m.clear();
-    sensor_sigma_m.clear();
+    place_sigma_m.clear();
     receivers.clear();
     first_edge.assign(1, 0);
     source.clear();
@@ -94,7 +94,7 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
     inputs.rows = static_cast<std::uint32_t>(tracks.size());
     inputs.x_m = tracks.x_m;
     inputs.y_m = tracks.y_m;
-    inputs.sensor_sigma_m = tracks.sensor_sigma_m;
+    inputs.place_sigma_m = tracks.sensor_sigma_m;
     x_m_ = tracks.x_m;
     y_m_ = tracks.y_m;
     ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(ahead_.size()));
@@ -104,6 +104,7 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
         const roads::Point place = ahead.place_at(ahead.displacement_m);
         x_m_[ahead.row] = place.x_m;
         y_m_[ahead.row] = place.y_m;
+        inputs.place_sigma_m[ahead.row] = ahead.sigma_m;
         inputs.receivers.push_back({ahead.row, ahead.displacement_m, ahead.reach_m, -1.0F, ahead.path});
     }
     list_detections(scene);

@@ -40,10 +40,10 @@ struct Receiver {
 /// What the net is given of one scene.
 struct RepairInputs {
     std::uint32_t rows = 0;
-    std::vector<float> nodes;           ///< rows x node_width.
-    std::vector<float> x_m, y_m;        ///< Of each row, dead-reckoned: the place of those that are known.
-    std::vector<float> sensor_sigma_m;  ///< Of each row.
-    std::vector<Receiver> receivers;    ///< By row.
+    std::vector<float> nodes;          ///< rows x node_width.
+    std::vector<float> x_m, y_m;       ///< Of each row, dead-reckoned: the place of those that are known.
+    std::vector<float> place_sigma_m;  ///< Standard deviation of where each row was last seen, filtered.
+    std::vector<Receiver> receivers;   ///< By row.
     std::vector<std::uint32_t> first_edge = {0};  ///< CSR by receiver.
     std::vector<std::uint32_t> source;            ///< Rows.
     std::vector<float> edges;                     ///< source.size() x edge_width.

@@ -224,7 +224,7 @@ void RepairNet::move(const RepairInputs& inputs, std::vector<BelievedMotion>& mo
 
     place_x_m_ = inputs.x_m;
     place_y_m_ = inputs.y_m;
-    sigma_m_ = inputs.sensor_sigma_m;
+    sigma_m_.assign(inputs.rows, 0.0F);
     direction_x_.assign(inputs.rows, 0.0F);
     direction_y_.assign(inputs.rows, 0.0F);
     motions.clear();
@@ -246,14 +246,15 @@ void RepairNet::move(const RepairInputs& inputs, std::vector<BelievedMotion>& mo
 }
 
 /// Writes what the decoder is told of distances and returns the score.
-float RepairNet::distance_facts(const RowPair& pair, float* facts) const {
+float RepairNet::distance_facts(const RepairInputs& inputs, const RowPair& pair, float* facts) const {
     const auto radius_m = static_cast<float>(repair_link_radius_m);
     const float x_m = place_x_m_[pair.left] - place_x_m_[pair.right];
     const float y_m = place_y_m_[pair.left] - place_y_m_[pair.right];
     const float distance_m = std::sqrt(x_m * x_m + y_m * y_m + 1e-3F);
     const auto variance = [&](std::uint32_t row) {
         const float along = (direction_x_[row] * x_m + direction_y_[row] * y_m) / distance_m;
-        return sigma_m_[row] * sigma_m_[row] * (side_share + along * along);
+        const float place_m = inputs.place_sigma_m[row];
+        return place_m * place_m + sigma_m_[row] * sigma_m_[row] * (side_share + along * along);
     };
     const float spread_m = std::sqrt(1.0F + variance(pair.left) + variance(pair.right));
     const float score = std::clamp((radius_m - distance_m) / spread_m, -6.0F, 6.0F);
@@ -285,7 +286,7 @@ void RepairNet::decode(const RepairInputs& inputs, std::vector<float>& logits) {
                 row[embedding + at] = std::abs(left[at] - right[at]);
             }
             std::copy_n(&inputs.pair_features[(first + i) * pair_width], pair_width, row + 2 * embedding);
-            scores[i] = distance_facts(pair, row + 2 * embedding + pair_width);
+            scores[i] = distance_facts(inputs, pair, row + 2 * embedding + pair_width);
         }
         const Rows all{nullptr, count};
         apply(decoder1_, block_.data(), width, all, Activation::rectified, block1_);

@@ -53,10 +53,11 @@ struct BelievedMotion {
 ///     reach sigma_i = 0.5 m + (3 m + 0.2 reach) ln(1 + e^p) z_i   = W h_i + b logit = MLP([z_i * z_j, |z_i -
 ///     z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
 ///
-/// with d the distance of the believed places, v^2 = 1 + the variances of both along the line between them (a
-/// fiftieth of the variance acts across), and c = (50 m - d) / v within +-6. The logit does not depend on the
-/// order of a pair. Held to libtorch by a test of the training module. Single precision; both kernels give
-/// the same bits; no allocation once buffers have grown; one object, one thread.
+/// with d the distance of the believed places, v^2 = 1 + the variances of both: of the place where each was
+/// last seen, and of its displacement along the line between them (a fiftieth of that acts across), and c =
+/// (50 m - d) / v within +-6. The logit does not depend on the order of a pair. Held to libtorch by a test of
+/// the training module. Single precision; both kernels give the same bits; no allocation once buffers have
+/// grown; one object, one thread.
 class RepairNet {
   public:
     /// Throws core::InputError when the weights are not such a net for `repair_schema()`.
@@ -93,7 +94,7 @@ class RepairNet {
     void exchange(const Layer& layer, const RepairInputs& inputs);
     void move(const RepairInputs& inputs, std::vector<BelievedMotion>& motions);
     void decode(const RepairInputs& inputs, std::vector<float>& logits);
-    float distance_facts(const RowPair& pair, float* facts) const;
+    float distance_facts(const RepairInputs& inputs, const RowPair& pair, float* facts) const;
 
     RepairDimensions dimensions_;
     Kernel kernel_;

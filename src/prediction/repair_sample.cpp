@@ -40,7 +40,7 @@ std::string fault(const RepairSample& sample) {
     const RepairInputs& inputs = sample.inputs;
     const std::size_t rows = inputs.rows;
     if (inputs.nodes.size() != rows * node_width || inputs.x_m.size() != rows || inputs.y_m.size() != rows ||
-        inputs.sensor_sigma_m.size() != rows) {
+        inputs.place_sigma_m.size() != rows) {
         return fmt::format("features that do not fit {} vehicles", rows);
     }
     if (inputs.first_edge.size() != inputs.receivers.size() + 1 || inputs.first_edge.front() != 0 ||
@@ -83,7 +83,7 @@ RepairSample read_sample(ByteReader& reader) {
     reader.next_all(inputs.rows * common_features, common);
     reader.next_all(inputs.rows, inputs.x_m);
     reader.next_all(inputs.rows, inputs.y_m);
-    reader.next_all(inputs.rows, inputs.sensor_sigma_m);
+    reader.next_all(inputs.rows, inputs.place_sigma_m);
     inputs.nodes.assign(std::size_t{inputs.rows} * node_width, 0.0F);
     for (std::size_t row = 0; row < inputs.rows; ++row) {
         std::copy_n(&common[row * common_features], common_features, &inputs.nodes[row * node_width]);
@@ -127,7 +127,7 @@ void RepairSampleWriter::add(const RepairSample& sample) {
     }
     append_all<float>(bytes_, inputs.x_m);
     append_all<float>(bytes_, inputs.y_m);
-    append_all<float>(bytes_, inputs.sensor_sigma_m);
+    append_all<float>(bytes_, inputs.place_sigma_m);
     for (const Receiver& receiver : inputs.receivers) {
         append(bytes_, receiver);
         append_all(bytes_, nodes.subspan(receiver.row * node_width + common_features, receiver_features));

@@ -22,9 +22,6 @@ constexpr float miss_scale_m = 5.0F;
 /// Places tried for a detected vehicle: every 1/64 of its reach.
 constexpr int detection_places = 64;
 constexpr double new_report_s = 1e-3;
-constexpr float place_noise_m2ps = 0.5F;
-/// After a longer silence the last place says nothing of the new one.
-constexpr float longest_filtered_gap_s = 3.0F;
 constexpr float slowest_limit_mps = 1.0F;
 
 float square(float value) {
@@ -141,7 +138,7 @@ void RoadAheadBuilder::remember(const traffic::Observation& observation, const T
         Memory& memory = is_new ? memories_.emplace_back() : memories_.emplace_back(*old);
         memory.key = tracks.key[row];
         if (report_s <= memory.report_s + new_report_s) continue;
-        filter_place(tracks.last[row], tracks.sensor_sigma_m[row], report_s, is_new, memory);
+        filter_report(tracks.last[row], tracks.sensor_sigma_m[row], report_s, is_new, memory);
         const float kept_mps = is_new ? speed_mps : memory.smoothed_speed_mps;
         memory.smoothed_speed_mps = kept_mps + newest_weight * (speed_mps - kept_mps);
         memory.report_s = report_s;
@@ -149,28 +146,16 @@ void RoadAheadBuilder::remember(const traffic::Observation& observation, const T
     }
 }
 
-/// A Kalman filter of the place with the reported velocity as input.
-void RoadAheadBuilder::filter_place(const traffic::MotionState& seen, float sigma_m, double report_s,
-                                    bool is_new, Memory& memory) {
-    const float velocity_x_mps = seen.speed_mps * std::cos(seen.heading_rad);
-    const float velocity_y_mps = seen.speed_mps * std::sin(seen.heading_rad);
-    const auto passed_s = static_cast<float>(report_s - memory.report_s);
-    const float measured_m2 = square(sigma_m);
-    if (is_new || sigma_m == 0.0F || passed_s > longest_filtered_gap_s) {
-        memory.x_m = seen.x_m;
-        memory.y_m = seen.y_m;
-        memory.variance_m2 = measured_m2;
-    } else {
-        memory.x_m += 0.5F * (memory.velocity_x_mps + velocity_x_mps) * passed_s;
-        memory.y_m += 0.5F * (memory.velocity_y_mps + velocity_y_mps) * passed_s;
-        const float grown_m2 = memory.variance_m2 + place_noise_m2ps * passed_s;
-        const float gain = grown_m2 / (grown_m2 + measured_m2);
-        memory.x_m += gain * (seen.x_m - memory.x_m);
-        memory.y_m += gain * (seen.y_m - memory.y_m);
-        memory.variance_m2 = (1.0F - gain) * grown_m2;
+/// A place without error needs no filter: what came before adds nothing to it.
+void RoadAheadBuilder::filter_report(const traffic::MotionState& seen, float sigma_m, double report_s,
+                                     bool is_new, Memory& memory) {
+    constexpr FilterNoise noise;
+    if (is_new || sigma_m == 0.0F) {
+        start(seen, sigma_m, noise, memory.seen);
+        return;
     }
-    memory.velocity_x_mps = velocity_x_mps;
-    memory.velocity_y_mps = velocity_y_mps;
+    elapse(static_cast<float>(report_s - memory.report_s), seen.heading_rad, noise, memory.seen);
+    correct(seen, sigma_m, noise, memory.seen);
 }
 
 void RoadAheadBuilder::watch_signals(const traffic::Observation& observation) {
@@ -198,7 +183,8 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
     Steps& steps = steps_of_.emplace_back();
     steps.first = static_cast<std::uint32_t>(steps_.size());
     ahead.smoothed_speed_mps = memories_[row].smoothed_speed_mps;
-    ahead.sigma_m = std::sqrt(memories_[row].variance_m2);
+    const auto& covariance = memories_[row].seen.covariance;
+    ahead.sigma_m = std::sqrt(0.5F * (covariance[0][0] + covariance[1][1]));
     ahead.reach_m = std::max(least_reach_m, last.speed_mps * age_s);
     ahead.route_left_m = ahead.reach_m + route_horizon_m;
     if (on_route(info, last)) {
@@ -245,14 +231,14 @@ void RoadAheadBuilder::find_lines(const traffic::Observation& observation, RoadA
 
 void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
     const traffic::MotionState& last = tracks.last[ahead.row];
-    const Memory& memory = memories_[ahead.row];
+    const auto& [seen_x_m, seen_y_m, vx_mps, vy_mps] = memories_[ahead.row].seen.mean;
     const float spacing_m = ahead.reach_m / static_cast<float>(path_points - 1);
     const Steps& steps = steps_of_.back();
     if (steps.count == 0) {
         for (std::size_t i = 0; i < path_points; ++i) {
             const float along_m = spacing_m * static_cast<float>(i);
-            ahead.path.points[i] = {memory.x_m + along_m * std::cos(last.heading_rad),
-                                    memory.y_m + along_m * std::sin(last.heading_rad)};
+            ahead.path.points[i] = {seen_x_m + along_m * std::cos(last.heading_rad),
+                                    seen_y_m + along_m * std::sin(last.heading_rad)};
         }
         return;
     }
@@ -266,7 +252,7 @@ void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
         }
         const roads::Point point =
             network_.point_at(steps_[at].lane, core::Metres(along_m - steps_[at].start_m));
-        ahead.path.points[i] = {point.x_m + memory.x_m - middle.x_m, point.y_m + memory.y_m - middle.y_m};
+        ahead.path.points[i] = {point.x_m + seen_x_m - middle.x_m, point.y_m + seen_y_m - middle.y_m};
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "prediction/candidates.hpp"
+#include "prediction/motion_filter.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"
 #include "traffic/observation.hpp"
@@ -77,8 +78,7 @@ inline constexpr float route_horizon_m = 200.0F;
 /// Finds the `RoadAhead` of all vehicles that are not known, and says where the rule puts them:
 ///
 ///   1. it went on at its reported speed along its route (dead reckoning) from where it was last seen; noisy
-///      places are filtered first: x <- x + v dt, P <- P + (0.7 m)^2 dt / s, then by the Kalman gain P / (P +
-///      sigma^2),
+///      places are filtered first (motion_filter.hpp),
 ///   2. not beyond the first stop line that shows red or yellow,
 ///   3. not into the vehicle that was ahead of it in its lane (its rear, less the minimum gap), as far as
 ///   that
@@ -107,9 +107,7 @@ class RoadAheadBuilder {
         core::VehicleKey key;
         double report_s = std::numeric_limits<double>::lowest();
         float smoothed_speed_mps = 0.0F;
-        float x_m = 0.0F, y_m = 0.0F;  ///< Where it was last seen, filtered.
-        float variance_m2 = 0.0F;
-        float velocity_x_mps = 0.0F, velocity_y_mps = 0.0F;
+        MotionFilter seen;                  ///< When it was last heard.
         core::VehicleKey leader, follower;  ///< When it was last heard; value 0: nobody.
         bool neighbours_noted = false;
     };
@@ -133,8 +131,8 @@ class RoadAheadBuilder {
     };
 
     void remember(const traffic::Observation& observation, const Tracks& tracks);
-    static void filter_place(const traffic::MotionState& seen, float sigma_m, double report_s, bool is_new,
-                             Memory& memory);
+    static void filter_report(const traffic::MotionState& seen, float sigma_m, double report_s, bool is_new,
+                              Memory& memory);
     void find_lines(const traffic::Observation& observation, RoadAhead& ahead) const;
     void watch_signals(const traffic::Observation& observation);
     void look_ahead(const traffic::Observation& observation, const Tracks& tracks, RoadAhead& ahead);

@@ -38,7 +38,7 @@ void place_rows(const RepairInputs& inputs, const std::vector<std::int64_t>& num
         std::copy_n(&inputs.nodes[row * node_width], node_width, &batch.nodes[to * node_width]);
         batch.x_m[to] = inputs.x_m[row];
         batch.y_m[to] = inputs.y_m[row];
-        batch.sensor_sigma_m[to] = inputs.sensor_sigma_m[row];
+        batch.place_sigma_m[to] = inputs.place_sigma_m[row];
     }
 }
 
@@ -87,7 +87,7 @@ RepairBatch batch_of(std::span<const prediction::RepairSample* const> samples, M
     batch.nodes.resize(rows * node_width);
     batch.x_m.resize(rows);
     batch.y_m.resize(rows);
-    batch.sensor_sigma_m.resize(rows);
+    batch.place_sigma_m.resize(rows);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const RepairInputs& inputs = samples[i]->inputs;
         place_rows(inputs, numbers[i], batch);

@@ -15,7 +15,7 @@ namespace clearway::training {
 struct RepairBatch {
     std::vector<float> nodes;                                         ///< vehicles x node_width.
     std::vector<float> x_m, y_m;                                      ///< Of each row.
-    std::vector<float> sensor_sigma_m;                                ///< Of each row.
+    std::vector<float> place_sigma_m;                                 ///< Of each row.
     std::vector<float> path;                                          ///< receivers x path_points x 2.
     std::vector<float> displacement_m, reach_m, true_displacement_m;  ///< Of each receiver.
     std::vector<std::int64_t> edge_source;                            ///< Rows.

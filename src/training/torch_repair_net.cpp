@@ -33,7 +33,7 @@ struct Inputs {
           receivers(size_of(batch.receiver_count())),
           nodes(float_tensor(batch.nodes, {vehicles, prediction::node_width})),
           places(at::stack({float_tensor(batch.x_m, {vehicles}), float_tensor(batch.y_m, {vehicles})}, 1)),
-          sensor_sigma(float_tensor(batch.sensor_sigma_m, {vehicles, 1})),
+          place_sigma(float_tensor(batch.place_sigma_m, {vehicles, 1})),
           path(float_tensor(batch.path, {receivers, path_points, 2})),
           displacement(float_tensor(batch.displacement_m, {receivers, 1})),
           reach(float_tensor(batch.reach_m, {receivers, 1})),
@@ -50,7 +50,7 @@ struct Inputs {
         degree = torch::zeros({vehicles}).scatter_add(0, receiver, torch::ones(receiver.sizes()));
     }
     std::int64_t vehicles, receivers;
-    Tensor nodes, places, sensor_sigma, path, displacement, reach, true_displacement;
+    Tensor nodes, places, place_sigma, path, displacement, reach, true_displacement;
     Tensor source, receiver, edges, left, right, pair_features, label, weight;
     Tensor degree;  ///< Messages that each row receives.
 };
@@ -214,15 +214,15 @@ struct TorchRepairNet::Parts {
     static Tensor distances(const Motion& motion, const Inputs& inputs, Tensor& score) {
         const std::int64_t known = inputs.vehicles - inputs.receivers;
         const Tensor places = at::cat({motion.place, inputs.places.narrow(0, inputs.receivers, known)}, 0);
-        const Tensor sigmas =
-            at::cat({motion.sigma, inputs.sensor_sigma.narrow(0, inputs.receivers, known)}, 0);
+        const Tensor sigmas = at::cat({motion.sigma, torch::zeros({known, 1})}, 0);
         const Tensor directions = at::cat({motion.direction, torch::zeros({known, 2})}, 0);
         const Tensor apart = rows_of(places, inputs.left) - rows_of(places, inputs.right);
         const Tensor distance = ((apart * apart).sum(1, true) + 1e-3).sqrt();
         const Tensor towards = apart / distance;
         const auto variance = [&](const Tensor& rows) {
             const Tensor along = (rows_of(directions, rows) * towards).sum(1, true);
-            return rows_of(sigmas, rows).square() * (prediction::side_share + along.square());
+            return rows_of(inputs.place_sigma, rows).square() +
+                   rows_of(sigmas, rows).square() * (prediction::side_share + along.square());
         };
         const Tensor spread = (1.0 + variance(inputs.left) + variance(inputs.right)).sqrt();
         score = ((link_radius_m - distance) / spread).clamp(-6.0, 6.0);

@@ -35,7 +35,7 @@ class SyntheticRepair {
             const float speed = uniform();
             inputs.x_m.push_back(x_m);
             inputs.y_m.push_back(0.0F);
-            inputs.sensor_sigma_m.push_back(0.0F);
+            inputs.place_sigma_m.push_back(0.7F * static_cast<float>(row % 4));
             float* const numbers = &inputs.nodes[row * prediction::node_width];
             const bool known = row % 3 != 0;
             numbers[0] = known ? 1.0F : 0.0F;
