@@ -7,6 +7,8 @@
 namespace clearway::prediction {
 namespace {
 
+constexpr float longest_silence_s = 30.0F;
+
 /// What a report says of the state, with the variance of each number.
 struct Measurement {
     std::array<float, 4> value;
@@ -17,6 +19,30 @@ Measurement measurement_of(const traffic::MotionState& seen, float sigma_m, cons
     return {{seen.x_m, seen.y_m, seen.speed_mps * std::cos(seen.heading_rad),
              seen.speed_mps * std::sin(seen.heading_rad)},
             {sigma_m * sigma_m, sigma_m * sigma_m, noise.speed_var, noise.speed_var}};
+}
+
+/// The four numbers one after the other: their errors are independent. A position without a stated error
+/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
+/// gain across the heading, where the filter itself is certain.
+void correct(const Measurement& measured, MotionFilter& filter) {
+    constexpr float least_position_var_m2 = 0.01F;
+    auto& p = filter.covariance;
+    for (std::size_t at = 0; at < 4; ++at) {
+        const float variance =
+            at < 2 ? std::max(measured.variance[at], least_position_var_m2) : measured.variance[at];
+        const float total = p[at][at] + variance;
+        const float innovation = measured.value[at] - filter.mean[at];
+        const std::array<float, 4> row = p[at];
+        for (std::size_t i = 0; i < 4; ++i) {
+            filter.mean[i] += row[i] / total * innovation;
+            for (std::size_t j = 0; j < 4; ++j) {
+                p[i][j] -= row[i] * row[j] / total;
+            }
+        }
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        if (measured.variance[axis] == 0.0F) filter.mean[axis] = measured.value[axis];
+    }
 }
 
 }  // namespace
@@ -58,30 +84,15 @@ void elapse(float elapsed_s, float heading_rad, const FilterNoise& noise, Motion
     }
 }
 
-/// The four numbers one after the other: their errors are independent. A position without a stated error
-/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
-/// gain across the heading, where the filter itself is certain.
-void correct(const traffic::MotionState& seen, float sigma_m, const FilterNoise& noise,
-             MotionFilter& filter) {
-    const Measurement measured = measurement_of(seen, sigma_m, noise);
-    constexpr float least_position_var_m2 = 0.01F;
-    auto& p = filter.covariance;
-    for (std::size_t at = 0; at < 4; ++at) {
-        const float variance =
-            at < 2 ? std::max(measured.variance[at], least_position_var_m2) : measured.variance[at];
-        const float total = p[at][at] + variance;
-        const float innovation = measured.value[at] - filter.mean[at];
-        const std::array<float, 4> row = p[at];
-        for (std::size_t i = 0; i < 4; ++i) {
-            filter.mean[i] += row[i] / total * innovation;
-            for (std::size_t j = 0; j < 4; ++j) {
-                p[i][j] -= row[i] * row[j] / total;
-            }
-        }
+// NOLINTNEXTLINE(readability-function-size): what start() takes, and the time
+void follow(const traffic::MotionState& seen, float sigma_m, float elapsed_s, const FilterNoise& noise,
+            MotionFilter& filter) {
+    if (elapsed_s > longest_silence_s) {
+        start(seen, sigma_m, noise, filter);
+        return;
     }
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        if (measured.variance[axis] == 0.0F) filter.mean[axis] = measured.value[axis];
-    }
+    elapse(elapsed_s, seen.heading_rad, noise, filter);
+    correct(measurement_of(seen, sigma_m, noise), filter);
 }
 
 }  // namespace clearway::prediction

@@ -28,7 +28,11 @@ void start(const traffic::MotionState& seen, float sigma_m, const FilterNoise& n
 /// x += vx t; P = F P F' + Q, Q the noise of a direction times (t^3 / 3, t^2 / 2; t^2 / 2, t).
 void elapse(float elapsed_s, float heading_rad, const FilterNoise& noise, MotionFilter& filter);
 
-/// Takes a report in. A position without a stated error (`sigma_m` 0) is taken as it stands.
-void correct(const traffic::MotionState& seen, float sigma_m, const FilterNoise& noise, MotionFilter& filter);
+/// Takes in a report that comes `elapsed_s` after the one before. A position without a stated error
+/// (`sigma_m` 0) is taken as it stands. After half a minute of silence what was known tells nothing beside a
+/// report, and the filter starts anew: variances that grew for longer would leave the precision of their
+/// numbers.
+void follow(const traffic::MotionState& seen, float sigma_m, float elapsed_s, const FilterNoise& noise,
+            MotionFilter& filter);
 
 }  // namespace clearway::prediction

@@ -132,8 +132,7 @@ class Kalman final : public PairwisePredictor {
         if (filter.measured_s < 0.0 || elapsed_s < 0.0) {
             start(last, sigma_m, noise_, filter.motion);
         } else {
-            elapse(static_cast<float>(elapsed_s), last.heading_rad, noise_, filter.motion);
-            correct(last, sigma_m, noise_, filter.motion);
+            prediction::follow(last, sigma_m, static_cast<float>(elapsed_s), noise_, filter.motion);
         }
         filter.measured_s = measured_s;
     }

@@ -154,8 +154,7 @@ void RoadAheadBuilder::filter_report(const traffic::MotionState& seen, float sig
         start(seen, sigma_m, noise, memory.seen);
         return;
     }
-    elapse(static_cast<float>(report_s - memory.report_s), seen.heading_rad, noise, memory.seen);
-    correct(seen, sigma_m, noise, memory.seen);
+    prediction::follow(seen, sigma_m, static_cast<float>(report_s - memory.report_s), noise, memory.seen);
 }
 
 void RoadAheadBuilder::watch_signals(const traffic::Observation& observation) {

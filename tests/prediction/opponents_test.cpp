@@ -185,6 +185,21 @@ TEST(Kalman, MatchesTheGainWorkedOutByHand) {
     EXPECT_NEAR(now.vehicles[0].sigma_m, std::sqrt(8.75 / 13.75), 1e-4) << "K R, R = I";
 }
 
+TEST(Kalman, KeepsASaneVarianceAfterAnySilence) {
+    const support::Scene scene("10 m per cell\n..e....");
+    for (const double silence_s : {5.0, 29.0, 31.0, 100.0, 400.0, 1000.0}) {
+        for (const char* const name : {"kalman", "route_rule"}) {
+            const auto predictor = make_predictor(name, {scene.network(), {}, "", {}});
+            belief_of(*predictor, report_of(scene, driving(0.0F, 13.7F), 100.0, 100.0, 3.0F));
+            const double then_s = 100.0 + silence_s;
+            const auto now =
+                belief_of(*predictor, report_of(scene, driving(40.0F, 1.3F), then_s, then_s, 3.0F));
+            EXPECT_GT(now.vehicles[0].sigma_m, 2.0F) << name << ", " << silence_s;
+            EXPECT_LE(now.vehicles[0].sigma_m, 3.0F) << name << ", " << silence_s;
+        }
+    }
+}
+
 TEST(Kalman, TakesEachReportOnceAndStartsAnewWithAnOlderOne) {
     const support::Scene scene("10 m per cell\n..e....");
     const auto kalman = make_predictor("kalman", {scene.network(), {}, "", {}});
