@@ -35,8 +35,10 @@ void correct(const Measurement& measured, MotionFilter& filter) {
         const std::array<float, 4> row = p[at];
         for (std::size_t i = 0; i < 4; ++i) {
             filter.mean[i] += row[i] / total * innovation;
-            for (std::size_t j = 0; j < 4; ++j) {
+            // Both halves the same number: what rounding makes of them grows with every step.
+            for (std::size_t j = 0; j <= i; ++j) {
                 p[i][j] -= row[i] * row[j] / total;
+                p[j][i] = p[i][j];
             }
         }
     }

@@ -200,6 +200,22 @@ TEST(Kalman, KeepsASaneVarianceAfterAnySilence) {
     }
 }
 
+TEST(Kalman, KeepsASaneVarianceOverManyReports) {
+    const support::Scene scene("10 m per cell\n..e....");
+    for (const char* const name : {"kalman", "route_rule"}) {
+        const auto predictor = make_predictor(name, {scene.network(), {}, "", {}});
+        for (int second = 0; second < 2000; ++second) {
+            traffic::MotionState state =
+                driving(static_cast<float>(second % 7), static_cast<float>(second % 14));
+            state.heading_rad = 0.7F * static_cast<float>(second % 9);
+            const auto now = belief_of(*predictor, report_of(scene, state, second, second, 1.0F));
+            if (second < 10) continue;
+            ASSERT_GT(now.vehicles[0].sigma_m, 0.3F) << name << ", " << second;
+            ASSERT_LT(now.vehicles[0].sigma_m, 1.0F) << name << ", " << second;
+        }
+    }
+}
+
 TEST(Kalman, TakesEachReportOnceAndStartsAnewWithAnOlderOne) {
     const support::Scene scene("10 m per cell\n..e....");
     const auto kalman = make_predictor("kalman", {scene.network(), {}, "", {}});
