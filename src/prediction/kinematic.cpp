@@ -102,6 +102,19 @@ void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs
     }
 }
 
+void score_by_place(const PairList& candidates, const std::vector<RowBelief>& beliefs, double radius_m,
+                    std::vector<float>& probabilities) {
+    for (std::size_t at = 0; at < candidates.size(); ++at) {
+        const RowBelief& left = beliefs[candidates.rows[at].left];
+        const RowBelief& right = beliefs[candidates.rows[at].right];
+        if (!left.present || !right.present) continue;
+        const float distance_m =
+            std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
+        probabilities[at] = probability_within(static_cast<float>(radius_m), distance_m,
+                                               std::hypot(left.sigma_m, right.sigma_m));
+    }
+}
+
 }  // namespace detail
 
 float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s) {

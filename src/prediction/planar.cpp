@@ -8,7 +8,6 @@
 
 #include "prediction/detail/pairwise.hpp"
 #include "prediction/disc_probability.hpp"
-#include "prediction/kinematic.hpp"
 #include "prediction/motion_filter.hpp"
 
 namespace clearway::prediction {
@@ -21,12 +20,6 @@ using detail::RowBelief;
 constexpr float least_directed_mps = 0.1F;
 /// Reports are at least 0.1 s apart; times closer than this are one, s.
 constexpr double same_time_s = 0.01;
-
-float offset_m(const std::vector<RowBelief>& beliefs, RowPair pair) {
-    const traffic::MotionState& left = beliefs[pair.left].state;
-    const traffic::MotionState& right = beliefs[pair.right].state;
-    return std::hypot(left.x_m - right.x_m, left.y_m - right.y_m);
-}
 
 class HeadingReckoning final : public PairwisePredictor {
   public:
@@ -51,13 +44,7 @@ class HeadingReckoning final : public PairwisePredictor {
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
-            const RowPair pair = scene.candidates.rows[at];
-            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
-            const float sigma_m = std::hypot(beliefs[pair.left].sigma_m, beliefs[pair.right].sigma_m);
-            probabilities[at] =
-                probability_within(static_cast<float>(rules().radius_m), offset_m(beliefs, pair), sigma_m);
-        }
+        detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
     }
 
     float speed_change_mps_;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "prediction/detail/pairwise.hpp"
-#include "prediction/kinematic.hpp"
 #include "prediction/road_ahead.hpp"
 #include "roads/route.hpp"
 
@@ -48,16 +47,7 @@ class RouteRule final : public PairwisePredictor {
 
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        const auto radius_m = static_cast<float>(rules().radius_m);
-        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
-            const RowBelief& left = beliefs[scene.candidates.rows[at].left];
-            const RowBelief& right = beliefs[scene.candidates.rows[at].right];
-            if (!left.present || !right.present) continue;
-            const float distance_m =
-                std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
-            probabilities[at] =
-                probability_within(radius_m, distance_m, std::hypot(left.sigma_m, right.sigma_m));
-        }
+        detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
     }
 
     RoadAheadBuilder roads_;

@@ -18,6 +18,9 @@ struct RowBelief {
 void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs);
 /// Dead-reckoned states with the sigma of kinematic.hpp; those past the end of their route are absent.
 void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs);
+/// P(d < radius) by the distance of the believed places (kinematic.hpp); absent vehicles keep theirs.
+void score_by_place(const PairList& candidates, const std::vector<RowBelief>& beliefs, double radius_m,
+                    std::vector<float>& probabilities);
 
 /// Frame of every predictor that judges vehicles one by one and candidates pair by pair: builds the scene,
 /// asks the derived class for both, and writes the believed graph. Known pairs are linked when their
