@@ -44,7 +44,7 @@ ShapePlace place_on_shape(const Lane& lane, core::Metres position) {
 
 Network Network::read(const std::filesystem::path& file) {
     NetworkBuilder builder(file);
-    detail::stream_xml(file, builder);
+    stream_xml(file, builder);
     return builder.finish();
 }
 

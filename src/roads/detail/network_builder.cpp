@@ -34,8 +34,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 }  // namespace
 
-void NetworkBuilder::start(std::string_view element, const detail::XmlAttributes& attributes,
-                           unsigned long line) {
+void NetworkBuilder::start(std::string_view element, const XmlAttributes& attributes, unsigned long line) {
     line_ = line;
     ++depth_;
     if (depth_ == 1) {
@@ -78,12 +77,12 @@ void NetworkBuilder::add_problem(std::string what, std::string allowed, std::str
     throw core::InputError(std::move(problems_));
 }
 
-double NetworkBuilder::number_or(const detail::XmlAttributes& attributes, const char* name, double minimum,
+double NetworkBuilder::number_or(const XmlAttributes& attributes, const char* name, double minimum,
                                  double maximum, double missing) {
     return attributes.find(name) ? number(attributes, name, minimum, maximum) : missing;
 }
 
-double NetworkBuilder::number(const detail::XmlAttributes& attributes, const char* name, double minimum,
+double NetworkBuilder::number(const XmlAttributes& attributes, const char* name, double minimum,
                               double maximum) {
     const std::string_view given = attributes.find(name).value_or("");
     const auto value = detail::parse_number(given);
@@ -94,13 +93,13 @@ double NetworkBuilder::number(const detail::XmlAttributes& attributes, const cha
     return 0.0;
 }
 
-std::string NetworkBuilder::text(const detail::XmlAttributes& attributes, const char* name) {
+std::string NetworkBuilder::text(const XmlAttributes& attributes, const char* name) {
     const auto value = attributes.find(name);
     if (!value || value->empty()) add_problem(fmt::format("lacks the attribute {}", name));
     return std::string(value.value_or(""));
 }
 
-std::vector<Point> NetworkBuilder::shape(const detail::XmlAttributes& attributes) {
+std::vector<Point> NetworkBuilder::shape(const XmlAttributes& attributes) {
     const std::string_view given = attributes.find("shape").value_or("");
     std::vector<Point> points;
     bool sound = true;
@@ -120,7 +119,7 @@ std::vector<Point> NetworkBuilder::shape(const detail::XmlAttributes& attributes
     return points;
 }
 
-void NetworkBuilder::read_location(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_location(const XmlAttributes& attributes) {
     std::vector<double> numbers;
     const std::string given = text(attributes, "netOffset") + "," + text(attributes, "convBoundary");
     detail::for_each_word(given, ',', [&](std::string_view word) {
@@ -136,7 +135,7 @@ void NetworkBuilder::read_location(const detail::XmlAttributes& attributes) {
                           numbers[4], numbers[5]};
 }
 
-void NetworkBuilder::read_edge(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_edge(const XmlAttributes& attributes) {
     Edge edge;
     edge.id = text(attributes, "id");
     edge.name = attributes.find("name").value_or("");
@@ -155,7 +154,7 @@ void NetworkBuilder::read_edge(const detail::XmlAttributes& attributes) {
     network_.edges_.push_back(std::move(edge));
 }
 
-void NetworkBuilder::read_lane(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_lane(const XmlAttributes& attributes) {
     Edge& edge = network_.edges_.back();
     Lane lane;
     lane.id = text(attributes, "id");
@@ -188,7 +187,7 @@ void NetworkBuilder::end_edge() {
     if (edge.lane_count == 0) add_problem(fmt::format("edge \"{}\" has no lane", edge.id));
 }
 
-void NetworkBuilder::read_program(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_program(const XmlAttributes& attributes) {
     const std::string id = text(attributes, "id");
     const auto row = static_cast<std::uint32_t>(network_.signals_.size());
     const auto [entry, is_new] = network_.signal_rows_.try_emplace(id, row);
@@ -200,7 +199,7 @@ void NetworkBuilder::read_program(const detail::XmlAttributes& attributes) {
     phases_.clear();
 }
 
-void NetworkBuilder::read_phase(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_phase(const XmlAttributes& attributes) {
     phases_.push_back({number(attributes, "duration", 0, any), text(attributes, "state")});
     const Phase& phase = phases_.back();
     if (phase.state.size() != phases_.front().state.size()) {
@@ -219,7 +218,7 @@ void NetworkBuilder::end_program() {
     program_signal_->program = std::move(phases_);
 }
 
-void NetworkBuilder::read_junction(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_junction(const XmlAttributes& attributes) {
     const std::string_view type = attributes.find("type").value_or("");
     in_junction_ = type.starts_with("traffic_light");
     if (type.starts_with("rail_")) railway_signals_.insert(text(attributes, "id"));
@@ -231,7 +230,7 @@ void NetworkBuilder::read_junction(const detail::XmlAttributes& attributes) {
     junctions_.push_back(std::move(junction));
 }
 
-void NetworkBuilder::read_request(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_request(const XmlAttributes& attributes) {
     Junction& junction = junctions_.back();
     const double index = number(attributes, "index", 0, 1e4);
     if (index != static_cast<double>(junction.foes.size())) {
@@ -240,7 +239,7 @@ void NetworkBuilder::read_request(const detail::XmlAttributes& attributes) {
     junction.foes.push_back(text(attributes, "foes"));
 }
 
-core::LaneIndex NetworkBuilder::connection_end(const detail::XmlAttributes& attributes, const char* edge_name,
+core::LaneIndex NetworkBuilder::connection_end(const XmlAttributes& attributes, const char* edge_name,
                                                const char* lane_name) {
     const std::string id = text(attributes, edge_name);
     const auto edge = network_.find_edge(id);
@@ -257,7 +256,7 @@ core::LaneIndex NetworkBuilder::connection_end(const detail::XmlAttributes& attr
     return lane;
 }
 
-void NetworkBuilder::read_connection(const detail::XmlAttributes& attributes) {
+void NetworkBuilder::read_connection(const XmlAttributes& attributes) {
     Connection connection;
     connection.from = connection_end(attributes, "from", "fromLane");
     connection.to = connection_end(attributes, "to", "toLane");
@@ -284,7 +283,7 @@ void NetworkBuilder::read_connection(const detail::XmlAttributes& attributes) {
     network_.connections_.push_back(connection);
 }
 
-void NetworkBuilder::set_signal(const detail::XmlAttributes& attributes, Connection& connection) {
+void NetworkBuilder::set_signal(const XmlAttributes& attributes, Connection& connection) {
     const auto id = attributes.find("tl");
     if (!id || railway_signals_.contains(std::string(*id))) return;
     const auto signal = network_.find_signal(*id);

@@ -8,19 +8,18 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "roads/detail/xml_stream.hpp"
 #include "roads/network.hpp"
+#include "roads/xml_stream.hpp"
 
 namespace clearway::roads {
 
 /// Turns the elements of a network file into a Network. Elements must come in SUMO's order: edges, signal
 /// programs, junctions, connections. Problems are collected (at most 20) and thrown at the end.
-class NetworkBuilder : public detail::XmlHandler {
+class NetworkBuilder : public XmlHandler {
   public:
     explicit NetworkBuilder(const std::filesystem::path& file) : file_(file.string()) {}
 
-    void start(std::string_view element, const detail::XmlAttributes& attributes,
-               unsigned long line) override;
+    void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) override;
     void end(std::string_view element) override;
     /// Everything that needs the whole file. Throws core::InputError with all problems met.
     Network finish();
@@ -40,24 +39,24 @@ class NetworkBuilder : public detail::XmlHandler {
 
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
     /// A required number; reports a missing, malformed or out-of-range one and answers 0.
-    double number(const detail::XmlAttributes& attributes, const char* name, double minimum, double maximum);
-    double number_or(const detail::XmlAttributes& attributes, const char* name, double minimum,
-                     double maximum, double missing);
-    std::string text(const detail::XmlAttributes& attributes, const char* name);
-    std::vector<Point> shape(const detail::XmlAttributes& attributes);
+    double number(const XmlAttributes& attributes, const char* name, double minimum, double maximum);
+    double number_or(const XmlAttributes& attributes, const char* name, double minimum, double maximum,
+                     double missing);
+    std::string text(const XmlAttributes& attributes, const char* name);
+    std::vector<Point> shape(const XmlAttributes& attributes);
 
-    void read_location(const detail::XmlAttributes& attributes);
-    void read_edge(const detail::XmlAttributes& attributes);
-    void read_lane(const detail::XmlAttributes& attributes);
+    void read_location(const XmlAttributes& attributes);
+    void read_edge(const XmlAttributes& attributes);
+    void read_lane(const XmlAttributes& attributes);
     void end_edge();
-    void read_program(const detail::XmlAttributes& attributes);
-    void read_phase(const detail::XmlAttributes& attributes);
+    void read_program(const XmlAttributes& attributes);
+    void read_phase(const XmlAttributes& attributes);
     void end_program();
-    void read_junction(const detail::XmlAttributes& attributes);
-    void read_request(const detail::XmlAttributes& attributes);
-    void read_connection(const detail::XmlAttributes& attributes);
-    void set_signal(const detail::XmlAttributes& attributes, Connection& connection);
-    core::LaneIndex connection_end(const detail::XmlAttributes& attributes, const char* edge_name,
+    void read_junction(const XmlAttributes& attributes);
+    void read_request(const XmlAttributes& attributes);
+    void read_connection(const XmlAttributes& attributes);
+    void set_signal(const XmlAttributes& attributes, Connection& connection);
+    core::LaneIndex connection_end(const XmlAttributes& attributes, const char* edge_name,
                                    const char* lane_name);
 
     void group_connections();

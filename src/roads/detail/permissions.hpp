@@ -1,6 +1,6 @@
 #pragma once
 
-#include "roads/detail/xml_stream.hpp"
+#include "roads/xml_stream.hpp"
 
 namespace clearway::roads::detail {
 

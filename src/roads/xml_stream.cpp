@@ -1,4 +1,4 @@
-#include "roads/detail/xml_stream.hpp"
+#include "roads/xml_stream.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 
-namespace clearway::roads::detail {
+namespace clearway::roads {
 namespace {
 
 constexpr int chunk_bytes = 1 << 18;
@@ -102,4 +102,4 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     }
 }
 
-}  // namespace clearway::roads::detail
+}  // namespace clearway::roads

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace clearway::roads::detail {
+namespace clearway::roads {
 
 /// The attributes of one element, valid while it is handled.
 class XmlAttributes {
@@ -13,6 +13,12 @@ class XmlAttributes {
     explicit XmlAttributes(const char** pairs) : pairs_(pairs) {}
     /// Nothing when the element has no such attribute.
     std::optional<std::string_view> find(std::string_view name) const;
+    /// Calls `visit(name, value)` for each, in the order of the file.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (const char** pair = pairs_; *pair != nullptr; pair += 2)
+            visit(std::string_view(pair[0]), std::string_view(pair[1]));
+    }
 
   private:
     const char** pairs_;
@@ -35,4 +41,4 @@ class XmlHandler {
 /// core::InputError naming file and line when it is missing, damaged or not XML.
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler);
 
-}  // namespace clearway::roads::detail
+}  // namespace clearway::roads
