@@ -44,6 +44,10 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
     app.add_option("--step-length", options.step_length_s, "Simulation step, s")
         ->option_text("SECONDS, 0.1 to 0.25 [0.25]")
         ->group(group);
+    app.add_option("--time-to-teleport", options.time_to_teleport_s,
+                   "SUMO lifts a vehicle that stood this long over the jam, s; -1: never")
+        ->option_text("SECONDS, -1 to 86400 [300]")
+        ->group(group);
     static const std::map<std::string, scenario::IdmPreset> presets = {
         {"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}};
     app.add_option_function<std::string>(

@@ -40,6 +40,8 @@ sumo::SessionConfig session_config(const results::UnitSpec& unit, const scenario
     config.folder = folder;
     config.step_length = core::Seconds(prepared.time.step_length_s);
     config.seed = prepared.simulator_seed;
+    if (prepared.time.time_to_teleport_s)
+        config.time_to_teleport = core::Seconds(*prepared.time.time_to_teleport_s);
     if (unit.engine == results::Engine::sublane) {
         config.extra_arguments = {"--lateral-resolution", lateral_resolution_m};
     }

@@ -28,6 +28,12 @@ void read_subtable(TableReader& parent, const std::string& key, Reading& reading
 }
 
 template <class Struct>
+void read_subtable(TableReader& parent, const std::string& key, Reading& reading,
+                   std::optional<Struct>& target) {
+    if (parent.table(key) != nullptr) read_subtable(parent, key, reading, target.emplace());
+}
+
+template <class Struct>
 void read_list(TableReader& parent, const std::string& key, Reading& reading, std::vector<Struct>& target) {
     std::size_t number = 0;
     for (const toml::table* table : parent.tables(key)) {
@@ -57,15 +63,7 @@ void read_measured(TableReader& root, Reading& reading, ScenarioConfig& config) 
     reader.texts("routes", measured.routes);
     reader.texts("additional", measured.additional);
     read_list(reader, "type", reading, measured.types);
-    reader.finish();
-}
-
-void read_dense(TableReader& root, Reading& reading, ScenarioConfig& config) {
-    const toml::table* table = root.table("dense");
-    if (table == nullptr) return;
-    Dense& dense = config.dense.emplace();
-    TableReader reader(*table, "dense", reading);
-    reader.read(dense);
+    read_subtable(reader, "own_types", reading, measured.own_types);
     reader.finish();
 }
 
@@ -77,13 +75,14 @@ void read_root(const toml::table& table, Reading& reading, ScenarioConfig& confi
     read_subtable(root, "network", reading, config.network);
     read_subtable(root, "time", reading, config.time);
     read_subtable(root, "demand", reading, config.demand);
-    read_dense(root, reading, config);
+    read_subtable(root, "dense", reading, config.dense);
     read_subtable(root, "limits", reading, config.limits);
     read_subtable(root, "drivers", reading, config.drivers);
     read_kinds(root, reading, config);
     read_subtable(root, "trips", reading, config.trips);
     read_list(root, "flow", reading, config.flows);
     read_list(root, "emergency_trip", reading, config.emergency_trips);
+    read_list(root, "emergency_site", reading, config.emergency_sites);
     read_measured(root, reading, config);
     root.finish();
 }

@@ -19,6 +19,11 @@ enum class IdmPreset { sumo, treiber };
 enum class Restriction { none, largest_car_component };
 /// Which lanes a measured vehicle may use: those of its kind, or all (SUMO's class `ignoring`).
 enum class Access { own, unrestricted };
+/// How the vehicles of an imported demand follow each other: by the model of their own type, or by the
+/// Intelligent Driver Model of `[drivers]`.
+enum class CarFollowing { own, idm };
+/// A place that emergency vehicles start from or drive to.
+enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
 /// Where the demand of a scenario comes from.
 enum class DemandKind { flows, trips, measured };
@@ -37,6 +42,15 @@ constexpr auto spellings(Restriction) {
 constexpr auto spellings(Access) {
     return std::array{Spelling<Access>{Access::own, "own"},
                       Spelling<Access>{Access::unrestricted, "unrestricted"}};
+}
+constexpr auto spellings(CarFollowing) {
+    return std::array{Spelling<CarFollowing>{CarFollowing::own, "own"},
+                      Spelling<CarFollowing>{CarFollowing::idm, "idm"}};
+}
+constexpr auto spellings(SiteKind) {
+    return std::array{Spelling<SiteKind>{SiteKind::hospital, "hospital"},
+                      Spelling<SiteKind>{SiteKind::ambulance_station, "ambulance_station"},
+                      Spelling<SiteKind>{SiteKind::fire_station, "fire_station"}};
 }
 
 /// Table `[network]`: plain XML files for netconvert, or a network file to import. Paths are relative to the
@@ -73,6 +87,7 @@ struct Times {
     double window_s = 120.0;
     double horizon_s = 1800.0;
     double step_length_s = 0.25;
+    std::optional<double> time_to_teleport_s;
 
     static constexpr auto fields() {
         using S = Times;
@@ -86,7 +101,10 @@ struct Times {
                         "A run that is not over by then is cut, and its vehicles count as running at end.",
                         "assumed: several times the longest free trip"},
             core::Field{"step_length_s", "s", &S::step_length_s, 0.1, 0.25, "Simulation step.",
-                        "docs/decisions/0001-step-length.md"});
+                        "docs/decisions/0001-step-length.md"},
+            core::Field{"time_to_teleport_s", "s", &S::time_to_teleport_s, -1.0, 86400.0,
+                        "SUMO lifts a vehicle that stood this long over the jam; -1: never.",
+                        "none: SUMO's 300 s"});
     }
 };
 
@@ -220,6 +238,7 @@ struct Trips {
     double minimum_length_m = 500.0;
     double emergency_minimum_length_m = 1000.0;
     double minimum_edge_m = 20.0;
+    std::optional<double> maximum_distance_m;
 
     static constexpr auto fields() {
         using S = Trips;
@@ -230,7 +249,25 @@ struct Trips {
                         "Shortest trip of an emergency vehicle.", "facts of the project"},
             core::Field{"minimum_edge_m", "m", &S::minimum_edge_m, 0.0, 1000.0,
                         "Trips start and end on edges at least this long.",
-                        "assumed: the longest vehicle, a bus of 12 m, fits"});
+                        "assumed: the longest vehicle, a bus of 12 m, fits"},
+            core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
+                        "Longest straight line between the ends of a trip.", "none: no limit"});
+    }
+};
+
+/// One of `[[emergency_site]]`: where emergency vehicles of trips and of measured demand start or arrive.
+struct EmergencySite {
+    SiteKind kind = SiteKind::hospital;
+    std::string edge;
+    std::string name;
+
+    static constexpr auto fields() {
+        using S = EmergencySite;
+        return std::make_tuple(
+            core::Field{"kind", "", &S::kind, 0, 0, "hospital, ambulance_station or fire_station.",
+                        "scenario"},
+            core::Field{"edge", "", &S::edge, 0, 0, "Edge that it lies at.", "scenario"},
+            core::Field{"name", "", &S::name, 0, 0, "Its name on the map; text from a file.", "none"});
     }
 };
 
@@ -277,10 +314,28 @@ struct MeasuredType {
 
     static constexpr auto fields() {
         using S = MeasuredType;
-        return std::make_tuple(core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
-                               core::Field{"kind", "", &S::kind, 0, 0, "car, van, truck or bus.", "car"},
-                               core::Field{"access", "", &S::access, 0, 0,
-                                           "own: the lanes of its kind; unrestricted: all lanes.", "own"});
+        return std::make_tuple(
+            core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
+            core::Field{"kind", "", &S::kind, 0, 0, "car, van, truck, bus, or other (of own_types).", "car"},
+            core::Field{"access", "", &S::access, 0, 0,
+                        "own: the lanes of its kind; unrestricted: all lanes.", "own"});
+    }
+};
+
+/// Table `[measured.own_types]`: the vehicles keep the size, dynamics and permissions of their own types,
+/// which stand in a file of SUMO. Without it they get those of their kind. Automated vehicles follow by the
+/// Intelligent Driver Model in any case.
+struct OwnTypes {
+    std::string file;
+    CarFollowing car_following = CarFollowing::own;
+
+    static constexpr auto fields() {
+        using S = OwnTypes;
+        return std::make_tuple(
+            core::Field{"file", "", &S::file, 0, 0, "Additional file with a <vType> for each measured.type.",
+                        "scenario"},
+            core::Field{"car_following", "", &S::car_following, 0, 0,
+                        "own: as the types say; idm: parameters of [drivers].", "own"});
     }
 };
 
@@ -292,6 +347,7 @@ struct Measured {
     std::vector<std::string> routes;
     std::vector<std::string> additional;
     std::vector<MeasuredType> types;
+    std::optional<OwnTypes> own_types;
 
     static constexpr auto fields() {
         using S = Measured;
@@ -321,6 +377,7 @@ struct ScenarioConfig {
     Trips trips;
     std::vector<Flow> flows;
     std::vector<EmergencyTrip> emergency_trips;
+    std::vector<EmergencySite> emergency_sites;
     std::optional<Measured> measured;
 
     std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.
@@ -335,15 +392,16 @@ struct ScenarioConfig {
 /// What a user changes from the command line. An empty optional leaves the file's value.
 struct Options {
     Variant variant = Variant::standard;
-    std::optional<double> density;          ///< --density
-    std::optional<double> automated_share;  ///< --av-share, 0 to 1
-    std::optional<double> road_limit_kmh;   ///< --road-limit
-    std::optional<double> warm_up_s;        ///< --warm-up
-    std::optional<double> horizon_s;        ///< --horizon
-    std::optional<double> step_length_s;    ///< --step-length
-    std::optional<IdmPreset> idm;           ///< --idm
-    std::string traffic_kinds;              ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
-    std::string emergency_kinds;            ///< --emergency-kinds, `ambulance=1,police_car=1`
+    std::optional<double> density;             ///< --density
+    std::optional<double> automated_share;     ///< --av-share, 0 to 1
+    std::optional<double> road_limit_kmh;      ///< --road-limit
+    std::optional<double> warm_up_s;           ///< --warm-up
+    std::optional<double> horizon_s;           ///< --horizon
+    std::optional<double> step_length_s;       ///< --step-length
+    std::optional<double> time_to_teleport_s;  ///< --time-to-teleport
+    std::optional<IdmPreset> idm;              ///< --idm
+    std::string traffic_kinds;    ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
+    std::string emergency_kinds;  ///< --emergency-kinds, `ambulance=1,police_car=1`
     /// Keys of scenario.toml that replace the file's before it is read, `demand.human` -> `40` as TOML writes
     /// the value. Lists of tables cannot be reached.
     std::map<std::string, std::string> settings = {};

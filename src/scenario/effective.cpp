@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -20,20 +21,28 @@ std::string value_text(const Member& value) {
         return detail::quoted(value);
     } else if constexpr (std::is_enum_v<Member>) {
         return detail::quoted(detail::spelling(value));
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+        return fmt::format("{}", *value);
     } else {
         return fmt::format("{}", value);
     }
 }
 
-/// Members of a struct as lines `key = value`; empty texts are left out, for they are the absence of a value.
+/// Empty texts and empty optionals are the absence of a value.
+template <class Member>
+bool is_absent(const Member& value) {
+    if constexpr (std::is_same_v<Member, std::string>) return value.empty();
+    if constexpr (std::is_same_v<Member, std::optional<double>>) return !value.has_value();
+    return false;
+}
+
+/// Members of a struct as lines `key = value`; what is absent is left out.
 template <class Struct>
 std::string members(const Struct& values) {
     std::string text;
     core::for_each_field<Struct>([&](const auto& field) {
         const auto& value = values.*field.member;
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
-            if (value.empty()) return;
-        }
+        if (is_absent(value)) return;
         text += fmt::format("{} = {}\n", field.name, value_text(value));
     });
     return text;
@@ -55,9 +64,10 @@ std::string tables(const char* name, const std::vector<Struct>& rows) {
 }
 
 std::string measured_text(const Measured& measured) {
-    return fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n{}", members(measured),
-                       text_array(measured.routes), text_array(measured.additional),
-                       tables("measured.type", measured.types));
+    std::string text = fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n", members(measured),
+                                   text_array(measured.routes), text_array(measured.additional));
+    if (measured.own_types) text += "\n[measured.own_types]\n" + members(*measured.own_types);
+    return text + tables("measured.type", measured.types);
 }
 
 /// The files that a configuration names relative to its folder.
@@ -68,6 +78,7 @@ std::vector<std::string> own_files(const ScenarioConfig& config) {
     if (config.measured) {
         files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());
         files.insert(files.end(), config.measured->additional.begin(), config.measured->additional.end());
+        if (config.measured->own_types) files.push_back(config.measured->own_types->file);
     }
     std::erase_if(files, [](const std::string& file) {
         return file.empty() || file.front() == '$' || std::filesystem::path(file).is_absolute();
@@ -112,6 +123,7 @@ std::string to_toml(const ScenarioConfig& config) {
     text += "\n[trips]\n" + members(config.trips);
     text += tables("flow", config.flows);
     text += tables("emergency_trip", config.emergency_trips);
+    text += tables("emergency_site", config.emergency_sites);
     if (config.measured) text += measured_text(*config.measured);
     return text;
 }

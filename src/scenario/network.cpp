@@ -8,7 +8,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/units.hpp"
-#include "scenario/detail/network_document.hpp"
+#include "scenario/network_document.hpp"
 
 namespace clearway::scenario {
 
@@ -99,11 +99,11 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
         run_netconvert(config, arguments, folder);
     } else {
         const std::filesystem::path source = resolve(config, config.network.file);
-        core::write_atomically(raw, detail::NetworkDocument(source).without_newer_classes().text());
+        core::write_atomically(raw, NetworkDocument(source).without_newer_classes().text());
         if (config.network.restrict == Restriction::largest_car_component)
             restrict_network(config, folder, raw);
     }
-    detail::NetworkDocument document(raw);
+    NetworkDocument document(raw);
     if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
     core::write_atomically(folder / network_name, document.text());
     std::filesystem::remove(raw);

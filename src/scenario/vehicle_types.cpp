@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.hpp"
+#include "scenario/detail/own_types.hpp"
 #include "traffic/departure.hpp"
 
 namespace clearway::scenario {
@@ -94,9 +95,11 @@ std::string type_id(VehicleClass vehicle_class, VehicleKind kind, Access access)
 
 std::string vehicle_types_xml(const ScenarioConfig& config) {
     std::vector<Access> accesses = {Access::own};
+    const bool keeps_types = config.measured && config.measured->own_types;
     if (config.measured) accesses.push_back(Access::unrestricted);
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<additional>\n";
-    for (const Access access : accesses) {
+    if (keeps_types) xml += detail::own_types_xml(config);
+    for (const Access access : keeps_types ? std::vector<Access>{} : accesses) {
         for (const KindProperties& kind : kinds) {
             if (is_emergency(kind)) continue;
             xml += type_xml(config, VehicleClass::human, kind, access);

@@ -27,8 +27,9 @@ void append(Problems& problems, const core::InputError& error) {
 
 /// Keys of `[overrides]`, which factors of scenarios may set, too.
 const std::vector<std::string> override_keys = {
-    "variant",       "density", "automated_share", "road_limit_kmh", "warm_up_s", "horizon_s",
-    "step_length_s", "idm",     "traffic_kinds",   "emergency_kinds"};
+    "variant",   "density",       "automated_share", "road_limit_kmh",
+    "warm_up_s", "horizon_s",     "step_length_s",   "time_to_teleport_s",
+    "idm",       "traffic_kinds", "emergency_kinds"};
 
 scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
@@ -42,6 +43,7 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     reader.number("warm_up_s", options.warm_up_s);
     reader.number("horizon_s", options.horizon_s);
     reader.number("step_length_s", options.step_length_s);
+    reader.number("time_to_teleport_s", options.time_to_teleport_s);
     reader.word<scenario::IdmPreset>(
         "idm", {{"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}}, options.idm);
     reader.text("traffic_kinds", options.traffic_kinds);

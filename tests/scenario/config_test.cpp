@@ -13,6 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Config : public ScratchTest {
   protected:
@@ -264,6 +265,25 @@ TEST_F(Config, sumo_home_is_needed_only_by_scenarios_that_refer_to_it) {
     unsetenv("SUMO_HOME");
     EXPECT_NO_THROW(load("merge"));
     EXPECT_THROW(load("city"), core::EnvironmentError);
+}
+
+TEST_F(Config, keys_that_may_be_absent_are_written_when_they_are_there) {
+    write("line.nod.xml", line_nodes);
+    write("line.edg.xml", line_edges);
+    const std::string demand = "[demand]\nhuman = 1\n";
+    const ScenarioConfig plain = load(write("plain.toml", line_head + demand).string());
+    for (const char* const key : {"time_to_teleport_s", "maximum_distance_m", "emergency_site", "own_types"})
+        EXPECT_THAT(to_toml(plain), Not(HasSubstr(key)));
+    const ScenarioConfig config =
+        load(write("full.toml", line_head + demand +
+                                    "[time]\ntime_to_teleport_s = -1\n[trips]\nmaximum_distance_m = 900.0\n"
+                                    "[[emergency_site]]\nkind = \"fire_station\"\nedge = \"first\"\n")
+                 .string());
+    EXPECT_EQ(config.time.time_to_teleport_s, -1.0);
+    EXPECT_EQ(config.trips.maximum_distance_m, 900.0);
+    EXPECT_EQ(config.emergency_sites.at(0).kind, SiteKind::fire_station);
+    const ScenarioConfig again = load(write("again.toml", to_toml(config)).string());
+    EXPECT_EQ(to_toml(again), to_toml(config));
 }
 
 }  // namespace

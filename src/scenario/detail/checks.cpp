@@ -24,7 +24,8 @@ void set(const char* option, const char* field_name, std::optional<double> value
          Problems& problems) {
     if (!value) return;
     core::for_each_field<Struct>([&](const auto& field) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(target.*field.member)>, double>) {
+        using Member = std::decay_t<decltype(target.*field.member)>;
+        if constexpr (std::is_same_v<Member, double> || std::is_same_v<Member, std::optional<double>>) {
             if (std::string(field_name) != field.name) return;
             if (*value >= field.minimum && *value <= field.maximum) {
                 target.*field.member = *value;
@@ -205,15 +206,30 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
         check_file(config, "measured.routes", path, problems);
     for (const std::string& path : measured.additional)
         check_file(config, "measured.additional", path, problems);
+    if (measured.own_types) {
+        require_text(config, "measured.own_types.file", measured.own_types->file, problems);
+        check_file(config, "measured.own_types.file", measured.own_types->file, problems);
+    }
     for (std::size_t row = 0; row < measured.types.size(); ++row) {
-        bool known = false;
+        bool known = measured.own_types && measured.types[row].kind == "other";
         core::for_each_field<TrafficKinds>(
             [&](const auto& field) { known |= measured.types[row].kind == field.name; });
         if (!known)
             problems.push_back({config.where(fmt::format("measured.type[{}].kind", row)),
                                 fmt::format("\"{}\" is not known", measured.types[row].kind),
-                                "car, van, truck, bus", ""});
+                                measured.own_types ? "car, van, truck, bus, other" : "car, van, truck, bus",
+                                ""});
     }
+}
+
+void check_sites(const ScenarioConfig& config, Problems& problems) {
+    if (!config.emergency_sites.empty() && config.demand_kind() == DemandKind::flows)
+        problems.push_back({config.where("emergency_site[0]"), "stands beside [[flow]]", "trips or measured",
+                            "remove one; [[emergency_trip]] adds single emergency vehicles"});
+    for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
+        if (config.emergency_sites[row].edge.empty())
+            problems.push_back({config.where(fmt::format("emergency_site[{}]", row)), "has no edge",
+                                "id of an edge", "set it"});
 }
 
 template <class Struct>
@@ -282,6 +298,7 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     set("--warm-up", "warm_up_s", options.warm_up_s, config.time, problems);
     set("--horizon", "horizon_s", options.horizon_s, config.time, problems);
     set("--step-length", "step_length_s", options.step_length_s, config.time, problems);
+    set("--time-to-teleport", "time_to_teleport_s", options.time_to_teleport_s, config.time, problems);
     if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
     if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
     if (options.idm) config.drivers.idm = *options.idm;
@@ -300,6 +317,7 @@ void check(const ScenarioConfig& config, Problems& problems) {
     check_emergency_trips(config, problems);
     check_density(config, problems);
     check_measured(config, problems);
+    check_sites(config, problems);
     check_drivers(config, problems);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "roads/route.hpp"
+#include "scenario/detail/trip_routes.hpp"
 #include "scenario/vehicle_types.hpp"
 
 namespace clearway::scenario::detail {
@@ -21,11 +22,9 @@ namespace {
 using core::Purpose;
 using traffic::VehicleClass;
 using traffic::VehicleKind;
-using RouteEdges = std::vector<core::EdgeIndex>;
 
-/// Counters of the draws of one vehicle; the destination's counters follow `origin` in pairs. Never
-/// renumbered.
-enum DemandDraw : std::uint64_t { depart = 0, flow = 1, first_trip = 16 };
+/// Counters of the draws of one vehicle; those of trip_routes.cpp follow. Never renumbered.
+enum DemandDraw : std::uint64_t { depart = 0, flow = 1 };
 enum ClassDraw : std::uint64_t { automated = 0, kind = 1 };
 
 double rounded(double value, double unit) {
@@ -120,62 +119,6 @@ class FlowRoutes {
     std::vector<double> shares_;
 };
 
-/// Whether a route turns round somewhere, into the opposite direction of the road that it came on.
-bool turns_round(const roads::Network& network, const RouteEdges& route) {
-    for (std::size_t row = 0; row + 1 < route.size(); ++row) {
-        const roads::Edge& edge = network.edge(route[row]);
-        for (std::uint32_t lane = 0; lane < edge.lane_count; ++lane)
-            for (const roads::Connection& way : network.connections_from(network.lane_of(route[row], lane)))
-                if (way.direction == 't' && network.lane(way.to).edge == route[row + 1]) return true;
-    }
-    return false;
-}
-
-/// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough and does
-/// not turn round, for nobody sets out in the wrong direction.
-class TripRoutes {
-  public:
-    explicit TripRoutes(const DemandContext& context) : context_(context) {
-        for (const core::EdgeIndex edge : roads::largest_car_component(context.network)) {
-            const float length_m = context.network.edge(edge).length_m;
-            if (length_m < context.config.trips.minimum_edge_m) continue;
-            edges_.push_back(edge);
-            reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) + length_m);
-        }
-        if (edges_.empty())
-            throw core::InputError(core::Problem{context.config.where("trips.minimum_edge_m"),
-                                                 "leaves no edge for trips to start and end on",
-                                                 "shorter than the longest edge", "lower it"});
-    }
-    RouteEdges operator()(Purpose purpose, const std::string& id, const char* key, double minimum_m) const {
-        constexpr std::uint64_t tries = 1000;
-        for (std::uint64_t attempt = 0; attempt < tries; ++attempt) {
-            const std::uint64_t counter = DemandDraw::first_trip + 2 * attempt;
-            const auto route = roads::fastest_route(context_.network, edge(purpose, id, counter),
-                                                    edge(purpose, id, counter + 1));
-            if (route && roads::route_length(context_.network, *route).value >= minimum_m &&
-                !turns_round(context_.network, *route))
-                return *route;
-        }
-        throw core::InputError(
-            core::Problem{context_.config.where(fmt::format("trips.{}", key)),
-                          fmt::format("no trip of {} m or more in {} draws", minimum_m, tries),
-                          "shorter trips", "lower it"});
-    }
-
-  private:
-    core::EdgeIndex edge(Purpose purpose, const std::string& id, std::uint64_t counter) const {
-        const double at_m =
-            context_.random.uniform(purpose, core::vehicle_key(id).value, counter) * reached_m_.back();
-        const auto row = std::upper_bound(reached_m_.begin(), reached_m_.end(), at_m) - reached_m_.begin();
-        return edges_[std::min<std::size_t>(row, edges_.size() - 1)];
-    }
-
-    const DemandContext& context_;
-    std::vector<core::EdgeIndex> edges_;
-    std::vector<double> reached_m_;
-};
-
 /// A route source that hides whether routes come from flows or from trips.
 class Routes {
   public:
@@ -187,13 +130,12 @@ class Routes {
         }
     }
     RouteEdges traffic(const std::string& id) const {
-        if (flows_) return (*flows_)(Purpose::demand, id);
-        return (*trips_)(Purpose::demand, id, "minimum_length_m", context_.config.trips.minimum_length_m);
+        return flows_ ? (*flows_)(Purpose::demand, id) : trips_->traffic(id);
     }
-    RouteEdges emergency(const std::string& id) const {
+    RouteEdges emergency(const std::string& id, VehicleKind kind) const {
         if (flows_) return (*flows_)(Purpose::emergency, id);
-        return (*trips_)(Purpose::emergency, id, "emergency_minimum_length_m",
-                         context_.config.trips.emergency_minimum_length_m);
+        return trips_->emergency(
+            id, kind, {"trips.emergency_minimum_length_m", context_.config.trips.emergency_minimum_length_m});
     }
 
   private:
@@ -286,8 +228,9 @@ PlannedDemand generate(const DemandContext& context) {
         demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::automated, number));
     for (int number = 0; number < counts.emergency; ++number) {
         const std::string id = fmt::format("emergency.{}", number);
-        demand.emergency.push_back(plan_emergency(context, id, emergency_kind(context, id),
-                                                  emergency_departure_s(context, id), routes.emergency(id)));
+        const VehicleKind kind = emergency_kind(context, id);
+        demand.emergency.push_back(plan_emergency(context, id, kind, emergency_departure_s(context, id),
+                                                  routes.emergency(id, kind)));
     }
     return demand;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -10,6 +11,9 @@
 #include "core/error.hpp"
 #include "roads/route.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/own_types.hpp"
+#include "scenario/detail/trip_routes.hpp"
+#include "scenario/detail/xml_text.hpp"
 #include "scenario/vehicle_types.hpp"
 
 namespace clearway::scenario::detail {
@@ -18,17 +22,9 @@ namespace {
 
 using core::Purpose;
 using traffic::VehicleClass;
-using traffic::VehicleKind;
 
 /// Counters of the draws about a measured vehicle. Never renumbered.
 enum MeasuredDraw : std::uint64_t { automated = 0, thinned = 2 };
-
-struct ElementWriter : pugi::xml_writer {
-    std::string text;
-    void write(const void* data, std::size_t size) override {
-        text.append(static_cast<const char*>(data), size);
-    }
-};
 
 /// Reads the route files of one scenario into planned vehicles.
 class MeasuredReader {
@@ -75,30 +71,41 @@ class MeasuredReader {
             return;
         const auto type = types_.find(vehicle.attribute("type").value());
         if (type == types_.end()) return unknown_type(file, id, vehicle.attribute("type").value());
-        const VehicleKind kind = *traffic::vehicle_kind_from(type->second->kind);
-        if (!note_route(vehicle, file, id, kind == VehicleKind::car && type->second->access == Access::own))
-            return;
-        add(vehicle, id, depart_s, kind, type->second->access);
+        const MeasuredType& listed = *type->second;
+        if (!note_route(vehicle, file, id, listed.kind == "car" && listed.access == Access::own)) return;
+        add(vehicle, id, depart_s, listed);
     }
 
-    void add(pugi::xml_node vehicle, const std::string& id, double depart_s, VehicleKind kind,
-             Access access) {
+    void add(pugi::xml_node vehicle, const std::string& id, double depart_s, const MeasuredType& type) {
         PlannedVehicle planned;
         planned.id = id;
         planned.depart_s = depart_s;
         const double uniform = context_.random.uniform(Purpose::vehicle_class, core::vehicle_key(id).value,
                                                        MeasuredDraw::automated);
-        if (kind == VehicleKind::car && uniform < measured_.automated_share)
+        if (type.kind == "car" && uniform < measured_.automated_share)
             planned.vehicle_class = VehicleClass::automated;
-        vehicle.attribute("type").set_value(type_id(planned.vehicle_class, kind, access).c_str());
+        set_type(vehicle, type, planned.vehicle_class);
         vehicle.remove_attribute("color");
-        vehicle.remove_attribute("speedFactor");
-        vehicle.append_attribute("speedFactor")
-            .set_value(fmt::format("{:.4f}", speed_factor(context_, id, planned.vehicle_class)).c_str());
-        ElementWriter writer;
-        vehicle.print(writer, "    ", pugi::format_indent, pugi::encoding_utf8, 1);
-        planned.xml = std::move(writer.text);
+        if (!keeps_driver(planned.vehicle_class)) {
+            vehicle.remove_attribute("speedFactor");
+            vehicle.append_attribute("speedFactor")
+                .set_value(fmt::format("{:.4f}", speed_factor(context_, id, planned.vehicle_class)).c_str());
+        }
+        planned.xml = element_text(vehicle);
         demand_.vehicles.push_back(std::move(planned));
+    }
+
+    void set_type(pugi::xml_node vehicle, const MeasuredType& type, VehicleClass vehicle_class) const {
+        const std::string id =
+            measured_.own_types ? own_type_id(vehicle_class, type.id)
+                                : type_id(vehicle_class, *traffic::vehicle_kind_from(type.kind), type.access);
+        vehicle.attribute("type").set_value(id.c_str());
+    }
+
+    /// Whether the desired speed of such a driver stays that of the type.
+    bool keeps_driver(VehicleClass vehicle_class) const {
+        return measured_.own_types && measured_.own_types->car_following == CarFollowing::own &&
+               vehicle_class == VehicleClass::human;
     }
 
     /// Checks the route's edges; remembers it for emergency vehicles when `for_emergency`. False after a
@@ -107,7 +114,7 @@ class MeasuredReader {
                     bool for_emergency) {
         const std::string edges = vehicle.child("route").attribute("edges").value();
         std::istringstream words(edges);
-        std::vector<core::EdgeIndex> route;
+        RouteEdges route;
         for (std::string word; words >> word;) {
             const auto edge = context_.network.find_edge(word);
             if (!edge) {
@@ -122,29 +129,42 @@ class MeasuredReader {
             return false;
         }
         if (for_emergency && emergency_routes_.insert(edges).second &&
-            roads::route_length(context_.network, route).value >= measured_.emergency_minimum_length_m)
+            roads::route_length(context_.network, route).value >= measured_.emergency_minimum_length_m &&
+            open_to_emergency(context_.network, route))
             long_routes_.push_back(std::move(route));
         return true;
     }
 
     void add_emergency() {
         const int count = context_.config.demand.emergency;
-        if (count > 0 && long_routes_.empty())
+        const bool has_sites = !context_.config.emergency_sites.empty();
+        if (count > 0 && !has_sites && long_routes_.empty())
             throw core::InputError(core::Problem{context_.config.where("measured.emergency_minimum_length_m"),
                                                  "no measured route of a car is that long", "shorter",
                                                  "lower it"});
+        std::optional<TripRoutes> trips;
+        if (count > 0 && has_sites) trips.emplace(context_);
         for (int number = 0; number < count; ++number) {
             traffic::EmergencyDeparture departure;
             departure.id = fmt::format("emergency.{}", number);
             departure.kind = emergency_kind(context_, departure.id);
             departure.type = type_id(VehicleClass::emergency, departure.kind);
             departure.depart = core::Seconds(emergency_departure_s(context_, departure.id));
-            constexpr std::uint64_t route_draw = 1;
-            const std::uint64_t row = context_.random.below(
-                long_routes_.size(), Purpose::emergency, core::vehicle_key(departure.id).value, route_draw);
-            departure.edges = edge_ids(context_.network, long_routes_[row]);
+            departure.edges = edge_ids(context_.network,
+                                       trips ? trips->emergency(departure.id, departure.kind, least_length())
+                                             : measured_route(departure.id));
             demand_.emergency.push_back(std::move(departure));
         }
+    }
+
+    LeastLength least_length() const {
+        return {"measured.emergency_minimum_length_m", measured_.emergency_minimum_length_m};
+    }
+
+    const RouteEdges& measured_route(const std::string& id) const {
+        constexpr std::uint64_t route_draw = 1;
+        return long_routes_[context_.random.below(long_routes_.size(), Purpose::emergency,
+                                                  core::vehicle_key(id).value, route_draw)];
     }
 
     void unknown_type(const std::filesystem::path& file, const std::string& id, const std::string& type) {
@@ -163,7 +183,7 @@ class MeasuredReader {
     std::map<std::string, const MeasuredType*> types_;
     std::set<std::string> unknown_types_;
     std::set<std::string> emergency_routes_;
-    std::vector<std::vector<core::EdgeIndex>> long_routes_;
+    std::vector<RouteEdges> long_routes_;
     std::vector<core::Problem> problems_;
     PlannedDemand demand_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -86,6 +87,8 @@ class TableReader {
             if (node == nullptr) return;
             if constexpr (std::is_enum_v<Member>) {
                 enumerator(*node, field.name, target);
+            } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+                number(*node, field.name, field.minimum, field.maximum, target.emplace(field.minimum));
             } else {
                 number(*node, field.name, field.minimum, field.maximum, target);
             }

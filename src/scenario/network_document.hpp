@@ -7,7 +7,7 @@
 
 #include "core/units.hpp"
 
-namespace clearway::scenario::detail {
+namespace clearway::scenario {
 
 /// A SUMO network file as XML, for changes that netconvert cannot make without touching the geometry.
 /// Comments are left out: in one of them netconvert notes time, options and paths. Holds the whole file in
@@ -20,12 +20,21 @@ class NetworkDocument {
 
     /// Takes out the vehicle classes that netconvert 1.18 and later write and SUMO 1.15 refuses.
     NetworkDocument& without_newer_classes();
+    /// Lists of classes that `without_newer_classes` changed.
+    int repaired_lists() const { return repaired_lists_; }
+    /// Opens what is open to cars to class `emergency` too. Answers the number of lists changed.
+    int admit_emergency();
+    /// Whether there is an edge outside junctions.
+    bool has_edges() const;
+    /// Attribute of the root element, `version`; empty where there is none.
+    std::string attribute(const char* name) const;
     /// No lane is faster than `limit`.
     void limit_speed(core::MetresPerSecond limit);
     std::string text() const;
 
   private:
     pugi::xml_document document_;
+    int repaired_lists_ = 0;
 };
 
-}  // namespace clearway::scenario::detail
+}  // namespace clearway::scenario

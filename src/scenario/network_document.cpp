@@ -1,7 +1,8 @@
-#include "scenario/detail/network_document.hpp"
+#include "scenario/network_document.hpp"
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -10,7 +11,7 @@
 
 #include "core/error.hpp"
 
-namespace clearway::scenario::detail {
+namespace clearway::scenario {
 
 namespace {
 
@@ -36,13 +37,25 @@ std::string inflated(const std::filesystem::path& file) {
     return bytes;
 }
 
-std::string without_newer(std::string_view classes) {
+/// The words of a list of classes that are not in `left_out`.
+std::string without(std::string_view classes, std::span<const std::string_view> left_out) {
     std::istringstream words{std::string(classes)};
     std::string kept;
     for (std::string word; words >> word;)
-        if (std::find(newer_classes.begin(), newer_classes.end(), word) == newer_classes.end())
-            kept += (kept.empty() ? "" : " ") + word;
+        if (std::ranges::find(left_out, word) == left_out.end()) kept += (kept.empty() ? "" : " ") + word;
     return kept;
+}
+
+std::string without(std::string_view classes, std::string_view left_out) {
+    return without(classes, std::span(&left_out, 1));
+}
+
+std::string without_newer(std::string_view classes) {
+    return without(classes, newer_classes);
+}
+
+bool lists(std::string_view classes, std::string_view wanted) {
+    return without(classes, wanted) != without(classes, std::span<const std::string_view>());
 }
 
 struct TextWriter : pugi::xml_writer {
@@ -73,18 +86,48 @@ NetworkDocument::NetworkDocument(const std::filesystem::path& file) {
 }
 
 NetworkDocument& NetworkDocument::without_newer_classes() {
-    walk(document_, [](pugi::xml_node node) {
-        if (pugi::xml_attribute disallow = node.attribute("disallow"))
-            disallow.set_value(without_newer(disallow.value()).c_str());
+    walk(document_, [this](pugi::xml_node node) {
+        const auto repair = [this](pugi::xml_attribute list) {
+            const std::string kept = without_newer(list.value());
+            if (kept == list.value()) return false;
+            ++repaired_lists_;
+            list.set_value(kept.c_str());
+            return true;
+        };
+        if (pugi::xml_attribute disallow = node.attribute("disallow")) repair(disallow);
         pugi::xml_attribute allow = node.attribute("allow");
-        if (!allow) return;
-        const std::string kept = without_newer(allow.value());
-        allow.set_value(kept.c_str());
-        if (!kept.empty()) return;
+        if (!allow || !repair(allow) || !std::string_view(allow.value()).empty()) return;
         node.remove_attribute(allow);  // An empty list would open the lane to all.
         node.append_attribute("disallow").set_value("all");
     });
     return *this;
+}
+
+int NetworkDocument::admit_emergency() {
+    constexpr std::string_view guest = "emergency";
+    int changed = 0;
+    walk(document_, [&](pugi::xml_node node) {
+        if (pugi::xml_attribute allow = node.attribute("allow")) {
+            if (!lists(allow.value(), "passenger") || lists(allow.value(), guest)) return;
+            allow.set_value(fmt::format("{} {}", allow.value(), guest).c_str());
+            ++changed;
+        } else if (pugi::xml_attribute disallow = node.attribute("disallow")) {
+            if (lists(disallow.value(), "passenger") || !lists(disallow.value(), guest)) return;
+            disallow.set_value(without(disallow.value(), guest).c_str());
+            ++changed;
+        }
+    });
+    return changed;
+}
+
+bool NetworkDocument::has_edges() const {
+    return std::ranges::any_of(document_.document_element().children("edge"), [](pugi::xml_node edge) {
+        return std::string_view(edge.attribute("function").value()) != "internal";
+    });
+}
+
+std::string NetworkDocument::attribute(const char* name) const {
+    return document_.document_element().attribute(name).value();
 }
 
 void NetworkDocument::limit_speed(core::MetresPerSecond limit) {
@@ -101,4 +144,4 @@ std::string NetworkDocument::text() const {
     return std::move(writer.text);
 }
 
-}  // namespace clearway::scenario::detail
+}  // namespace clearway::scenario

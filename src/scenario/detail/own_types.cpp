@@ -1,0 +1,119 @@
+#include "scenario/detail/own_types.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include "core/error.hpp"
+#include "scenario/detail/xml_text.hpp"
+#include "scenario/vehicle_types.hpp"
+#include "traffic/departure.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+using traffic::VehicleClass;
+
+void set(pugi::xml_node node, const char* name, const std::string& value) {
+    node.remove_attribute(name);
+    node.append_attribute(name).set_value(value.c_str());
+}
+
+void follow_by_idm(pugi::xml_node type, const IdmParameters& idm) {
+    while (pugi::xml_node model = type.find_child([](pugi::xml_node child) {
+        return std::string_view(child.name()).starts_with("carFollowing-");
+    }))
+        type.remove_child(model);
+    type.remove_attribute("speedDev");
+    set(type, "carFollowModel", "IDM");
+    set(type, "tau", fmt::format("{}", idm.time_headway_s));
+    set(type, "delta", fmt::format("{}", idm.exponent));
+    set(type, "minGap", fmt::format("{}", idm.minimum_gap_m));
+    set(type, "speedFactor", "1");
+    set(type, "speedDev", "0");
+}
+
+/// A car without a top speed of its own has that of its class; what is slower stays so.
+void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_kmh) {
+    const pugi::xml_attribute own = type.attribute("maxSpeed");
+    if (!own && listed.kind == "other") return;
+    const double limit_mps = core::from_kmh(limit_kmh).value;
+    const double fastest_mps =
+        own ? own.as_double() : properties(*traffic::vehicle_kind_from(listed.kind)).maximum_speed_mps;
+    set(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
+}
+
+void add_parameter(pugi::xml_node type, const char* key, std::string_view value) {
+    pugi::xml_node parameter = type.append_child("param");
+    parameter.append_attribute("key").set_value(key);
+    parameter.append_attribute("value").set_value(std::string(value).c_str());
+}
+
+class TypeWriter {
+  public:
+    explicit TypeWriter(const ScenarioConfig& config)
+        : config_(config), own_(*config.measured->own_types), place_(resolve(config, own_.file).string()) {
+        const pugi::xml_parse_result result = document_.load_file(place_.c_str());
+        if (!result)
+            throw core::InputError(core::Problem{fmt::format("{}: byte {}", place_, result.offset),
+                                                 result.description(), "an additional file of SUMO",
+                                                 "correct the file"});
+        for (const pugi::xml_node type : document_.document_element().children("vType"))
+            types_[type.attribute("id").value()] = type;
+    }
+
+    std::string text() {
+        pugi::xml_document written;
+        for (const MeasuredType& listed : config_.measured->types) {
+            const auto type = types_.find(listed.id);
+            if (type == types_.end()) {
+                problems_.push_back({place_, fmt::format("has no vType \"{}\"", listed.id),
+                                     "a vType for each [[measured.type]]", "add it"});
+                continue;
+            }
+            add(written, type->second, listed, VehicleClass::human);
+            if (listed.kind == "car") add(written, type->second, listed, VehicleClass::automated);
+        }
+        if (!problems_.empty()) throw core::InputError(problems_);
+        std::string xml;
+        for (const pugi::xml_node type : written.children())
+            xml += element_text(type);
+        return xml;
+    }
+
+  private:
+    void add(pugi::xml_document& written, pugi::xml_node source, const MeasuredType& listed,
+             VehicleClass vehicle_class) {
+        pugi::xml_node type = written.append_copy(source);
+        set(type, "id", own_type_id(vehicle_class, listed.id));
+        const bool automated = vehicle_class == VehicleClass::automated;
+        if (automated || own_.car_following == CarFollowing::idm)
+            follow_by_idm(type, parameters(config_.drivers.idm));
+        limit_speed(type, listed, automated ? config_.limits.automated_kmh : config_.limits.human_kmh);
+        add_parameter(type, traffic::class_parameter, traffic::name(vehicle_class));
+        add_parameter(type, traffic::kind_parameter, listed.kind);
+    }
+
+    const ScenarioConfig& config_;
+    const OwnTypes& own_;
+    std::string place_;
+    pugi::xml_document document_;
+    std::map<std::string, pugi::xml_node> types_;
+    std::vector<core::Problem> problems_;
+};
+
+}  // namespace
+
+std::string own_type_id(VehicleClass vehicle_class, const std::string& type) {
+    return fmt::format("{}.{}", traffic::name(vehicle_class), type);
+}
+
+std::string own_types_xml(const ScenarioConfig& config) {
+    return TypeWriter(config).text();
+}
+
+}  // namespace clearway::scenario::detail

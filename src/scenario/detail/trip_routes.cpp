@@ -1,0 +1,157 @@
+#include "scenario/detail/trip_routes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "roads/route.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+using core::Purpose;
+
+/// Counters of the draws of one vehicle; origin and destination follow `first_trip` in pairs. Never
+/// renumbered.
+enum TripDraw : std::uint64_t { leg = 2, first_trip = 16 };
+
+constexpr std::uint64_t most_draws = 1000;
+
+/// Whether a route turns round somewhere, into the opposite direction of the road that it came on.
+bool turns_round(const roads::Network& network, const RouteEdges& route) {
+    for (std::size_t row = 0; row + 1 < route.size(); ++row) {
+        const roads::Edge& edge = network.edge(route[row]);
+        for (std::uint32_t lane = 0; lane < edge.lane_count; ++lane)
+            for (const roads::Connection& way : network.connections_from(network.lane_of(route[row], lane)))
+                if (way.direction == 't' && network.lane(way.to).edge == route[row + 1]) return true;
+    }
+    return false;
+}
+
+/// Whether a vehicle of class `emergency` can get from an edge to the next.
+bool leads_emergency(const roads::Network& network, core::EdgeIndex from, core::EdgeIndex to) {
+    const roads::Edge& edge = network.edge(from);
+    for (std::uint32_t lane = 0; lane < edge.lane_count; ++lane)
+        for (const roads::Connection& way : network.connections_from(network.lane_of(from, lane)))
+            if (way.allows_emergency && network.lane(way.to).edge == to) return true;
+    return false;
+}
+
+}  // namespace
+
+bool open_to_emergency(const roads::Network& network, const RouteEdges& route) {
+    const auto lanes_of = [&](core::EdgeIndex edge) {
+        return network.lanes().subspan(network.edge(edge).first_lane, network.edge(edge).lane_count);
+    };
+    for (std::size_t row = 0; row < route.size(); ++row) {
+        if (std::ranges::none_of(lanes_of(route[row]), &roads::Lane::allows_emergency)) return false;
+        if (row + 1 < route.size() && !leads_emergency(network, route[row], route[row + 1])) return false;
+    }
+    return true;
+}
+
+TripRoutes::TripRoutes(const DemandContext& context) : context_(context) {
+    for (const core::EdgeIndex edge : roads::largest_car_component(context.network)) {
+        const float length_m = context.network.edge(edge).length_m;
+        if (length_m < context.config.trips.minimum_edge_m) continue;
+        edges_.push_back(edge);
+        reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) + length_m);
+    }
+    if (edges_.empty())
+        throw core::InputError(core::Problem{context.config.where("trips.minimum_edge_m"),
+                                             "leaves no edge for trips to start and end on",
+                                             "shorter than the longest edge", "lower it"});
+    read_sites();
+}
+
+void TripRoutes::read_sites() {
+    std::vector<core::Problem> problems;
+    for (std::size_t row = 0; row < context_.config.emergency_sites.size(); ++row) {
+        const EmergencySite& site = context_.config.emergency_sites[row];
+        const auto edge = context_.network.find_edge(site.edge);
+        if (!edge || context_.network.edge(*edge).internal) {
+            problems.push_back({context_.config.where(fmt::format("emergency_site[{}]", row)),
+                                fmt::format("the network has no edge \"{}\"", site.edge),
+                                "id of an edge outside junctions", ""});
+            continue;
+        }
+        (site.kind == SiteKind::hospital ? hospitals_ : stations_).push_back(*edge);
+        if (site.kind == SiteKind::fire_station) fire_stations_.push_back(*edge);
+    }
+    if (!problems.empty()) throw core::InputError(problems);
+    if (stations_.empty()) stations_ = hospitals_;
+    if (hospitals_.empty()) hospitals_ = stations_;
+    if (fire_stations_.empty()) fire_stations_ = stations_;
+}
+
+template <class DrawEnds>
+RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, const DrawEnds& draw) const {
+    const roads::Network& network = context_.network;
+    for (std::uint64_t attempt = 0; attempt < most_draws; ++attempt) {
+        const Ends ends = draw(TripDraw::first_trip + 2 * attempt);
+        if (too_far(ends)) continue;
+        auto route = roads::fastest_route(network, ends.from, ends.to);
+        if (route && roads::route_length(network, *route).value >= least.metres &&
+            !turns_round(network, *route) && (!for_emergency || open_to_emergency(network, *route)))
+            return *std::move(route);
+    }
+    throw core::InputError(
+        core::Problem{context_.config.where(least.key),
+                      fmt::format("no trip of {} m or more in {} draws", least.metres, most_draws),
+                      "shorter trips", "lower it"});
+}
+
+RouteEdges TripRoutes::traffic(const std::string& id) const {
+    return search(
+        {"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
+        [&](std::uint64_t counter) {
+            return Ends{place(Purpose::demand, id, counter), place(Purpose::demand, id, counter + 1)};
+        });
+}
+
+RouteEdges TripRoutes::emergency(const std::string& id, traffic::VehicleKind kind,
+                                 const LeastLength& least) const {
+    const auto anywhere = [&](std::uint64_t counter) { return place(Purpose::emergency, id, counter); };
+    if (stations_.empty())
+        return search(least, true, [&](std::uint64_t counter) {
+            return Ends{anywhere(counter), anywhere(counter + 1)};
+        });
+    const bool is_fire_engine = kind == traffic::VehicleKind::fire_engine;
+    const auto& stations = is_fire_engine ? fire_stations_ : stations_;
+    const bool to_hospital =
+        !is_fire_engine &&
+        context_.random.uniform(Purpose::emergency, core::vehicle_key(id).value, TripDraw::leg) >= 0.5;
+    return search(least, true, [&](std::uint64_t counter) {
+        return to_hospital ? Ends{anywhere(counter), site(hospitals_, id, counter + 1)}
+                           : Ends{site(stations, id, counter), anywhere(counter + 1)};
+    });
+}
+
+core::EdgeIndex TripRoutes::place(Purpose purpose, const std::string& id, std::uint64_t counter) const {
+    const double at_m =
+        context_.random.uniform(purpose, core::vehicle_key(id).value, counter) * reached_m_.back();
+    const auto row = std::upper_bound(reached_m_.begin(), reached_m_.end(), at_m) - reached_m_.begin();
+    return edges_[std::min<std::size_t>(row, edges_.size() - 1)];
+}
+
+core::EdgeIndex TripRoutes::site(const std::vector<core::EdgeIndex>& sites, const std::string& id,
+                                 std::uint64_t counter) const {
+    return sites[context_.random.below(sites.size(), Purpose::emergency, core::vehicle_key(id).value,
+                                       counter)];
+}
+
+bool TripRoutes::too_far(const Ends& ends) const {
+    const std::optional<double>& limit_m = context_.config.trips.maximum_distance_m;
+    if (!limit_m) return false;
+    const auto start = [&](core::EdgeIndex edge) {
+        return context_.network.lane(context_.network.lane_of(edge, 0)).shape.front();
+    };
+    const roads::Point from = start(ends.from);
+    const roads::Point to = start(ends.to);
+    return std::hypot(from.x_m - to.x_m, from.y_m - to.y_m) > *limit_m;
+}
+
+}  // namespace clearway::scenario::detail

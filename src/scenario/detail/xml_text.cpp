@@ -1,0 +1,22 @@
+#include "scenario/detail/xml_text.hpp"
+
+namespace clearway::scenario::detail {
+
+namespace {
+
+struct TextWriter : pugi::xml_writer {
+    std::string text;
+    void write(const void* data, std::size_t size) override {
+        text.append(static_cast<const char*>(data), size);
+    }
+};
+
+}  // namespace
+
+std::string element_text(pugi::xml_node element) {
+    TextWriter writer;
+    element.print(writer, "    ", pugi::format_indent, pugi::encoding_utf8, 1);
+    return std::move(writer.text);
+}
+
+}  // namespace clearway::scenario::detail

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include <pugixml.hpp>
+
+namespace clearway::scenario::detail {
+
+/// An element as text, indented by one level, with a line end.
+std::string element_text(pugi::xml_node element);
+
+}  // namespace clearway::scenario::detail
