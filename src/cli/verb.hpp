@@ -48,6 +48,9 @@ Action configure_train(CLI::App& app);
 Action configure_links(CLI::App& app);
 Action configure_list(CLI::App& app);
 Action configure_init(CLI::App& app);
+Action configure_import(CLI::App& app);
+Action configure_check(CLI::App& app);
+Action configure_trajectories(CLI::App& app);
 Action configure_doctor(CLI::App& app);
 
 }  // namespace clearway::cli

@@ -15,9 +15,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit", "merge",
-                                             "report",    "compare", "results", "replay", "verify", "dataset",
-                                             "train",     "list",    "init",    "doctor", "links"};
+const std::vector<std::string> every_verb = {
+    "reproduce", "run",     "study", "status", "submit", "merge",  "report", "compare", "results", "replay",
+    "verify",    "dataset", "train", "list",   "init",   "doctor", "links",  "import",  "check"};
 
 class HelpTest : public UserTest {};
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clearway::city::detail {
+
+/// What an import takes of a configuration of SUMO.
+struct Configuration {
+    std::filesystem::path network;
+    std::vector<std::filesystem::path> routes;      ///< In order.
+    std::vector<std::filesystem::path> additional;  ///< In order.
+    std::optional<double> begin_s;
+    std::optional<double> end_s;
+    bool ignores_route_errors = false;
+    std::vector<std::string> other_options;  ///< Set there, and not taken over: `scale`, `time-to-teleport`.
+};
+
+/// Reads a .sumocfg: paths relative to it, lists with commas or blanks, `${VARIABLE}` as SUMO replaces it
+/// (SUMO_HOME is that of the installation where it is not set). Throws core::InputError with every file that
+/// is missing, naming the nearest there is.
+Configuration read_configuration(const std::filesystem::path& file);
+
+}  // namespace clearway::city::detail

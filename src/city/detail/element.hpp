@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clearway::city::detail {
+
+/// An XML element with what it holds.
+struct Element {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> attributes;
+    std::vector<Element> children;
+    unsigned long line = 0;
+
+    /// Empty when there is no such attribute.
+    const std::string& text(std::string_view attribute) const;
+    bool has(std::string_view attribute) const;
+    void set(std::string_view attribute, std::string value);
+    void remove(std::string_view attribute);
+    /// As XML, indented, with a line end.
+    std::string xml(int depth = 1) const;
+};
+
+/// Reads a file, packed with gzip or not, and calls `take` for each child of its root, one in memory at a
+/// time. Throws core::InputError as roads::stream_xml does.
+void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take);
+
+/// Seconds of SUMO's time texts: `12.5`, `1:00:00`, `1:01:00:00`. Nothing for other texts.
+std::optional<double> time_s(std::string_view text);
+/// The whole of `text` as a finite number.
+std::optional<double> number(std::string_view text);
+/// Parts of a list, between any of `separators`, without empty ones.
+std::vector<std::string> words(std::string_view text, std::string_view separators = " \t\r\n");
+
+}  // namespace clearway::city::detail

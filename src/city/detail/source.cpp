@@ -1,0 +1,106 @@
+#include "city/detail/source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "city/detail/packed_file.hpp"
+#include "core/error.hpp"
+
+namespace clearway::city::detail {
+
+namespace {
+
+constexpr const char* what_is_read =
+    ".osm, .osm.gz, .osm.bz2, .osm.pbf, .net.xml, .net.xml.gz, .sumocfg, or route and additional files";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what,
+                         const std::string& cure) {
+    throw core::InputError(core::Problem{file.string(), what, what_is_read, cure});
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
+    return result;
+}
+
+/// The name of the first element, in lower case; `!doctype html` of a web page; empty where there is none.
+std::string first_element(std::string_view text) {
+    while (true) {
+        const std::size_t open = text.find('<');
+        if (open == std::string_view::npos) return {};
+        text.remove_prefix(open + 1);
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return {};
+            text.remove_prefix(end);
+        } else if (text.starts_with('!')) {
+            const std::string declaration = lower(text.substr(0, text.find('>')));
+            if (declaration.starts_with("!doctype html")) return declaration;
+        } else if (!text.starts_with('?')) {
+            return lower(text.substr(0, text.find_first_of(" \t\r\n/>")));
+        }
+    }
+}
+
+bool has_name_of_configuration(const std::filesystem::path& file) {
+    const std::string extension = lower(file.extension().string());
+    return extension == ".sumocfg" || extension == ".cfg";
+}
+
+}  // namespace
+
+SourceKind kind_of(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
+    PackedFile stream(file);
+    std::string head(std::size_t{1} << 16, '\0');
+    head.resize(stream.read(head));
+    if (head.empty()) refuse(file, "is empty", "download it again");
+    constexpr std::size_t block_header = 32;
+    if (std::string_view(head).substr(0, block_header).find("OSMHeader") != std::string_view::npos)
+        return SourceKind::map;
+    if (head.starts_with("PK\x03\x04"))
+        refuse(file, "is a zip archive", "unpack it and give the file inside");
+    const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (start != std::string::npos && (head[start] == '{' || head[start] == '['))
+        refuse(file, "is JSON", "ask the service for OSM XML");
+    const std::string element = first_element(head);
+    if (element.starts_with("!doctype html") || element == "html")
+        refuse(file, "is a web page (HTML), not a map",
+               "the download failed: open the file in a browser to see why, and download it again");
+    if (element == "osm") return SourceKind::map;
+    if (element == "net") return SourceKind::network;
+    if (element == "routes" || element == "trips") return SourceKind::routes;
+    if (element == "additional" || element == "additionals" || element == "add")
+        return SourceKind::additional;
+    if (element == "configuration" || element == "sumoconfiguration" || has_name_of_configuration(file))
+        return SourceKind::configuration;
+    refuse(file,
+           element.empty() ? "is neither XML nor a map" : fmt::format("has the root element <{}>", element),
+           "");
+}
+
+void refuse_bomb(const std::filesystem::path& file) {
+    constexpr std::uintmax_t harmless = 100'000'000;
+    constexpr std::uintmax_t largest_ratio = 250;  // Maps and routes: 10 to 40.
+    PackedFile stream(file);
+    if (stream.packing() == Packing::none) return;
+    const std::uintmax_t packed = std::filesystem::file_size(file);
+    std::array<char, 1 << 16> buffer{};
+    std::uintmax_t unpacked = 0;
+    while (const std::size_t count = stream.read(buffer)) {
+        unpacked += count;
+        if (unpacked > harmless && unpacked > largest_ratio * packed)
+            refuse(file,
+                   fmt::format("unpacks to more than {} times its {} bytes, as no map does", largest_ratio,
+                               packed),
+                   "do not trust its source");
+    }
+}
+
+}  // namespace clearway::city::detail

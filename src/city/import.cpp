@@ -1,0 +1,254 @@
+#include "city/import.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "city/detail/configuration.hpp"
+#include "city/detail/context.hpp"
+#include "city/detail/driving_side.hpp"
+#include "city/detail/map.hpp"
+#include "city/detail/source.hpp"
+#include "city/detail/sumo_demand.hpp"
+#include "city/detail/survey.hpp"
+#include "city/detail/synthetic_demand.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "scenario/network_document.hpp"
+#include "scenario/picture.hpp"
+
+namespace clearway::city {
+
+namespace {
+
+using detail::Import;
+using detail::SourceKind;
+using detail::SumoFiles;
+
+constexpr const char* network_name = "network.net.xml";
+
+/// The files of a request by what they are.
+struct Sources {
+    std::vector<std::filesystem::path> maps;
+    std::optional<std::filesystem::path> network;
+    SumoFiles demand;
+};
+
+/// A folder beside the scenario's that is removed at the end, whatever happens.
+class AsideFolder {
+  public:
+    explicit AsideFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+        std::filesystem::remove_all(folder_);
+    }
+    ~AsideFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    AsideFolder(const AsideFolder&) = delete;
+    AsideFolder& operator=(const AsideFolder&) = delete;
+    const std::filesystem::path& path() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+void check_folder(const std::filesystem::path& folder) {
+    const std::string name = folder.filename().string();
+    constexpr std::size_t longest = 100;
+    const bool has_control =
+        std::ranges::any_of(name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; });
+    if (name.empty() || name.starts_with('.') || name.size() > longest || has_control ||
+        name.find(',') != std::string::npos)
+        throw core::InputError(
+            core::Problem{"--name", fmt::format("\"{}\" is no name for a scenario", name),
+                          "1 to 100 bytes without comma and control characters, not starting "
+                          "with a dot",
+                          "choose another name"});
+    if (std::filesystem::exists(folder))
+        throw core::InputError(core::Problem{folder.string(), "exists already", "a new folder",
+                                             "choose another name, or remove it"});
+}
+
+void add_configuration(const std::filesystem::path& file, Import& import, Sources& sources) {
+    const detail::Configuration configuration = detail::read_configuration(file);
+    sources.network = configuration.network;
+    sources.demand = {configuration.routes, configuration.additional, configuration.begin_s,
+                      configuration.end_s};
+    for (const std::string& option : configuration.other_options)
+        import.left_out.add("options of the configuration that are not taken over", option);
+}
+
+Sources sort_files(Import& import, bool& leaves_out_bad_vehicles) {
+    Sources sources;
+    std::vector<std::filesystem::path> configurations;
+    for (const std::filesystem::path& file : import.request.files) {
+        const SourceKind kind = detail::kind_of(file);
+        detail::refuse_bomb(file);
+        if (kind == SourceKind::map) sources.maps.push_back(file);
+        if (kind == SourceKind::routes) sources.demand.routes.push_back(file);
+        if (kind == SourceKind::additional) sources.demand.additional.push_back(file);
+        if (kind == SourceKind::configuration) configurations.push_back(file);
+        if (kind != SourceKind::network) continue;
+        if (sources.network)
+            throw core::InputError(core::Problem{file.string(), "is a second network", "one network", ""});
+        sources.network = file;
+    }
+    const bool has_demand = !sources.demand.routes.empty() || !sources.demand.additional.empty();
+    const auto fundamentals = static_cast<int>(!sources.maps.empty()) +
+                              static_cast<int>(sources.network.has_value()) +
+                              static_cast<int>(!configurations.empty());
+    if (fundamentals != 1 || configurations.size() > 1 || (has_demand && !sources.network))
+        throw core::InputError(
+            core::Problem{import.request.files.front().string(), "cannot be imported with the other files",
+                          "maps, or one network with route and additional files, or one configuration",
+                          "import them one by one"});
+    if (configurations.empty()) return sources;
+    add_configuration(configurations.front(), import, sources);
+    leaves_out_bad_vehicles = detail::read_configuration(configurations.front()).ignores_route_errors;
+    for (const auto* list : {&sources.demand.routes, &sources.demand.additional})
+        for (const std::filesystem::path& file : *list)
+            detail::refuse_bomb(file);
+    detail::refuse_bomb(*sources.network);
+    return sources;
+}
+
+/// Networks of SUMO say 0.x or 1.x.
+void check_version(const scenario::NetworkDocument& document, const std::filesystem::path& file) {
+    const std::string version = document.attribute("version");
+    const auto number = detail::number(version);
+    if (number && *number < 2.0) return;
+    throw core::InputError(core::Problem{
+        file.string(), fmt::format("is a network of the unknown version \"{}\"", version), "0.x or 1.x",
+        "write it again with netconvert: netconvert --sumo-net-file OLD --output-file NEW"});
+}
+
+[[noreturn]] void refuse_without_roads(const Import& import) {
+    throw core::InputError(core::Problem{import.request.files.front().string(), "has no road for cars",
+                                         "a map or network with roads for cars", "choose another file"});
+}
+
+roads::Network take_network(Import& import, const std::filesystem::path& file) {
+    scenario::NetworkDocument document(file);
+    check_version(document, file);
+    if (!document.has_edges()) refuse_without_roads(import);
+    document.without_newer_classes();
+    if (document.repaired_lists() > 0)
+        import.findings.changes.push_back(
+            fmt::format("{} lists of vehicle classes name classes of a newer netconvert that SUMO 1.15 "
+                        "refuses; those words are "
+                        "taken out",
+                        document.repaired_lists()));
+    const int admitted = document.admit_emergency();
+    if (admitted > 0)
+        import.findings.changes.push_back(
+            fmt::format("{} lanes or ways open to cars are opened to emergency vehicles", admitted));
+    import.findings.left_hand = document.attribute("lefthand") == "true";
+    core::write_atomically(import.scenario / network_name, document.text());
+    roads::Network network = roads::Network::read(import.scenario / network_name);
+    detail::survey(network, import.findings);
+    if (import.findings.car_edges == 0) refuse_without_roads(import);
+    return network;
+}
+
+DrivingSide side_of(Import& import, const detail::MapContents& map) {
+    if (import.request.side != DrivingSide::by_country) return import.request.side;
+    if (!map.driving_side.empty()) return map.driving_side == "left" ? DrivingSide::left : DrivingSide::right;
+    const std::string land = detail::left_driving_land(map.centre);
+    if (!land.empty())
+        import.findings.changes.push_back(fmt::format(
+            "traffic drives on the left, as in {}; --driving-side right makes it drive on the right", land));
+    return land.empty() ? DrivingSide::right : DrivingSide::left;
+}
+
+void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
+                 scenario::ScenarioConfig& config) {
+    const std::filesystem::path extract = detail::extract_roads(maps, import.work, import.on_progress);
+    const detail::MapContents map = detail::read_map(extract);
+    if (map.roads == 0)
+        throw core::InputError(core::Problem{maps.front().string(), "is a map without roads",
+                                             "an OpenStreetMap extract with ways tagged highway",
+                                             "choose another extract, or a larger one"});
+    import.on_progress("building the network", 0.0);
+    const std::filesystem::path built =
+        detail::build_roads(maps.front(), extract, side_of(import, map), import.work, import.on_progress);
+    const roads::Network network = take_network(import, built);
+    std::filesystem::remove(built);
+    config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
+    config.emergency_sites =
+        detail::place_sites(map.sites, network, config.trips.minimum_edge_m, import.left_out);
+    for (const scenario::EmergencySite& site : config.emergency_sites)
+        for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
+            if (kind == site.kind) ++import.findings.sites[name];
+    detail::add_synthetic_demand(import, config, network);
+}
+
+void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
+    import.on_progress("reading the network", 0.0);
+    const roads::Network network = take_network(import, *sources.network);
+    config.network.attribution = fmt::format("from {}", sources.network->filename().string());
+    const bool has_files = !sources.demand.routes.empty() || !sources.demand.additional.empty();
+    import.on_progress("reading the demand", 0.0);
+    if (has_files &&
+        detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
+        detail::try_out(import, config);
+        return;
+    }
+    if (has_files)
+        import.findings.changes.emplace_back("the files hold no vehicle for the road: demand is synthetic");
+    detail::add_synthetic_demand(import, config, network);
+}
+
+scenario::ScenarioConfig start_config(const Import& import) {
+    scenario::ScenarioConfig config;
+    config.name = import.request.folder.filename().string();
+    config.version = "imported";
+    config.title =
+        fmt::format("{}, imported from {}", config.name, import.request.files.front().filename().string());
+    config.network.file = network_name;
+    config.limits.automated_kmh = config.limits.human_kmh;
+    config.folder = import.scenario;
+    return config;
+}
+
+}  // namespace
+
+Findings import(const ImportRequest& request, const OnProgress& on_progress) {
+    if (request.files.empty())
+        throw core::InputError(
+            core::Problem{"FILE", "is missing", "a map, a network or a configuration", ""});
+    const std::filesystem::path folder = std::filesystem::absolute(request.folder).lexically_normal();
+    check_folder(folder);
+    core::make_folder(folder.parent_path());
+    const AsideFolder aside(folder.parent_path() /
+                            fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid()));
+    ImportRequest settled = request;
+    settled.folder = folder;
+    Import import{settled, on_progress, aside.path() / "scenario", aside.path() / "work"};
+    core::make_folder(import.scenario);
+    core::make_folder(import.work);
+
+    bool leaves_out_bad_vehicles = false;
+    const Sources sources = sort_files(import, leaves_out_bad_vehicles);
+    if (leaves_out_bad_vehicles) settled.bad_vehicles = BadVehicles::leave_out;
+    scenario::ScenarioConfig config = start_config(import);
+    if (sources.maps.empty())
+        import_sumo(import, sources, config);
+    else
+        import_maps(import, sources.maps, config);
+
+    Findings& findings = import.findings;
+    findings.name = config.name;
+    findings.left_out = import.left_out.lines();
+    core::write_atomically(import.scenario / "scenario.toml", scenario::to_toml(config));
+    core::write_atomically(import.scenario / "import.json", to_json(findings));
+    const roads::Network network = roads::Network::read(import.scenario / network_name);
+    core::write_atomically(import.scenario / "network.svg", scenario::network_picture(network, config.title));
+    scenario::load((import.scenario / "scenario.toml").string());
+    on_progress("done", 0.0);
+    std::filesystem::rename(import.scenario, folder);
+    core::flush_folder(folder.parent_path());
+    return findings;
+}
+
+}  // namespace clearway::city

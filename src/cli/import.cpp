@@ -1,0 +1,117 @@
+#include "city/import.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/common_options.hpp"
+#include "cli/interruption.hpp"
+#include "cli/verb.hpp"
+#include "core/progress.hpp"
+
+namespace clearway::cli {
+namespace {
+
+struct Arguments {
+    city::ImportRequest request;
+    std::vector<std::string> files;
+    std::string name;
+    Printing printing = Printing::text;
+};
+
+/// What an import does now, on standard error: a line that is redrawn on a terminal, otherwise one every 10
+/// s.
+class Stages {
+  public:
+    void show(const std::string& stage) {
+        const auto now = std::chrono::steady_clock::now();
+        const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+        const bool is_terminal = ::isatty(STDERR_FILENO) != 0;
+        const auto interval = is_terminal ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
+        if (now - shown_ < interval) return;
+        shown_ = now;
+        drawn_ = is_terminal;
+        fmt::print(stderr, "{}import: {}, {} elapsed{}", is_terminal ? "\r" : "", stage,
+                   core::clock_text(elapsed_s), is_terminal ? "\x1b[K" : "\n");
+        std::fflush(stderr);
+    }
+    void finish() const {
+        if (drawn_) fmt::print(stderr, "\r\x1b[K");
+    }
+
+  private:
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point shown_ = started_;
+    bool drawn_ = false;
+};
+
+core::ExitCode import(Arguments& arguments) {
+    arguments.request.files.assign(arguments.files.begin(), arguments.files.end());
+    arguments.request.folder = arguments.name;
+    const InterruptionWatch interruption;
+    Stages stages;
+    const city::Findings findings = city::import(arguments.request, [&](const std::string& stage, double) {
+        if (const int signal = interruption.received(); signal != 0)
+            throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
+                              "interrupted; nothing is left behind");
+        stages.show(stage);
+    });
+    stages.finish();
+    if (arguments.printing == Printing::json) {
+        fmt::print("{}", city::to_json(findings));
+    } else {
+        fmt::print("{}picture: {}/network.svg\nNext: clearway check ./{}\n", city::to_text(findings),
+                   arguments.name, arguments.name);
+    }
+    return core::ExitCode::ok;
+}
+
+}  // namespace
+
+Action configure_import(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    city::ImportRequest& request = arguments->request;
+    app.add_option("files", arguments->files,
+                   "A map (.osm, .osm.gz, .osm.bz2, .osm.pbf), or a .sumocfg, or a .net.xml with its files")
+        ->required()
+        ->option_text("FILE ... (required)");
+    app.add_option("--name", arguments->name, "Scenario and new folder of this name")
+        ->required()
+        ->option_text("NAME (required)");
+    static const std::map<std::string, city::DrivingSide> sides = {{"auto", city::DrivingSide::by_country},
+                                                                   {"right", city::DrivingSide::right},
+                                                                   {"left", city::DrivingSide::left}};
+    app.add_option_function<std::string>(
+           "--driving-side", [&request](const std::string& side) { request.side = sides.at(side); },
+           "Of a map: side on which traffic drives; auto: by country")
+        ->check(CLI::IsMember(sides))
+        ->option_text("auto|right|left [auto]");
+    app.add_option("--av-share", request.automated_share,
+                   "Share of the cars that is automated, by vehicle id")
+        ->check(CLI::Range(0.0, 1.0))
+        ->option_text("SHARE, 0 to 1 [0.35]");
+    static const std::map<std::string, scenario::CarFollowing> models = {
+        {"own", scenario::CarFollowing::own}, {"idm", scenario::CarFollowing::idm}};
+    app.add_option_function<std::string>(
+           "--car-following",
+           [&request](const std::string& name) { request.car_following = models.at(name); },
+           "Of a SUMO scenario's vehicles: their own model, or IDM. Automated ones always IDM")
+        ->check(CLI::IsMember(models))
+        ->option_text("own|idm [own]");
+    app.add_option("--begin", request.begin_s, "Of a SUMO scenario: its time at which this one begins, s")
+        ->option_text("SECONDS [its begin; after two hours of demand the busiest half hour]");
+    app.add_flag_callback(
+        "--leave-out-bad-vehicles", [&request] { request.bad_vehicles = city::BadVehicles::leave_out; },
+        "Leave out and name vehicles with unknown edges or gaps in their route [refuse them]");
+    add_json_option(app, arguments->printing, "the findings");
+    return [arguments](const Invocation&) { return import(*arguments); };
+}
+
+}  // namespace clearway::cli

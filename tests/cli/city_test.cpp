@@ -1,0 +1,100 @@
+// Cities from the command line: import, check, run, trajectories.
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "city/town.hpp"
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class CityTest : public UserTest {};
+
+TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
+    write("town.osm", city::town_map());
+    const Ended import = clearway({"import", "town.osm", "--name", "town"});
+    ASSERT_EQ(import.code, 0) << import.err;
+    EXPECT_THAT(import.out, AllOf(HasSubstr("76 open to cars"), HasSubstr("1 fire_station, 1 hospital"),
+                                  HasSubstr("town/network.svg")));
+    const Ended check = clearway({"check", "./town", "--density", "0.3", "--json"});
+    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    EXPECT_EQ(nlohmann::json::parse(check.out).at(0).at("finding"), "loads");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-town"));
+
+    const Ended run =
+        clearway({"run", "./town", "--density", "0.3", "--seeds", "1", "--no-solo", "--policy", "corridor",
+                  "--failure", "B10", "--predictor", "dead_reckoning", "--record", "--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Ended written = clearway({"trajectories", "out/town/custom/0", "--out", "ways"});
+    ASSERT_EQ(written.code, 0) << written.err;
+    const auto json = nlohmann::json::parse(read("ways/trajectories.geojson"));
+    ASSERT_FALSE(json.at("features").empty());
+    for (const auto& place : json["features"][0]["geometry"]["coordinates"]) {
+        EXPECT_NEAR(place[0].get<double>(), 13.004, 0.006);
+        EXPECT_NEAR(place[1].get<double>(), 51.004, 0.006);
+    }
+    EXPECT_THAT(read("ways/trajectories.csv"),
+                AllOf(HasSubstr("time_s,vehicle,class,near"), HasSubstr(",emergency,,")));
+    core::Command sumo{"sumo",
+                       {"-c", (folder() / "ways/sumo/run.sumocfg").string(), "--end", "60"},
+                       {},
+                       folder() / "sumo.log"};
+    EXPECT_TRUE(core::run(sumo).ok()) << read("sumo.log");
+}
+
+TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {
+    write_line_scenario();
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--condition", "baseline", "--record",
+                        "--out", "out"})
+                  .code,
+              0);
+    const Ended written = clearway({"trajectories", "out/line/baseline/0", "--out", "ways"});
+    EXPECT_EQ(written.code, 0) << written.err;
+    EXPECT_THAT(written.err, HasSubstr("no map projection"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "ways/trajectories.geojson"));
+    const Ended missing = clearway({"trajectories", "out/line/baseline/7"});
+    EXPECT_EQ(missing.code, 3);
+    EXPECT_THAT(missing.err, HasSubstr("--record"));
+    EXPECT_EQ(clearway({"trajectories", "nowhere"}).code, 3);
+}
+
+TEST_F(CityTest, check_says_when_no_emergency_vehicle_enters) {
+    write_line_scenario();
+    const Ended fit = clearway({"check", "line"});
+    EXPECT_EQ(fit.code, 0) << fit.out << fit.err;
+    EXPECT_THAT(fit.out, HasSubstr("1 EVs with a route, 1 entered"));
+    const Ended late = clearway({"check", "line", "--warm-up", "20"});
+    EXPECT_EQ(late.code, 6);
+    EXPECT_THAT(late.out, HasSubstr("1 EVs with a route, 0 entered"));
+}
+
+TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {
+    write("page.osm", "<!DOCTYPE html><html></html>");
+    const Ended ended = clearway({"import", "page.osm", "--name", "page"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("web page"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+        EXPECT_THAT(entry.path().filename().string(), AllOf(Not("page"), Not(HasSubstr("importing"))));
+}
+
+TEST_F(CityTest, an_interrupted_import_leaves_nothing) {
+    write("town.osm", city::town_map());
+    const core::Child child = start({"import", "town.osm", "--name", "town"});
+    while (!std::filesystem::exists(folder() / fmt::format(".town.importing-{}", child.pid)) &&
+           !std::filesystem::exists(folder() / "town")) {
+    }
+    ::kill(child.pid, SIGINT);
+    const Ended ended = finish(child);
+    EXPECT_EQ(ended.code, 130) << ended.err;
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+        EXPECT_THAT(entry.path().filename().string(), AllOf(Not("town"), Not(HasSubstr("importing"))));
+}
+
+}  // namespace
+}  // namespace clearway::cli
