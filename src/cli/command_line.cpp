@@ -55,8 +55,7 @@ constexpr std::array all_verbs = {
          "clearway import monaco.osm.pbf --name monaco", configure_import},
     Verb{"check", "Run a scenario briefly and tell whether it is fit for a study", "clearway check ./monaco",
          configure_check},
-    Verb{"trajectories",
-         "Write where EVs and their neighbours drove, as GeoJSON and CSV, with the run's SUMO files",
+    Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
          "clearway trajectories runs/city-1a2b3c/city/corridor/0", configure_trajectories},
     Verb{"doctor", "Check that this machine has what Clearway needs", "clearway doctor", configure_doctor},
 };

@@ -79,7 +79,7 @@ Action configure_import(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     city::ImportRequest& request = arguments->request;
     app.add_option("files", arguments->files,
-                   "A map (.osm, .osm.gz, .osm.bz2, .osm.pbf), or a .sumocfg, or a .net.xml with its files")
+                   "A map (.osm, .gz, .bz2, .pbf), a .sumocfg, or a .net.xml with its files")
         ->required()
         ->option_text("FILE ... (required)");
     app.add_option("--name", arguments->name, "Scenario and new folder of this name")
@@ -102,14 +102,14 @@ Action configure_import(CLI::App& app) {
     app.add_option_function<std::string>(
            "--car-following",
            [&request](const std::string& name) { request.car_following = models.at(name); },
-           "Of a SUMO scenario's vehicles: their own model, or IDM. Automated ones always IDM")
+           "Of a SUMO scenario's vehicles: their own model, or IDM")
         ->check(CLI::IsMember(models))
         ->option_text("own|idm [own]");
     app.add_option("--begin", request.begin_s, "Of a SUMO scenario: its time at which this one begins, s")
         ->option_text("SECONDS [its begin; after two hours of demand the busiest half hour]");
     app.add_flag_callback(
         "--leave-out-bad-vehicles", [&request] { request.bad_vehicles = city::BadVehicles::leave_out; },
-        "Leave out and name vehicles with unknown edges or gaps in their route [refuse them]");
+        "Leave out vehicles with unknown edges or gaps in their route [refuse]");
     add_json_option(app, arguments->printing, "the findings");
     return [arguments](const Invocation&) { return import(*arguments); };
 }
