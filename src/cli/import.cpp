@@ -106,7 +106,7 @@ Action configure_import(CLI::App& app) {
         ->check(CLI::IsMember(models))
         ->option_text("own|idm [own]");
     app.add_option("--begin", request.begin_s, "Of a SUMO scenario: its time at which this one begins, s")
-        ->option_text("SECONDS [its begin; after two hours of demand the busiest half hour]");
+        ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
     app.add_flag_callback(
         "--leave-out-bad-vehicles", [&request] { request.bad_vehicles = city::BadVehicles::leave_out; },
         "Leave out vehicles with unknown edges or gaps in their route [refuse]");

@@ -1,7 +1,8 @@
 #include "city/detail/configuration.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -17,11 +18,12 @@ constexpr const char* usual_sumo_home = "/usr/share/sumo";
 
 /// Options that only show, write or say something: their loss changes no traffic.
 bool is_harmless(const std::string& option) {
-    for (const char* const part : {"output", "log", "gui", "xml-validation", "verbose", "warnings", "start",
-                                   "quit", "delay", "game", "osg", "human-readable", "seed", "threads",
-                                   "step-log", "view", "breakpoints", "report", "remote-port"})
-        if (option.find(part) != std::string::npos) return true;
-    return false;
+    constexpr std::array parts = {
+        "output",      "log",    "gui",        "xml-validation", "verbose", "warnings", "start",    "quit",
+        "delay",       "game",   "osg",        "human-readable", "seed",    "threads",  "step-log", "view",
+        "breakpoints", "report", "remote-port"};
+    return std::ranges::any_of(parts,
+                               [&](const char* part) { return option.find(part) != std::string::npos; });
 }
 
 /// `${NAME}` replaced by the environment, as SUMO does.

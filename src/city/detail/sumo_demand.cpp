@@ -50,13 +50,13 @@ struct Window {
     double length_s = 0.0;
 };
 
-constexpr double usual_window_s = 1800.0;
+constexpr double usual_window_s = 1200.0;
 constexpr double long_demand_s = 7200.0;
 
-/// The half hour with the most departures, and ten minutes before it.
+/// The twenty minutes with the most departures, and ten minutes before them.
 Window busiest(const std::vector<RoadUser>& vehicles, double begin_s) {
     constexpr double slot_s = 300.0;
-    constexpr std::size_t slots = 6;
+    constexpr std::size_t slots = 4;
     constexpr double before_s = 600.0;
     std::vector<std::size_t> counts;
     for (const RoadUser& vehicle : vehicles) {

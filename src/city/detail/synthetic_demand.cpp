@@ -161,9 +161,10 @@ void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, cons
     config.demand.emergency = 6;
     config.trips.minimum_length_m = std::floor(std::min(500.0, 0.25 * diagonal));
     config.trips.emergency_minimum_length_m = std::floor(std::min(1000.0, 0.4 * diagonal));
-    constexpr std::size_t large = 10000;
+    // Trips in cities are mostly shorter; and longer ones take long to find.
+    constexpr std::size_t large = 3000;
     if (import.findings.car_edges > large)
-        config.trips.maximum_distance_m = std::floor(std::max(3000.0, 0.1 * diagonal));
+        config.trips.maximum_distance_m = std::floor(std::clamp(0.25 * diagonal, 3000.0, 6000.0));
 
     const double most = most_cars(import.findings);
     const double share = import.request.automated_share;
