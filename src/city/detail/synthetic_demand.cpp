@@ -16,8 +16,8 @@ namespace clearway::city::detail {
 namespace {
 
 constexpr double window_s = 900.0;
-constexpr double probe_begin_s = 420.0;
-constexpr double probe_end_s = 600.0;
+constexpr double probe_begin_s = 240.0;
+constexpr double probe_end_s = 420.0;
 
 /// How full a network is, means over the probe.
 struct Level {
@@ -143,7 +143,7 @@ FoundLevel find_level(const Probe& probe, double most) {
 
 std::string describe(double cars, const Level& level, const Findings& findings) {
     return fmt::format(
-        "synthetic: {:.0f} cars in {:.0f} s between places drawn by length of road; after 7 to 10 minutes "
+        "synthetic: {:.0f} cars in {:.0f} s between places drawn by length of road; after 4 to 7 minutes "
         "{:.0f} on "
         "the road, {:.1f} a km of lane, mean speed {:.0f} % of the limits, {:.0f} % halting, {:.0f} waiting "
         "to enter",
