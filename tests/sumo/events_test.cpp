@@ -212,5 +212,25 @@ TEST(Events, RouteTakenUnderWayIsNoticedWithinASecond) {
     EXPECT_THAT(edges, ElementsAre("west_in", "north_out"));
 }
 
+TEST(Events, AParkedVehicleLeavesTheSnapshotAndComesBack) {
+    const Scene scene;
+    Session session(scene.config(
+        scene.straight_road(), R"(<vehicle id="bus" type="hv" depart="0"><route edges="in out"/>)"
+                               R"(<stop lane="in_0" endPos="200" duration="10" parking="true"/></vehicle>)"));
+    int away = 0;
+    int back = 0;
+    std::size_t arrived = 0;
+    while (session.time().value < 150.0 && arrived == 0) {
+        session.step();
+        const bool on_road = session.snapshot().row_of(key("bus")).has_value();
+        if (!on_road && session.time().value > 5.0) ++away;
+        if (on_road && away > 0) ++back;
+        arrived += session.events().arrived.size();
+    }
+    EXPECT_EQ(arrived, 1U);
+    EXPECT_NEAR(away * 0.25, 10.0, 2.0);
+    EXPECT_GT(back, 0);
+}
+
 }  // namespace
 }  // namespace clearway

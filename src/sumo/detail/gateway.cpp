@@ -98,18 +98,19 @@ std::vector<CollisionReport> collisions() {
     });
 }
 
-bool read(const std::string& vehicle, VehicleReading& reading) {
+Presence read(const std::string& vehicle, VehicleReading& reading) {
     return call([&] {
         const auto position = api::Vehicle::getPosition(vehicle);
-        if (position.x == libsumo::INVALID_DOUBLE_VALUE) return false;
+        if (position.x == libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
+        reading.lane = api::Vehicle::getLaneID(vehicle);
+        if (reading.lane.empty()) return Presence::parked;
         reading.x_m = position.x;
         reading.y_m = position.y;
         reading.angle_deg = api::Vehicle::getAngle(vehicle);
         reading.speed_mps = api::Vehicle::getSpeed(vehicle);
         reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
         reading.lane_position_m = api::Vehicle::getLanePosition(vehicle);
-        reading.lane = api::Vehicle::getLaneID(vehicle);
-        return true;
+        return Presence::on_road;
     });
 }
 

@@ -49,8 +49,10 @@ struct VehicleReading {
     double lane_position_m = 0.0;
     std::string lane;
 };
-/// False when the vehicle is not on the road.
-bool read(const std::string& vehicle, VehicleReading& reading);
+/// Where a vehicle of the simulation is. A parked one stands beside its lane and comes back.
+enum class Presence : std::uint8_t { on_road, parked, off_road };
+/// Fills `reading` of a vehicle on the road.
+Presence read(const std::string& vehicle, VehicleReading& reading);
 std::uint32_t route_index(const std::string& vehicle);
 std::string route_id(const std::string& vehicle);
 std::vector<std::string> route_edges(const std::string& vehicle);

@@ -36,6 +36,7 @@ void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
     take_departures(events);
     take_teleports(events);
     take_arrivals(events, step_s);
+    take_parked();
     read_vehicles(snapshot, events);
     take_collisions(events);
     observe_signals(snapshot);
@@ -139,6 +140,16 @@ void Observer::register_vehicle(Vehicle& vehicle) {
                  .route = roster_.add_route(names_.edges(gateway::route_edges(vehicle.id)))});
 }
 
+void Observer::take_parked() {
+    std::erase_if(parked_, [this](core::VehicleKey key) {
+        Vehicle* vehicle = fleet_.find(key);
+        if (vehicle == nullptr) return true;
+        if (gateway::read(vehicle->id, reading_) != gateway::Presence::on_road) return false;
+        fleet_.put_on_road(*vehicle);
+        return true;
+    });
+}
+
 void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
     const bool check_routes = snapshot.time.value - routes_checked_s_ >= route_check_period_s;
     if (check_routes) routes_checked_s_ = snapshot.time.value;
@@ -149,7 +160,9 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         fleet_.number_rows();
         snapshot.resize(fleet_.rows().size());
         for (Vehicle* vehicle : fleet_.on_road()) {
-            if (!gateway::read(vehicle->id, reading_)) {
+            const gateway::Presence presence = gateway::read(vehicle->id, reading_);
+            if (presence == gateway::Presence::parked) parked_.insert(vehicle->key);
+            if (presence != gateway::Presence::on_road) {
                 gone.push_back(vehicle);
                 continue;
             }

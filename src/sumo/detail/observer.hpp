@@ -54,6 +54,7 @@ class Observer {
     void take_collisions(truth::Events& events);
     void register_vehicle(Vehicle& vehicle);
     bool reached_destination(const Vehicle& vehicle, double step_s) const;
+    void take_parked();
     void read_vehicles(truth::Snapshot& snapshot, truth::Events& events);
     void store(Vehicle& vehicle, truth::Snapshot& snapshot);
     void note_braking(Vehicle& vehicle, truth::Events& events) const;
@@ -65,6 +66,7 @@ class Observer {
     traffic::Roster roster_;
     std::unordered_map<std::string, traffic::VehicleKind> declared_;
     std::set<Contact> contacts_;
+    std::set<core::VehicleKey> parked_;  ///< Off the road until they drive on.
     gateway::VehicleReading reading_;
     double routes_checked_s_ = 0.0;
 };
