@@ -130,7 +130,11 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     config.replications = 1;
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     scenario::ScenarioConfig& brief = config.scenarios.front();
-    brief.time.horizon_s = brief.time.window_s;
+    constexpr double grace_s = 60.0;  // The last to depart enter, too.
+    double last_s = brief.time.window_s;
+    for (const scenario::EmergencyTrip& trip : brief.emergency_trips)
+        last_s = std::max(last_s, trip.depart_s);
+    brief.time.horizon_s = std::min(brief.time.horizon_s, last_s + grace_s);
     config.name = brief.name;
     config.conditions = {study::built_in_condition("baseline", "check")};
     RunPlanOptions options{std::filesystem::path("runs") / ("check-" + brief.name), 1, arguments.limits,
