@@ -14,7 +14,7 @@ using RouteEdges = std::vector<core::EdgeIndex>;
 
 /// Shortest route that a vehicle may get, and the key that says so.
 struct LeastLength {
-    const char* key;  ///< `trips.minimum_length_m`
+    const char* key = "";  ///< `trips.minimum_length_m`
     double metres = 0.0;
 };
 
