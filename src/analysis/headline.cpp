@@ -16,7 +16,7 @@ using results::ConditionSpec;
 constexpr std::size_t most_looks = 1000;
 
 bool is_baseline_of(const ConditionSpec& other, const ConditionSpec& condition) {
-    return other.engine == condition.engine && other.parts.empty() && other.name != condition.name;
+    return other.engine == condition.engine && !other.acts() && other.name != condition.name;
 }
 
 /// Travel time of the emergency vehicles of a run, against another run's where there is one.
@@ -41,7 +41,7 @@ void Headline::choose() {
     scenario_ = manifest.scenarios.front().name;
     condition_ = manifest.conditions.front().name;
     for (const ConditionSpec& condition : manifest.conditions) {
-        if (condition.parts.empty() || condition.engine == results::Engine::solo) continue;
+        if (!condition.acts() || condition.engine == results::Engine::solo) continue;
         const auto baseline = std::ranges::find_if(
             manifest.conditions, [&](const auto& other) { return is_baseline_of(other, condition); });
         if (baseline == manifest.conditions.end()) continue;

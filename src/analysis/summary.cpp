@@ -235,9 +235,8 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
 /// The condition that `condition` is compared with, or nothing for baselines and solo.
 const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vector<ConditionSpec>& all) {
     if (condition.engine == Engine::solo) return nullptr;
-    const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
-        return other.engine == condition.engine && other.parts.empty();
-    });
+    const auto found = std::ranges::find_if(
+        all, [&](const ConditionSpec& other) { return other.engine == condition.engine && !other.acts(); });
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
 

@@ -94,6 +94,12 @@ std::string precision_text(const results::PrecisionTarget& target) {
         target.metric, target.half_width, target.at_most);
 }
 
+std::string policy_of(const results::ConditionSpec& condition) {
+    std::vector<std::string> means = condition.parts;
+    if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
+    return means.empty() ? "-" : joined(means, "+");
+}
+
 }  // namespace
 
 std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
@@ -102,10 +108,9 @@ std::string plan_text(const study::Plan& plan, const std::filesystem::path& fold
                                    "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
         const results::ConditionSpec& condition = cell.condition;
-        text +=
-            fmt::format("{:24} {:32} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
-                        results::name(condition.engine), cell.runs, cell.complete, condition.failure,
-                        condition.predictor, condition.parts.empty() ? "-" : joined(condition.parts, "+"));
+        text += fmt::format("{:24} {:32} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
+                            results::name(condition.engine), cell.runs, cell.complete, condition.failure,
+                            condition.predictor, policy_of(condition));
     }
     const Rest rest = rest_of(cells, workers);
     text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),

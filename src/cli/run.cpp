@@ -124,6 +124,14 @@ void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& 
         ->check(CLI::IsMember(checks))
         ->option_text("on|off [on]")
         ->group(group);
+    static const std::map<std::string, traffic::BlueLight> lights = {{"on", traffic::BlueLight::on},
+                                                                     {"off", traffic::BlueLight::off}};
+    app.add_option_function<std::string>(
+           "--bluelight", [&own](const std::string& name) { own.bluelight = lights.at(name); },
+           "SUMO's device.bluelight on every emergency vehicle: an opponent")
+        ->check(CLI::IsMember(lights))
+        ->option_text("on|off [off]")
+        ->group(group);
     static const std::map<std::string, results::Engine> engines = {{"standard", results::Engine::standard},
                                                                    {"sublane", results::Engine::sublane}};
     app.add_option_function<std::string>(

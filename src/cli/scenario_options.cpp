@@ -48,6 +48,9 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
                    "SUMO lifts a vehicle that stood this long over the jam, s; -1: never")
         ->option_text("SECONDS, -1 to 86400 [300]")
         ->group(group);
+    app.add_option("--siren", options.siren_compliance, "Share of human drivers that yield to a siren")
+        ->option_text("SHARE, 0 to 1 [by scenario: 0]")
+        ->group(group);
     static const std::map<std::string, scenario::IdmPreset> presets = {
         {"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}};
     app.add_option_function<std::string>(

@@ -1,41 +1,21 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <vector>
 
-#include "core/fields.hpp"
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
+#include "traffic/siren.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/self_knowledge.hpp"
 #include "truth/snapshot.hpp"
 
 namespace clearway::drivers {
 
-/// How human drivers react to a siren behind them. The same in every condition of a study.
-struct SirenConfig {
-    double compliance = 0.0;  ///< Share of drivers that yield; 0 switches the reaction off.
-    double audible_m = 60.0;
-    double reaction_mean_s = 1.5;
-    double reaction_deviation_s = 0.5;
-
-    static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"compliance", "1", &SirenConfig::compliance, 0.0, 1.0,
-                        "Share of human drivers that yield to a siren", "0: scenarios v1 leave it out"},
-            core::Field{"audible_m", "m", &SirenConfig::audible_m, 5.0, 500.0,
-                        "Distance along the road at which drivers notice it",
-                        "assumed: closed windows in town"},
-            core::Field{"reaction_mean_s", "s", &SirenConfig::reaction_mean_s, 0.0, 10.0,
-                        "Mean time between noticing and acting", "assumed: surprise reaction, 1.5 s"},
-            core::Field{"reaction_deviation_s", "s", &SirenConfig::reaction_deviation_s, 0.0, 5.0,
-                        "Standard deviation of it between drivers", "assumed: a third of the mean"});
-    }
-};
+using traffic::SirenConfig;
 
 /// Human drivers who hear an emergency vehicle behind them on its way: after their reaction time those who
 /// comply leave its lane as soon as their vehicle could change, into lanes that continue; those beside its

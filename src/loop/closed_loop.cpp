@@ -28,6 +28,7 @@ void ClosedLoop::run(core::Seconds horizon) {
         step();
     }
     commands_.clear();
+    if (machinery_.siren) machinery_.siren->restore_all(commands_);
     machinery_.actuator->restore_all(commands_);
     session_.apply(commands_);
 }
@@ -46,10 +47,11 @@ void ClosedLoop::step() {
         if (chain.observation().is_report) score(snapshot);
     }
     commands_.clear();
+    if (machinery_.siren) machinery_.siren->step(snapshot, session_.roster(), session_, commands_);
     machinery_.actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
     machinery_.actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
-    recorder_.step(snapshot, session_.events(), chain.leases());
+    recorder_.step(snapshot, session_.roster(), session_.events(), chain.leases());
     if (listener_ != nullptr) tell_listener(snapshot, decides);
 
     ++timing_.steps;

@@ -7,6 +7,7 @@
 
 #include "actuation/actuator.hpp"
 #include "core/units.hpp"
+#include "drivers/siren.hpp"
 #include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
 #include "replay/decision_chain.hpp"
@@ -22,6 +23,7 @@ using results::LoopConfig;
 struct Machinery {
     std::unique_ptr<replay::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
+    std::unique_ptr<drivers::Siren> siren;  ///< Null where nobody yields to one.
 };
 
 /// Where the time of a run went, s of wall time.

@@ -24,6 +24,9 @@ Machinery make_machinery(const results::ConditionSpec& condition, const Surround
     actuation.lateral_model = condition.engine == results::Engine::sublane ? actuation::LateralModel::sublane
                                                                            : actuation::LateralModel::lane;
     machinery.actuator = std::make_unique<actuation::Actuator>(surroundings.network, actuation);
+    if (surroundings.siren.compliance > 0.0)
+        machinery.siren =
+            std::make_unique<drivers::Siren>(surroundings.network, surroundings.random, surroundings.siren);
     return machinery;
 }
 

@@ -15,6 +15,7 @@ struct Surroundings {
     const roads::Network& network;
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
+    drivers::SirenConfig siren;
 };
 
 /// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not

@@ -1,5 +1,6 @@
 #include "loop/road_layout.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "core/ids.hpp"
@@ -37,6 +38,20 @@ void add_approaches(const roads::Network& network, std::span<const metrics::Edge
     }
 }
 
+void add_signal_ways(const roads::Network& network, metrics::RoadLayout& layout) {
+    for (std::uint32_t lane = 0; lane < network.lanes().size(); ++lane) {
+        for (const roads::Connection& connection : network.connections_from(core::LaneIndex{lane})) {
+            if (!connection.signal.exists()) continue;
+            layout.signal_ways.push_back(
+                {connection.to, connection.from, connection.signal, connection.signal_link});
+            if (connection.via.exists())
+                layout.signal_ways.push_back(
+                    {connection.via, core::LaneIndex::none(), connection.signal, connection.signal_link});
+        }
+    }
+    std::ranges::stable_sort(layout.signal_ways, {}, &metrics::SignalWay::to);
+}
+
 metrics::WatchedRoute watched_route(const roads::Network& network, const metrics::RoadLayout& layout,
                                     const traffic::EmergencyDeparture& departure) {
     metrics::WatchedRoute watched{core::vehicle_key(departure.id), departure.id, {}, {}, {}, {}};
@@ -67,6 +82,7 @@ metrics::RoadLayout road_layout(const roads::Network& network,
                                 std::span<const metrics::EdgeCount> counts) {
     metrics::RoadLayout layout;
     add_approaches(network, counts, layout);
+    add_signal_ways(network, layout);
     for (const roads::Lane& lane : network.lanes()) {
         layout.internal_lane.push_back(network.edge(lane.edge).internal ? 1 : 0);
         layout.limit_of_lane_mps.push_back(lane.speed_limit_mps);

@@ -112,7 +112,7 @@ void UnitRun::warm_up() {
     const double first = first_emergency().value;
     while (session_->time().value + prepared_.time.step_length_s <= first - lead_before_emergency.value) {
         session_->step();
-        recorder_.step(session_->snapshot(), session_->events(), {});
+        recorder_.step(session_->snapshot(), session_->roster(), session_->events(), {});
     }
 }
 
@@ -168,14 +168,15 @@ void UnitRun::record(const results::ConditionSpec& condition, StepListener& list
 
 LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepListener* listener,
                                   metrics::LeaseTotals& leases) {
-    add_emergency_vehicles();
+    add_emergency_vehicles(condition.bluelight);
     watch_roads();
     recorder_.configure(metrics::RecorderConfig::of_latency(
         core::Seconds(sensing::failure_from(condition.failure).latency_s)));
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
-        .loop = loop_config_of(condition)};
+        .loop = loop_config_of(condition),
+        .siren = config_.siren};
     ClosedLoop loop(*session_, make_machinery(condition, surroundings), surroundings.loop, recorder_,
                     listener);
     loop.run(core::Seconds(prepared_.time.horizon_s));
@@ -183,8 +184,9 @@ LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepL
     return loop.timing();
 }
 
-void UnitRun::add_emergency_vehicles() {
-    for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
+void UnitRun::add_emergency_vehicles(traffic::BlueLight bluelight) {
+    for (traffic::EmergencyDeparture departure : prepared_.emergency) {
+        departure.bluelight = bluelight;
         session_->add(departure);
     }
 }
@@ -207,7 +209,7 @@ void UnitRun::run_solo() {
         const double limit_s = session_->time().value + prepared_.time.horizon_s;
         while (session_->expected_vehicles() > 0 && session_->time().value < limit_s) {
             session_->step();
-            recorder_.step(session_->snapshot(), session_->events(), {});
+            recorder_.step(session_->snapshot(), session_->roster(), session_->events(), {});
         }
     }
 }

@@ -42,7 +42,7 @@ class UnitRun {
 
   private:
     void warm_up();
-    void add_emergency_vehicles();
+    void add_emergency_vehicles(traffic::BlueLight bluelight);
     /// Has the recorder say where time is lost, from now on.
     void watch_roads();
     /// Each emergency vehicle alone, one after the other, with every signal open.

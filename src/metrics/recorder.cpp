@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "metrics/detail/conflict_watch.hpp"
 #include "metrics/detail/elements.hpp"
+#include "metrics/detail/flow_watch.hpp"
 #include "metrics/detail/link_comparison.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
@@ -165,6 +167,49 @@ void average(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
     metrics.others_waiting_time_s = others.waiting_time_s.value();
 }
 
+void describe_flow(const detail::FlowWatch& flow, RunMetrics& metrics) {
+    metrics.emergency_red_passages = flow.emergency_red_passages();
+    metrics.others_red_passages = flow.others_red_passages();
+    metrics.others_hard_brakings = flow.hard_brakings();
+    metrics.others_jerk_mps3 = flow.jerk_mps3();
+    metrics.signal_throughput_per_hour = flow.throughput_per_hour();
+    metrics.signal_queue_vehicles = flow.mean_queue_vehicles();
+    metrics.signal_longest_queue_vehicles = flow.longest_queue_vehicles();
+}
+
+void describe_conflicts(const detail::ConflictWatch& conflicts, RunMetrics& metrics) {
+    metrics.emergency_least_ttc_s = conflicts.least_ttc_s();
+    metrics.emergency_conflicts = conflicts.conflicts();
+    metrics.emergency_greatest_drac_mps2 = conflicts.greatest_drac_mps2();
+}
+
+/// Mean time lost on the worst approach; rows of one approach follow each other.
+std::optional<double> worst_delay_s(const std::vector<ApproachRow>& rows) {
+    // Assumed: the mean of fewer vehicles says more of one driver than of a street.
+    constexpr std::uint64_t least_vehicles = 5;
+    std::optional<double> worst;
+    for (std::size_t row = 0; row < rows.size();) {
+        std::uint64_t vehicles = 0;
+        double lost_s = 0.0;
+        const std::string& edge = rows[row].edge;
+        for (; row < rows.size() && rows[row].edge == edge; ++row) {
+            vehicles += rows[row].vehicles;
+            lost_s += rows[row].time_loss_s;
+        }
+        if (vehicles < least_vehicles) continue;
+        const double mean_s = lost_s / static_cast<double>(vehicles);
+        worst = std::max(worst.value_or(mean_s), mean_s);
+    }
+    return worst;
+}
+
+double driven_km(const std::vector<VehicleRow>& rows) {
+    double driven_m = 0.0;
+    for (const VehicleRow& row : rows)
+        driven_m += row.route_length_m.value_or(0.0);
+    return driven_m / 1000.0;
+}
+
 }  // namespace
 
 struct Recorder::State {
@@ -173,7 +218,10 @@ struct Recorder::State {
     detail::LinkComparison links;
     RunMetrics counted;  ///< What events and snapshots say so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
-    std::optional<detail::TrafficWatch> watch;
+    RoadLayout layout;
+    std::optional<detail::TrafficWatch> traffic;
+    std::optional<detail::FlowWatch> flow;
+    std::optional<detail::ConflictWatch> conflicts;
 };
 
 Recorder::Recorder(RecorderConfig config) : state_(std::make_unique<State>()) {
@@ -188,14 +236,21 @@ void Recorder::configure(RecorderConfig config) {
 }
 
 void Recorder::watch(RoadLayout layout) {
-    state_->watch.emplace(std::move(layout));
+    state_->layout = std::move(layout);
+    state_->traffic.emplace(state_->layout);
+    state_->flow.emplace(state_->layout);
+    state_->conflicts.emplace();
 }
 
-void Recorder::step(const truth::Snapshot& snapshot, const truth::Events& events,
-                    std::span<const traffic::Lease> leases) {
+void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                    const truth::Events& events, std::span<const traffic::Lease> leases) {
     state_->trace.add(snapshot);
     state_->trace.add(leases);
-    if (state_->watch) state_->watch->step(snapshot);
+    if (state_->traffic) {
+        state_->traffic->step(snapshot);
+        state_->flow->step(snapshot);
+        state_->conflicts->step(snapshot, roster);
+    }
     RunMetrics& counted = state_->counted;
     counted.vehicle_steps += snapshot.size();
     counted.teleports += events.teleported.size();
@@ -203,7 +258,9 @@ void Recorder::step(const truth::Snapshot& snapshot, const truth::Events& events
     counted.collisions += events.collisions.size();
     for (const truth::Collision& collision : events.collisions) {
         if (collision.place == truth::CollisionPlace::junction) ++counted.junction_collisions;
-        if (collision.with_emergency_vehicle) ++counted.emergency_collisions;
+        if (!collision.with_emergency_vehicle) continue;
+        ++counted.emergency_collisions;
+        if (collision.place == truth::CollisionPlace::junction) ++counted.emergency_junction_collisions;
     }
     for (const core::VehicleKey vehicle : events.teleported)
         ++state_->teleports[vehicle];
@@ -223,9 +280,15 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     RunSummary summary;
     summary.vehicles = table.take_rows();
     summary.trace_hash = state_->trace.digest();
-    if (state_->watch) summary.traffic = state_->watch->tables();
     RunMetrics& metrics = summary.metrics;
     metrics = state_->counted;
+    if (state_->traffic) {
+        summary.traffic = state_->traffic->tables();
+        describe_flow(*state_->flow, metrics);
+        describe_conflicts(*state_->conflicts, metrics);
+        metrics.worst_approach_delay_s = worst_delay_s(summary.traffic.approaches);
+    }
+    metrics.vehicle_km = driven_km(summary.vehicles);
     count_outcomes(summary.vehicles, metrics);
     average(summary.vehicles, metrics);
     metrics.simulated_s = end.time.value;

@@ -66,11 +66,12 @@ class Recorder {
     /// After the warm-up that conditions share, for what a condition knows better.
     void configure(RecorderConfig config);
 
-    /// From the next step on, also says where time is lost and how emergency vehicles travel.
+    /// From the next step on, also says where time is lost, how emergency vehicles travel, and how safely.
     void watch(RoadLayout layout);
 
-    /// One step: counts events and adds snapshot and leases to the trace hash.
-    void step(const truth::Snapshot& snapshot, const truth::Events& events,
+    /// One step: counts events and adds snapshot and leases to the trace hash. The roster lists every vehicle
+    /// of the snapshot.
+    void step(const truth::Snapshot& snapshot, const traffic::Roster& roster, const truth::Events& events,
               std::span<const traffic::Lease> leases);
     /// Compares the believed links with the true ones of the same moment. A link counts as believed when the
     /// belief lists it.

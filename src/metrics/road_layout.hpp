@@ -33,6 +33,14 @@ struct WatchedRoute {
     std::vector<RouteSignal> signals;    ///< In driving order.
 };
 
+/// A way across a junction that a signal controls, as a vehicle's lanes show it.
+struct SignalWay {
+    core::LaneIndex to;    ///< First inner lane of the way, or the lane behind it.
+    core::LaneIndex from;  ///< The lane before it where `to` is the lane behind, else none.
+    core::SignalIndex signal;
+    std::uint16_t link = 0;
+};
+
 /// What a recorder has to know of the map to say where time was lost: numbers alone, so that it needs no map.
 struct RoadLayout {
     static constexpr std::int32_t no_approach = -1;
@@ -42,6 +50,7 @@ struct RoadLayout {
     std::vector<std::uint8_t> internal_lane;     ///< By core::LaneIndex; 1 inside junctions.
     std::vector<float> limit_of_lane_mps;        ///< By core::LaneIndex.
     std::vector<WatchedRoute> routes;
+    std::vector<SignalWay> signal_ways;  ///< Ordered by `to`.
     double demand_until_s =
         0.0;  ///< Vehicles of the demand depart up to this time; flows are taken until then.
     /// Whether the emergency vehicles' journeys are kept; they are as large as everything else together.

@@ -62,7 +62,22 @@ struct RunMetrics {
     std::uint64_t collisions = 0;
     std::uint64_t junction_collisions = 0;
     std::uint64_t emergency_collisions = 0;
+    std::uint64_t emergency_junction_collisions = 0;
     std::uint64_t emergency_brakings = 0;
+
+    // From the moment on at which conditions part.
+    std::optional<double> emergency_least_ttc_s;
+    std::uint64_t emergency_conflicts = 0;
+    std::optional<double> emergency_greatest_drac_mps2;
+    std::uint64_t emergency_red_passages = 0;
+    std::uint64_t others_red_passages = 0;
+    std::uint64_t others_hard_brakings = 0;
+    std::optional<double> others_jerk_mps3;
+    std::optional<double> signal_throughput_per_hour;
+    std::optional<double> signal_queue_vehicles;
+    std::optional<double> signal_longest_queue_vehicles;
+    std::optional<double> worst_approach_delay_s;
+    double vehicle_km = 0.0;  ///< Of the whole run.
 
     std::uint64_t leases_issued = 0;
     std::uint64_t leases_renewed = 0;
@@ -127,8 +142,37 @@ struct RunMetrics {
                   "events"},
             Field{"emergency_collisions", "1", &M::emergency_collisions, 0.0, 1e9,
                   "Collisions with an EV in them", "events"},
+            Field{"emergency_junction_collisions", "1", &M::emergency_junction_collisions, 0.0, 1e9,
+                  "Collisions at junctions with an EV in them", "events"},
             Field{"emergency_brakings", "1", &M::emergency_brakings, 0.0, 1e9,
-                  "Brakings harder than a vehicle's usual deceleration", "events"},
+                  "Brakings that reach a type's emergency deceleration (9 m/s2, trucks and buses 7)",
+                  "events"},
+            Field{"emergency_least_ttc_s", "s", &M::emergency_least_ttc_s, 0.0, 1e9,
+                  "Least time to collision of vehicles that follow each other within 100 m of an EV",
+                  "SSAM's TTC"},
+            Field{"emergency_conflicts", "1", &M::emergency_conflicts, 0.0, 1e9,
+                  "Times that it fell below 1.5 s", "SSAM's TTC"},
+            Field{"emergency_greatest_drac_mps2", "m/s2", &M::emergency_greatest_drac_mps2, 0.0, 1e9,
+                  "Greatest deceleration to avoid a crash there", "SSAM's DRAC"},
+            Field{"emergency_red_passages", "1", &M::emergency_red_passages, 0.0, 1e9,
+                  "Stop lines that EVs passed on red", "lanes and signal states"},
+            Field{"others_red_passages", "1", &M::others_red_passages, 0.0, 1e9,
+                  "Stop lines that others passed on red", "lanes and signal states"},
+            Field{"others_hard_brakings", "1", &M::others_hard_brakings, 0.0, 1e9,
+                  "Brakings of others harder than 3.4 m/s2", "AASHTO's comfortable deceleration"},
+            Field{"others_jerk_mps3", "m/s3", &M::others_jerk_mps3, 0.0, 1e9,
+                  "Jerk of others, root mean square over steps", "change of acceleration by step"},
+            Field{"signal_throughput_per_hour", "1/h", &M::signal_throughput_per_hour, 0.0, 1e9,
+                  "Vehicles past the stop lines of signals an hour, while demand departs", "lanes"},
+            Field{"signal_queue_vehicles", "1", &M::signal_queue_vehicles, 0.0, 1e9,
+                  "Vehicles standing on an approach to a signal, mean while demand departs",
+                  "speed below 0.1 m/s"},
+            Field{"signal_longest_queue_vehicles", "1", &M::signal_longest_queue_vehicles, 0.0, 1e9,
+                  "Most vehicles that stood on one approach to a signal", "speed below 0.1 m/s"},
+            Field{"worst_approach_delay_s", "s", &M::worst_approach_delay_s, 0.0, 1e9,
+                  "Mean time lost on the worst approach with five vehicles or more", "approaches"},
+            Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
+                  "tripinfo routeLength"},
             Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
                   "actuation"},
             Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that prolonged one",

@@ -39,6 +39,10 @@ std::string optional_text(const std::optional<double>& value, NumberStyle style)
     return value ? number(*value, style) : missing(style.script);
 }
 
+bool is_unsafe(const ConditionSummary& condition) {
+    return condition.condition.safety_checks == traffic::SafetyChecks::off;
+}
+
 std::string row_of(const ConditionSummary& condition, const Comparison& comparison) {
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
@@ -52,8 +56,10 @@ std::string row_of(const ConditionSummary& condition, const Comparison& comparis
                                   : fmt::format("{} of {}", comparison.complete_pairs,
                                                 comparison.complete_pairs + comparison.incomplete_pairs);
     const auto& relative = comparison.relative;
-    return fmt::format("{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n",
-                       printable(condition.condition.name).substr(0, label_width - 1), label_width, pairs,
+    const std::string mark = is_unsafe(condition) ? " (!)" : "";
+    const std::string label =
+        printable(condition.condition.name).substr(0, label_width - 1 - mark.size()) + mark;
+    return fmt::format("{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n", label, label_width, pairs,
                        difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
@@ -89,8 +95,9 @@ Json to_json(const Comparison& comparison) {
 }  // namespace
 
 bool more_is_better(const std::string& metric) {
-    constexpr std::array better = {"emergency_arrived",        "arrived",  "links_true_positive",
-                                   "dark_links_true_positive", "links_f1", "dark_links_f1"};
+    constexpr std::array better = {
+        "emergency_arrived", "arrived",       "links_true_positive",        "dark_links_true_positive",
+        "links_f1",          "dark_links_f1", "signal_throughput_per_hour", "emergency_least_ttc_s"};
     return std::ranges::find(better, metric) != better.end();
 }
 
@@ -122,6 +129,7 @@ std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
 std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics) {
     std::string text;
     auto out = std::back_inserter(text);
+    bool any_unsafe = false;
     for (const ScenarioSummary& scenario : summary.scenarios) {
         for (const std::string& name : metrics) {
             std::string rows;
@@ -129,6 +137,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
             for (const ConditionSummary& condition : scenario.conditions) {
                 if (condition.baseline.empty()) continue;
                 metric = &condition.metric(name).metric;
+                any_unsafe = any_unsafe || is_unsafe(condition);
                 rows += row_of(condition, *condition.metric(name).comparison);
             }
             if (metric == nullptr) continue;
@@ -138,6 +147,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                            "diff.", "95 % interval", "%", "d", "p Holm", "Wilcoxon", "", page_width, rows);
         }
     }
+    if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
     return text;
 }
 
@@ -151,6 +161,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
         comparisons.push_back({{"scenario", scenario.scenario},
                                {"condition", condition.condition.name},
                                {"compared_with", condition.baseline},
+                               {"safety_checks", results::name(condition.condition.safety_checks)},
                                {"metrics", std::move(values)}});
     });
     Json gates = Json::array();

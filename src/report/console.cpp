@@ -27,9 +27,7 @@ std::string safe_table(std::string text) {
 }
 
 std::string label(const ConditionFacts& condition) {
-    std::string text = printable(condition.title);
-    if (condition.safety_checks_off) text += " (!)";
-    return text;
+    return printable(condition.label());
 }
 
 std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {

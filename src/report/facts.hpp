@@ -109,6 +109,15 @@ struct Events {
     std::uint64_t teleports = 0;
 };
 
+/// One number of the safety, comfort and flow of a condition.
+struct SafetyFacts {
+    const char* metric = "";            ///< Name in the tables of runs, unit included; static storage.
+    const char* title = "";             ///< With the unit; static storage.
+    Estimate value;                     ///< A run.
+    Estimate difference;                ///< Paired, to the baseline; empty where nothing is compared.
+    std::optional<double> per_1000_km;  ///< Of counts: over all runs, by 1,000 vehicle-kilometres.
+};
+
 /// EV travel times of one replication, s: means over the EVs that arrived in both conditions.
 struct TravelTimePair {
     double baseline_s = 0.0;
@@ -221,11 +230,14 @@ struct ConditionFacts {
     std::vector<TravelTimePair> travel_time_pairs;  ///< Complete ones, in the order of the replications.
     std::optional<Precision> precision;             ///< Nothing below two pairs.
     Events events;
+    std::vector<SafetyFacts> safety;        ///< The same rows in every condition.
     std::vector<ApproachFacts> approaches;  ///< Where most changes first; empty where nothing is compared.
     std::vector<RecoveryFacts> recovery;    ///< Ascending; likewise.
     std::optional<double> recovered_after_s;
 
     bool is_compared() const { return baseline.has_value(); }
+    /// The title, with a mark where safety checks were off: as tables, legends and figures name it.
+    std::string label() const { return safety_checks_off ? title + " (!)" : title; }
     const Outcome& outcome(Measure measure) const { return outcomes[static_cast<std::size_t>(measure)]; }
     Outcome& outcome(Measure measure) { return outcomes[static_cast<std::size_t>(measure)]; }
 };

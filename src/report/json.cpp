@@ -68,6 +68,17 @@ Json to_json(const Events& events) {
             {"teleports", events.teleports}};
 }
 
+Json to_json(const std::vector<SafetyFacts>& safety) {
+    Json result = Json::object();
+    for (const SafetyFacts& row : safety) {
+        Json entry = to_json(row.value, "replications");
+        if (row.difference.mean) entry["difference"] = to_json(row.difference, "pairs");
+        if (row.per_1000_km) entry["per_1000_vehicle_km"] = *row.per_1000_km;
+        result[row.metric] = std::move(entry);
+    }
+    return result;
+}
+
 Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     Json result = Json::object();
     for (const MeasureInfo& measure : measures()) {
@@ -105,6 +116,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"emergency_travel_time_percentile_95_s",
          to_json(condition.travel_time_percentile_95, "replications")},
         {"events", to_json(condition.events)},
+        {"safety", to_json(condition.safety)},
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
     if (condition.precision) {

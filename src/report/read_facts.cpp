@@ -13,6 +13,7 @@
 #include "analysis/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "report/detail/safety_facts.hpp"
 #include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
 
@@ -38,21 +39,14 @@ std::string title_of(const std::string& condition) {
 
 std::string recipe_of(const results::ConditionSpec& condition) {
     return fmt::format(
-        "sensing {}; repair {}; policy {}; engine {}; safety checks {}", condition.failure,
+        "sensing {}; repair {}; policy {}; engine {}; safety checks {}{}", condition.failure,
         condition.predictor,
         condition.parts.empty() ? "none" : fmt::format("{}", fmt::join(condition.parts, " + ")),
-        results::name(condition.engine), condition.safety_checks == traffic::SafetyChecks::on ? "on" : "off");
+        results::name(condition.engine), results::name(condition.safety_checks),
+        condition.bluelight == traffic::BlueLight::on ? "; device.bluelight" : "");
 }
 
-Estimate estimate_from(const std::optional<analysis::Estimate>& estimate) {
-    if (!estimate) return {};
-    Estimate result{estimate->mean, std::nullopt, std::nullopt, estimate->n};
-    if (estimate->interval) {
-        result.low = estimate->interval->low;
-        result.high = estimate->interval->high;
-    }
-    return result;
-}
+using detail::estimate_from;
 
 Endings endings_from(const analysis::OutcomeCounts& counts) {
     return {counts.arrived, counts.running_at_end, counts.teleported, counts.not_inserted, counts.removed};
@@ -221,6 +215,7 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
         condition.travel_time_median = estimate_from(one.travel_time.median, one.complete_runs);
         condition.travel_time_percentile_95 = estimate_from(one.travel_time.percentile_95, one.complete_runs);
         condition.events = events_of(one);
+        condition.safety = detail::safety_of(one);
         fill_pairs(one, level, least_relevant_s, condition);
         fill_traffic(one, condition);
         facts.conditions.push_back(std::move(condition));

@@ -16,21 +16,21 @@ std::string key_cells(const RunKey& key) {
 }
 
 std::string complete_line(const RunRecord& run) {
-    std::string line = key_cells(run.key) + ",ok,";
+    std::string line = fmt::format("{},ok,,{}", key_cells(run.key), name(run.condition.safety_checks));
     detail::append_cells(line, run.metrics);
     detail::append_cells(line, run.provenance);
     return line;
 }
 
 std::string incomplete_line(const RunKey& key, std::string_view outcome, std::string_view cause) {
-    std::string line = fmt::format("{},{},{}", key_cells(key), outcome, cause);
+    std::string line = fmt::format("{},{},{},", key_cells(key), outcome, cause);
     detail::append_empty_cells<metrics::RunMetrics>(line);
     detail::append_empty_cells<Provenance>(line);
     return line;
 }
 
 std::string runs_header() {
-    std::string line = "scenario,condition,replication,outcome,cause";
+    std::string line = "scenario,condition,replication,outcome,cause,safety_checks";
     detail::append_header<metrics::RunMetrics>(line);
     detail::append_header<Provenance>(line);
     return line;

@@ -17,16 +17,6 @@ std::optional<StepRecording> recording_from(std::string_view word) {
     return std::nullopt;
 }
 
-std::string_view text_of(traffic::SafetyChecks checks) {
-    return checks == traffic::SafetyChecks::on ? "on" : "off";
-}
-
-std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word) {
-    if (word == "on") return traffic::SafetyChecks::on;
-    if (word == "off") return traffic::SafetyChecks::off;
-    return std::nullopt;
-}
-
 }  // namespace
 
 std::string_view name(Engine engine) {
@@ -48,6 +38,22 @@ std::optional<Engine> engine_from(std::string_view word) {
     return std::nullopt;
 }
 
+std::string_view name(traffic::SafetyChecks checks) {
+    return checks == traffic::SafetyChecks::on ? "on" : "off";
+}
+
+std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word) {
+    if (word == "on") return traffic::SafetyChecks::on;
+    if (word == "off") return traffic::SafetyChecks::off;
+    return std::nullopt;
+}
+
+std::optional<traffic::BlueLight> bluelight_from(std::string_view word) {
+    if (word == "on") return traffic::BlueLight::on;
+    if (word == "off") return traffic::BlueLight::off;
+    return std::nullopt;
+}
+
 namespace detail {
 
 Json to_json(const ConditionSpec& condition) {
@@ -57,8 +63,9 @@ Json to_json(const ConditionSpec& condition) {
     object["predictor"] = condition.predictor;
     object["parts"] = condition.parts;
     object["engine"] = results::name(condition.engine);
-    object["safety_checks"] = text_of(condition.safety_checks);
+    object["safety_checks"] = results::name(condition.safety_checks);
     if (!condition.loop_settings.empty()) object["loop_settings"] = condition.loop_settings;
+    if (condition.bluelight == traffic::BlueLight::on) object["bluelight"] = "on";
     return object;
 }
 
@@ -73,6 +80,7 @@ ConditionSpec condition_from(const Json& object, const std::string& where,
     reader.read_name("engine", condition.engine, engine_from);
     reader.read_name("safety_checks", condition.safety_checks, safety_checks_from);
     reader.read_if_there("loop_settings", condition.loop_settings);
+    if (object.contains("bluelight")) reader.read_name("bluelight", condition.bluelight, bluelight_from);
     return condition;
 }
 

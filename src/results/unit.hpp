@@ -10,6 +10,7 @@
 
 #include "core/settings.hpp"
 #include "traffic/command.hpp"
+#include "traffic/departure.hpp"
 
 namespace clearway::results {
 
@@ -24,6 +25,12 @@ enum class Engine : std::uint8_t {
 std::string_view name(Engine engine);
 std::optional<Engine> engine_from(std::string_view word);
 
+/// `on`, `off`.
+std::string_view name(traffic::SafetyChecks checks);
+std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word);
+
+std::optional<traffic::BlueLight> bluelight_from(std::string_view word);
+
 /// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };
 
@@ -36,6 +43,10 @@ struct ConditionSpec {
     Engine engine = Engine::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     core::Settings loop_settings = {};  ///< Members of LoopConfig that differ from its defaults.
+    traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
+
+    /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
+    bool acts() const { return !parts.empty() || bluelight == traffic::BlueLight::on; }
 
     bool operator==(const ConditionSpec&) const = default;
 };

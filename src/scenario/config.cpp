@@ -78,6 +78,7 @@ void read_root(const toml::table& table, Reading& reading, ScenarioConfig& confi
     read_subtable(root, "dense", reading, config.dense);
     read_subtable(root, "limits", reading, config.limits);
     read_subtable(root, "drivers", reading, config.drivers);
+    read_subtable(root, "siren", reading, config.siren);
     read_kinds(root, reading, config);
     read_subtable(root, "trips", reading, config.trips);
     read_list(root, "flow", reading, config.flows);

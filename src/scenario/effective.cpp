@@ -118,6 +118,8 @@ std::string to_toml(const ScenarioConfig& config) {
     if (config.dense) text += "\n[dense]\n" + members(*config.dense);
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
+    // A siren that nobody heeds is none: so configurations from before it keep their hash.
+    if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
     text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);
     text += "\n[kinds.emergency]\n" + members(config.emergency_kinds);
     text += "\n[trips]\n" + members(config.trips);

@@ -29,7 +29,7 @@ void append(Problems& problems, const core::InputError& error) {
 const std::vector<std::string> override_keys = {
     "variant",   "density",       "automated_share", "road_limit_kmh",
     "warm_up_s", "horizon_s",     "step_length_s",   "time_to_teleport_s",
-    "idm",       "traffic_kinds", "emergency_kinds"};
+    "idm",       "traffic_kinds", "emergency_kinds", "siren_compliance"};
 
 scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
@@ -46,6 +46,7 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     reader.number("time_to_teleport_s", options.time_to_teleport_s);
     reader.word<scenario::IdmPreset>(
         "idm", {{"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}}, options.idm);
+    reader.number("siren_compliance", options.siren_compliance);
     reader.text("traffic_kinds", options.traffic_kinds);
     reader.text("emergency_kinds", options.emergency_kinds);
     reader.finish();
@@ -86,6 +87,8 @@ results::ConditionSpec read_condition(const toml::table& table, const std::strin
     reader.word<traffic::SafetyChecks>(
         "safety_checks", {{"on", traffic::SafetyChecks::on}, {"off", traffic::SafetyChecks::off}},
         condition.safety_checks);
+    reader.word<traffic::BlueLight>(
+        "bluelight", {{"on", traffic::BlueLight::on}, {"off", traffic::BlueLight::off}}, condition.bluelight);
     reader.finish();
     if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");
     return condition;
@@ -126,11 +129,47 @@ void add_scenario(const std::string& path, const scenario::Options& options, con
     }
 }
 
+struct Reading {
+    const std::filesystem::path& file;
+    const std::vector<detail::Factor>& factors;
+};
+
+/// One of `[[scenario]]`: a scenario under a name of its own, with overrides beside those of the study.
+// NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and two lists to fill
+void add_own_scenario(const toml::table& table, toml::table overrides, const detail::Assignment& assignment,
+                      const Reading& reading, Problems& problems, StudyConfig& config) {
+    const std::string file = reading.file.string();
+    std::string from;
+    std::string name;
+    toml::table source;
+    for (const auto& [key, node] : table) {
+        const bool is_own = key == "from" || key == "name";
+        node.visit([&, key = key](const auto& value) {
+            (is_own ? source : overrides).insert_or_assign(key, value);
+        });
+    }
+    StrictTable reader(source, "scenario", file, problems);
+    reader.text("from", from);
+    reader.text("name", name);
+    reader.finish();
+    if (from.empty() || name.empty()) {
+        reader.problem(from.empty() ? "from" : "name", "is missing", "from and name",
+                       "Say which scenario it is, and how it is called here");
+        return;
+    }
+    const std::size_t before = config.scenarios.size();
+    add_scenario(resolve(from, reading.file), options_with(overrides, assignment, file, problems), "",
+                 problems, config);
+    if (config.scenarios.size() > before)
+        config.scenarios.back().name = name + detail::name_of(assignment, reading.factors);
+}
+
 void read_scenarios(StrictTable& root, const std::filesystem::path& file,
                     const std::vector<detail::Factor>& factors, Problems& problems, StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("scenarios", names);
-    if (names.empty())
+    const std::vector<const toml::table*> own = root.tables("scenario");
+    if (names.empty() && own.empty())
         root.problem("scenarios", "the study has no scenario", "names of `clearway list`, folders or files",
                      "");
     const toml::table* const given = root.table("overrides");
@@ -140,6 +179,8 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file,
         for (const std::string& name : names)
             add_scenario(resolve(name, file), options, detail::name_of(assignment, factors), problems,
                          config);
+        for (const toml::table* table : own)
+            add_own_scenario(*table, overrides, assignment, {file, factors}, problems, config);
     }
 }
 

@@ -46,6 +46,11 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge", "my/crossing"]        # names, folders or files, relative to this file
 ///     conditions = ["baseline", "graph_graphsage", "solo"]
 ///
+///     [[scenario]]                                # beside the named ones: with overrides of its own
+///     name = "crossing_dense"
+///     from = "my/crossing"
+///     variant = "dense"
+///
 ///     [overrides]                                 # as the options of `clearway run`; all optional
 ///     variant = "dense"
 ///     step_length_s = 0.1

@@ -43,9 +43,9 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
 
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
     for (const results::ConditionSpec& condition : config.conditions) {
-        if (condition.engine == Engine::solo || condition.parts.empty()) continue;
+        if (condition.engine == Engine::solo || !condition.acts()) continue;
         const auto is_baseline = [&](const results::ConditionSpec& other) {
-            return other.engine == condition.engine && other.parts.empty();
+            return other.engine == condition.engine && !other.acts();
         };
         if (std::ranges::any_of(config.conditions, is_baseline)) continue;
         problems.push_back(

@@ -201,6 +201,8 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
                 problems.push_back({where, "drives over edge '" + edge + "', which does not exist", "", ""});
         }
         if (!problems.empty()) throw core::InputError(std::move(problems));
+        if (departure.bluelight == traffic::BlueLight::on)
+            gateway::set_type_parameter(departure.type, "has.bluelight.device", "true");
         gateway::add({.vehicle = departure.id,
                       .type = departure.type,
                       .edges = departure.edges,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "traffic/vehicle.hpp"
 
 namespace clearway::traffic {
+
+/// SUMO's `device.bluelight` of an emergency vehicle: it passes red, and others form a rescue lane before it.
+enum class BlueLight : std::uint8_t { off, on };
 
 /// An emergency vehicle that a run adds after the warm-up.
 struct EmergencyDeparture {
@@ -17,6 +21,7 @@ struct EmergencyDeparture {
     core::Seconds depart;
     std::string depart_lane = "best";
     std::string depart_speed = "max";
+    BlueLight bluelight = BlueLight::off;
 };
 
 /// Parameters that a scenario writes on a SUMO vehicle type, and that the gateway reads back: `<param key=

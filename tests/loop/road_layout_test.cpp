@@ -49,6 +49,24 @@ TEST_F(RoadLayout, MeasuresTheRouteOfAnEmergencyVehicle) {
     EXPECT_EQ(route.signals[0].distance_m, 50.0);
 }
 
+TEST_F(RoadLayout, KnowsTheWaysOfASignalByTheirInnerLanesAndBothEnds) {
+    const metrics::RoadLayout layout = road_layout(network_, {});
+    EXPECT_TRUE(std::ranges::is_sorted(layout.signal_ways, {}, &metrics::SignalWay::to));
+    for (std::uint32_t lane = 0; lane < network_.lanes().size(); ++lane) {
+        for (const roads::Connection& way : network_.connections_from(core::LaneIndex{lane})) {
+            if (!way.signal.exists()) continue;
+            const auto is_its = [&](core::LaneIndex to, core::LaneIndex from) {
+                return std::ranges::any_of(layout.signal_ways, [&](const metrics::SignalWay& one) {
+                    return one.to == to && one.from == from && one.link == way.signal_link;
+                });
+            };
+            EXPECT_TRUE(is_its(way.to, way.from));
+            EXPECT_TRUE(is_its(way.via, core::LaneIndex::none()));
+        }
+    }
+    EXPECT_FALSE(layout.signal_ways.empty());
+}
+
 TEST_F(RoadLayout, StopsWhereARouteNamesNoEdge) {
     const std::vector departures = {departure({"west", "nowhere", "east"})};
     EXPECT_EQ(road_layout(network_, departures).routes.at(0).edge_start_m.size(), 1U);

@@ -64,6 +64,24 @@ TEST(Worker, StoresARecordForEveryConditionOfAUnit) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "work" / "unit-0-standard"));
 }
 
+TEST(Worker, RunsSumosBluelightAndDriversWhoYield) {
+    ConditionSpec light = baseline;
+    light.name = "light";
+    light.bluelight = traffic::BlueLight::on;
+    scenario::Options dense;
+    dense.variant = scenario::Variant::dense;
+    const test::StudyFolder plain("merge", dense, {baseline, light});
+    ASSERT_TRUE(run_worker(plain, plain.unit(0)).ok());
+    dense.siren_compliance = 1.0;
+    const test::StudyFolder heard("merge", dense, {baseline});
+    ASSERT_TRUE(run_worker(heard, heard.unit(0)).ok());
+    const auto trace = [](const test::StudyFolder& folder, const char* name) {
+        return record_of(folder, "merge", name).provenance.trace_hash;
+    };
+    EXPECT_NE(trace(plain, "light"), trace(plain, "baseline"));
+    EXPECT_NE(trace(heard, "baseline"), trace(plain, "baseline"));
+}
+
 TEST(Worker, BelievesTheTrueGraphUnderPerfectSensing) {
     const test::StudyFolder folder("intersection", {}, {perfect});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());

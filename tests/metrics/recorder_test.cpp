@@ -81,7 +81,7 @@ TEST_F(RecorderAtTheEnd, ATeleportedVehicleDidNotArriveHoweverItsTripinfoLooks) 
     Recorder recorder;
     truth::Events events;
     events.teleported = {core::vehicle_key("e1")};
-    recorder.step({}, events, {});
+    recorder.step({}, {}, events, {});
     const RunSummary summary = recorder.finish(end(all_trips_));
     EXPECT_EQ(summary.metrics.emergency_arrived, 0U);
     EXPECT_FALSE(summary.metrics.emergency_travel_time_s);
@@ -135,8 +135,8 @@ TEST(Recorder, CountsEventsOverAllSteps) {
     with_emergency.with_emergency_vehicle = true;
     events.collisions = {at_junction, with_emergency};
     events.emergency_brakings.resize(4);
-    recorder.step(snapshot, events, {});
-    recorder.step(snapshot, events, {});
+    recorder.step(snapshot, {}, events, {});
+    recorder.step(snapshot, {}, events, {});
     const RunMetrics metrics = recorder.finish({}).metrics;
     EXPECT_EQ(metrics.collisions, 4U);
     EXPECT_EQ(metrics.junction_collisions, 2U);
@@ -214,7 +214,7 @@ class TraceHashOfARun : public testing::Test {
     TraceHashOfARun() { snapshot_.resize(2); }
     std::string hash(const std::vector<traffic::Lease>& leases = {}) const {
         Recorder recorder;
-        recorder.step(snapshot_, {}, leases);
+        recorder.step(snapshot_, {}, {}, leases);
         return recorder.finish({}).trace_hash;
     }
     truth::Snapshot snapshot_;

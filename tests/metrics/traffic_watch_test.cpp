@@ -52,7 +52,7 @@ class TrafficWatch : public testing::Test {
             snapshot.route_edge[row++] = vehicle.route_edge;
         }
         snapshot.signals.state = {signal};
-        recorder_.step(snapshot, {}, {});
+        recorder_.step(snapshot, {}, {}, {});
         rows_.clear();
     }
     TrafficTables tables() {

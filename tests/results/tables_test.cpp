@@ -42,8 +42,9 @@ TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
     const auto lines = lines_of(runs_csv(results));
     ASSERT_EQ(lines.size(), 9U);
     EXPECT_THAT(lines[0],
-                testing::StartsWith("scenario,condition,replication,outcome,cause,emergency_travel_time_s,"));
-    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,50.1,,"));
+                testing::StartsWith(
+                    "scenario,condition,replication,outcome,cause,safety_checks,emergency_travel_time_s,"));
+    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,50.1,,"));
     EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,"));
     EXPECT_THAT(lines[6], testing::StartsWith("beta,baseline,1,missing,,,"));
     for (const std::string& line : lines)

@@ -25,6 +25,7 @@ UnitSpec example() {
     condition.engine = Engine::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
     condition.loop_settings = {{"policy_period_s", "1"}};
+    condition.bluelight = traffic::BlueLight::on;
     unit.conditions = {condition, ConditionSpec{}};
     unit.limits = {.wall_s = 12.5, .memory_mib = 300};
     unit.output = "/out";

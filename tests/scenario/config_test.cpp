@@ -231,6 +231,17 @@ TEST_F(Config, dense_times_density_stays_readable) {
     EXPECT_THAT(problems[0].what, HasSubstr("500"));
 }
 
+TEST_F(Config, a_siren_enters_the_effective_configuration_where_somebody_heeds_it) {
+    EXPECT_EQ(to_toml(load("merge")).find("[siren]"), std::string::npos);
+    Options options;
+    options.siren_compliance = 0.8;
+    const ScenarioConfig heard = load("merge", options);
+    EXPECT_EQ(heard.siren.compliance, 0.8);
+    EXPECT_NE(to_toml(heard).find("[siren]\ncompliance = 0.8\n"), std::string::npos);
+    options.siren_compliance = 1.5;
+    EXPECT_THROW(load("merge", options), core::InputError);
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

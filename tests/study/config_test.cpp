@@ -59,6 +59,31 @@ safety_checks = "off"
     EXPECT_EQ(config.conditions[2].safety_checks, traffic::SafetyChecks::off);
 }
 
+TEST_F(StudyFile, GivesAScenarioOverridesAndANameOfItsOwn) {
+    const StudyConfig config = read(R"(
+scenarios = ["merge"]
+conditions = ["baseline"]
+condition = [{name = "light", bluelight = "on"}]
+scenario = [{name = "crossing", from = "intersection", road_limit_kmh = 70.0, siren_compliance = 0.5}]
+[overrides]
+step_length_s = 0.1
+)");
+    ASSERT_EQ(config.scenarios.size(), 2U);
+    EXPECT_EQ(config.scenarios[0].limits.road_kmh, 0.0);
+    EXPECT_EQ(config.scenarios[1].name, "crossing");
+    EXPECT_EQ(config.scenarios[1].limits.road_kmh, 70.0);
+    EXPECT_EQ(config.scenarios[1].siren.compliance, 0.5);
+    EXPECT_EQ(config.scenarios[1].time.step_length_s, 0.1);
+    EXPECT_EQ(config.conditions[1].bluelight, traffic::BlueLight::on);
+}
+
+TEST_F(StudyFile, SaysWhatIsWrongWithAScenarioOfItsOwn) {
+    const std::string rest = "\nconditions = [\"baseline\"]\n";
+    EXPECT_THAT(problems("scenario = [{from = \"merge\"}]" + rest), HasSubstr("scenario.name"));
+    EXPECT_THAT(problems("scenario = [{name = \"m\", from = \"merge\", varant = \"dense\"}]" + rest),
+                HasSubstr("Did you mean 'variant'?"));
+}
+
 TEST_F(StudyFile, LeavesOfItselfWhatQuickNames) {
     const std::string text = R"(
 name = "outages"

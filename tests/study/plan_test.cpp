@@ -77,6 +77,16 @@ TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
     EXPECT_EQ(problems_of(config), "none");
 }
 
+TEST(Plan, TakesNoConditionWithABluelightForABaseline) {
+    StudyConfig config = example();
+    results::ConditionSpec opponent;
+    opponent.name = "bluelight_sublane";
+    opponent.engine = Engine::sublane;
+    opponent.bluelight = traffic::BlueLight::on;
+    config.conditions.push_back(opponent);
+    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with engine \"sublane\""));
+}
+
 TEST(Plan, RefusesAnEmptyStudy) {
     StudyConfig config;
     config.replications = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace clearway::metrics::detail {
 namespace {
@@ -67,8 +66,8 @@ std::vector<Place> simplified(const std::vector<Place>& places) {
 
 }  // namespace
 
-TrafficWatch::TrafficWatch(RoadLayout layout)
-    : layout_(std::move(layout)),
+TrafficWatch::TrafficWatch(const RoadLayout& layout)
+    : layout_(layout),
       losses_(layout_.approaches.size()),
       halted_(layout_.approaches.size()),
       journeys_(layout_.routes.size()) {}

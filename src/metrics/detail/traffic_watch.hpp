@@ -14,7 +14,8 @@ namespace clearway::metrics::detail {
 /// not with the steps.
 class TrafficWatch {
   public:
-    explicit TrafficWatch(RoadLayout layout);
+    /// The layout outlives the watch.
+    explicit TrafficWatch(const RoadLayout& layout);
 
     /// One step. The first one only sets the clock.
     void step(const truth::Snapshot& snapshot);
@@ -62,7 +63,7 @@ class TrafficWatch {
     std::vector<JourneyRow> journeys() const;
     double others_halted(const Passage& passage, std::size_t sample) const;
 
-    RoadLayout layout_;
+    const RoadLayout& layout_;
     std::vector<std::array<Loss, 2>> losses_;  ///< By approach; human, automated.
     std::vector<std::uint32_t> halted_;        ///< By approach, now.
     std::vector<std::vector<std::uint32_t>> samples_;

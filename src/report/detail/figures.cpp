@@ -42,7 +42,7 @@ Range forest_range(const ScenarioFacts& scenario, std::size_t& compared) {
 void draw_forest_row(Plot& plot, const ConditionFacts& condition, const Outcome& outcome, double top,
                      std::size_t series) {
     const Estimate& difference = outcome.difference;
-    plot.text(10.0, top + 11.0, condition.title, Plot::Anchor::start, "label");
+    plot.text(10.0, top + 11.0, condition.label(), Plot::Anchor::start, "label");
     plot.text(right_edge, top + 26.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
               "value");
     if (!difference.mean) return;
@@ -62,7 +62,7 @@ DataTable forest_data(const ScenarioFacts& scenario) {
             const auto cell = [](const std::optional<double>& value) {
                 return value ? number(*value, typeset(2, Sign::always)) : missing(Script::typeset);
             };
-            table.rows.push_back({fmt::format("{}, {}", info(measure).title, condition.title),
+            table.rows.push_back({fmt::format("{}, {}", info(measure).title, condition.label()),
                                   cell(difference.mean), cell(difference.low), cell(difference.high),
                                   grouped(difference.count)});
         }
@@ -96,7 +96,7 @@ DataTable distribution_data(const ScenarioFacts& scenario) {
                     {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         const Distribution& distribution = condition.travel_time;
-        std::vector<std::string> row = {condition.title, grouped(distribution.all),
+        std::vector<std::string> row = {condition.label(), grouped(distribution.all),
                                         grouped(distribution.arrived)};
         for (const double share : {0.10, 0.25, 0.50, 0.75, 0.90, 0.95}) {
             row.push_back(seconds_at(distribution, share));
@@ -207,7 +207,7 @@ std::string distribution_figure(const ScenarioFacts& scenario) {
     std::vector<std::pair<std::size_t, std::string>> entries;
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
-        entries.emplace_back(row, condition.title);
+        entries.emplace_back(row, condition.label());
         if (!condition.travel_time.points.empty()) {
             plot.line(steps(condition.travel_time, plot.x().values.high), row);
         }

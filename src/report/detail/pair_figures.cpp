@@ -45,7 +45,7 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
     for (const ConditionFacts& condition : scenario.conditions) {
         std::size_t place = 0;
         for (const TravelTimePair& pair : thinned(condition.travel_time_pairs)) {
-            table.rows.push_back({fmt::format("{}, {}", condition.title, ++place),
+            table.rows.push_back({fmt::format("{}, {}", condition.label(), ++place),
                                   number(pair.baseline_s, typeset(1)), number(pair.condition_s, typeset(1)),
                                   number(pair.condition_s - pair.baseline_s, typeset(1, Sign::always))});
         }
@@ -85,7 +85,7 @@ std::string slopes_figure(const ScenarioFacts& scenario) {
             plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, rows[column]);
         const TravelTimePair mean = mean_of(condition.travel_time_pairs);
         plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, rows[column]);
-        entries.emplace_back(rows[column], condition.title);
+        entries.emplace_back(rows[column], condition.label());
     }
     std::string note =
         "Each thin line is one replication, from the baseline (left) to the condition (right); the "
@@ -126,11 +126,11 @@ std::string precision_figure(const ScenarioFacts& scenario) {
         std::vector<std::pair<double, double>> points;
         for (const PrecisionPoint& point : condition.precision->points) {
             points.emplace_back(static_cast<double>(point.replications), point.half_width_s);
-            data.rows.push_back({fmt::format("{}, {}", condition.title, point.replications),
+            data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
                                  number(point.half_width_s, typeset(2))});
         }
         plot.line(points, row);
-        entries.emplace_back(row, condition.title);
+        entries.emplace_back(row, condition.label());
     }
     const std::string note = fmt::format("The level line: the least difference that counts, {} s.",
                                          number(scenario.least_relevant_s, typeset(1)));
@@ -148,7 +148,7 @@ DataTable precision_table(const ScenarioFacts& scenario) {
         const Estimate& difference = condition.outcome(Measure::emergency_travel_time).difference;
         const auto& precision = condition.precision;
         table.rows.push_back(
-            {condition.title, grouped(difference.count),
+            {condition.label(), grouped(difference.count),
              precision ? number(precision->deviation_s, typeset(1)) : missing(Script::typeset),
              difference.has_interval() ? number((*difference.high - *difference.low) / 2.0, typeset(2))
                                        : missing(Script::typeset),

@@ -41,6 +41,10 @@ bool has_approaches(const StudyFacts& study) {
                          [](const ConditionFacts& condition) { return !condition.approaches.empty(); });
 }
 
+bool has_safety(const StudyFacts& study) {
+    return any_condition(study, [](const ConditionFacts& condition) { return !condition.safety.empty(); });
+}
+
 bool has_journeys(const StudyFacts& study) {
     return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.journeys.empty(); });
 }
@@ -61,13 +65,14 @@ bool has_failure_curves(const StudyFacts& study) {
     return !study.failure_curves.empty();
 }
 
-constexpr std::array<Section, 13> all_sections = {{
+constexpr std::array<Section, 14> all_sections = {{
     {"verdict", "Verdict", always, verdict_section},
     {"tables", "Tables", always, tables_section},
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
     {"failure", "Benefit against failure", has_failure_curves, failure_section},
     {"cost", "Cost to the others", has_approaches, cost_section},
+    {"safety", "Safety, comfort and flow", has_safety, safety_section},
     {"journeys", "An EV's journey", has_journeys, journeys_section},
     {"enough", "Is n enough?", has_comparison, precision_section},
     {"calibration", "Flows against counts", has_counts, calibration_section},
@@ -109,9 +114,10 @@ DataTable events_of(const ScenarioFacts& scenario) {
         {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         const Events& events = condition.events;
-        table.rows.push_back({condition.title, grouped(events.leases_issued), grouped(events.leases_refused),
-                              grouped(events.leases_expired), grouped(events.collisions),
-                              grouped(events.emergency_collisions), grouped(events.teleports)});
+        table.rows.push_back({condition.label(), grouped(events.leases_issued),
+                              grouped(events.leases_refused), grouped(events.leases_expired),
+                              grouped(events.collisions), grouped(events.emergency_collisions),
+                              grouped(events.teleports)});
     }
     return table;
 }
@@ -272,7 +278,7 @@ std::string outcomes_section(const StudyFacts& study) {
                         {}};
         for (const ConditionFacts& condition : scenario.conditions) {
             const Endings& ends = condition.emergency;
-            table.rows.push_back({condition.title, grouped(ends.all()), grouped(ends.arrived),
+            table.rows.push_back({condition.label(), grouped(ends.all()), grouped(ends.arrived),
                                   grouped(ends.running), grouped(ends.teleported), grouped(ends.not_inserted),
                                   grouped(ends.removed), grouped(condition.others.all()),
                                   grouped(condition.others.arrived), grouped(condition.runs),

@@ -25,6 +25,7 @@ std::string forest_section(const StudyFacts& study);
 std::string distribution_section(const StudyFacts& study);
 std::string failure_section(const StudyFacts& study);
 std::string cost_section(const StudyFacts& study);
+std::string safety_section(const StudyFacts& study);
 std::string journeys_section(const StudyFacts& study);
 std::string precision_section(const StudyFacts& study);
 std::string calibration_section(const StudyFacts& study);

@@ -83,7 +83,7 @@ DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
         if (!outcome.paired) continue;
         const PairedStatistics& paired = *outcome.paired;
         table.rows.push_back(
-            {condition.title, estimate(outcome.difference, style),
+            {condition.label(), estimate(outcome.difference, style),
              paired.bootstrap.has_interval() ? estimate(paired.bootstrap, style) : missing(Script::typeset),
              estimate(paired.median, style),
              paired.effect_size ? number(*paired.effect_size, {2, Script::typeset})

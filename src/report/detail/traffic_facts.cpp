@@ -94,7 +94,7 @@ std::vector<JourneyFacts> journeys_in(const results::Store& store, const Scenari
         std::vector<JourneyFacts> journeys;
         for (std::size_t row = 0; row < runs.size(); ++row) {
             JourneyFacts& journey = journeys.emplace_back(std::move(runs[row].at(vehicle)));
-            journey.condition = conditions[row]->title;
+            journey.condition = conditions[row]->label();
             journey.replication = replication;
         }
         return journeys;

@@ -131,7 +131,7 @@ std::string approach_figure(const ScenarioFacts& scenario, const ConditionFacts&
         range.include(*difference.high);
     }
     const double height = static_cast<double>(shown) * cost_row_height + 12.0 + label_space;
-    const std::string title = fmt::format("{}: {}", scenario.name, condition.title);
+    const std::string title = fmt::format("{}: {}", scenario.name, condition.label());
     Plot plot(fmt::format("{}: time lost by approach against the baseline", title), height,
               {padded(range, 0.06), "time lost against the baseline, s a run", cost_left, cost_right},
               {{}, "", 6.0, height - label_space});
@@ -185,12 +185,12 @@ std::string recovery_figure(const ScenarioFacts& scenario) {
         std::vector<std::pair<double, double>> points;
         for (const RecoveryFacts& point : condition.recovery) {
             points.emplace_back(point.offset_s, point.halted.mean.value_or(0.0));
-            data.rows.push_back({fmt::format("{}, {}", condition.title, number(point.offset_s, typeset(0))),
+            data.rows.push_back({fmt::format("{}, {}", condition.label(), number(point.offset_s, typeset(0))),
                                  estimate(point.halted, typeset(2, Sign::always))});
         }
         plot.line(points, row);
         entries.emplace_back(row,
-                             fmt::format("{}: {}", condition.title,
+                             fmt::format("{}: {}", condition.label(),
                                          condition.recovered_after_s
                                              ? fmt::format("recovered after {} s",
                                                            number(*condition.recovered_after_s, typeset(0)))

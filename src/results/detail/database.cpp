@@ -145,8 +145,9 @@ void write_study(Database& database, const Manifest& manifest) {
 }
 
 void create_tables(Database& database) {
-    database.execute(fmt::format("CREATE TABLE runs ({}{}{}, PRIMARY KEY (scenario, condition, replication))",
-                                 key_columns, columns<metrics::RunMetrics>(), columns<Provenance>()));
+    database.execute(fmt::format(
+        "CREATE TABLE runs ({}, safety_checks TEXT{}{}, PRIMARY KEY (scenario, condition, replication))",
+        key_columns, columns<metrics::RunMetrics>(), columns<Provenance>()));
     database.execute(
         fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
@@ -172,7 +173,7 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
 struct DatabaseWriter::Tables {
     Tables(const std::filesystem::path& part, const Manifest& manifest)
         : database(begin_database(part, manifest)),
-          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(0)),
+          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(1)),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
           failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
 
@@ -214,6 +215,7 @@ void DatabaseWriter::discard() {
 void DatabaseWriter::add(const RunRecord& run) {
     Inserter& row = tables_->runs;
     row.add_key(run.key);
+    row.add(name(run.condition.safety_checks));
     row.add_fields(run.metrics);
     row.add_fields(run.provenance);
     row.insert();

@@ -301,6 +301,7 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     set("--time-to-teleport", "time_to_teleport_s", options.time_to_teleport_s, config.time, problems);
     if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
     if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
+    set("--siren", "compliance", options.siren_compliance, config.siren, problems);
     if (options.idm) config.drivers.idm = *options.idm;
     set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
     set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);

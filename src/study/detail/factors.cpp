@@ -16,7 +16,8 @@ namespace {
 using Problems = std::vector<core::Problem>;
 
 const std::vector<std::string> groups = {"condition", "failure", "loop", "scenario"};
-const std::vector<std::string> condition_keys = {"engine", "failure", "parts", "predictor", "safety_checks"};
+const std::vector<std::string> condition_keys = {"bluelight", "engine",    "failure",
+                                                 "parts",     "predictor", "safety_checks"};
 
 std::string place(const toml::node& node, const std::string& file, const std::string& key) {
     return fmt::format("{}:{}:{}: factors.{}", file, node.source().begin.line, node.source().begin.column,
@@ -121,20 +122,16 @@ void set_word(const Factor& factor, const FactorValue& value, FromName&& from_na
     }
 }
 
-std::optional<traffic::SafetyChecks> safety_checks_from(const std::string& word) {
-    if (word == "on") return traffic::SafetyChecks::on;
-    if (word == "off") return traffic::SafetyChecks::off;
-    return std::nullopt;
-}
-
 void set_condition_key(const Factor& factor, const FactorValue& value, results::ConditionSpec& condition,
                        Problems& problems) {
     if (factor.key == "failure") condition.failure = value.text;
     if (factor.key == "predictor") condition.predictor = value.text;
     if (factor.key == "parts") condition.parts = value.words.empty() ? std::vector{value.text} : value.words;
     if (factor.key == "engine") set_word(factor, value, results::engine_from, condition.engine, problems);
+    if (factor.key == "bluelight")
+        set_word(factor, value, results::bluelight_from, condition.bluelight, problems);
     if (factor.key == "safety_checks")
-        set_word(factor, value, safety_checks_from, condition.safety_checks, problems);
+        set_word(factor, value, results::safety_checks_from, condition.safety_checks, problems);
 }
 
 /// Names become folders; what cannot be in one becomes `_`.

@@ -214,6 +214,10 @@ double lane_length_m(const std::string& lane) {
     return call([&] { return api::Lane::getLength(lane); });
 }
 
+void set_type_parameter(const std::string& type, const std::string& parameter, const std::string& value) {
+    call([&] { api::VehicleType::setParameter(type, parameter, value); });
+}
+
 void add(const Insertion& insertion) {
     call([&] {
         const std::string route = "clearway:" + insertion.vehicle;

@@ -87,6 +87,8 @@ bool type_exists(const std::string& type);
 TypeReading read_type(const std::string& type);
 /// Empty when the type has no such parameter.
 std::string type_parameter(const std::string& type, const std::string& parameter);
+/// Devices are chosen by parameters of the type; vehicles added from now on have them.
+void set_type_parameter(const std::string& type, const std::string& parameter, const std::string& value);
 
 // --- Roads ---
 std::vector<std::string> lane_ids();

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "metrics/road_layout.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::metrics::detail {
+
+/// How smoothly and how lawfully vehicles move: hard braking and jerk, passages of stop lines on green and
+/// red, queues at signals. Linear in the vehicles on the road; does not allocate once its buffers have grown.
+class FlowWatch {
+  public:
+    /// Harder braking of a vehicle that is no emergency vehicle counts, m/s^2: what most drivers stay below
+    /// (AASHTO Green Book, stopping sight distance).
+    static constexpr float hard_braking_mps2 = 3.4F;
+
+    /// The layout outlives the watch.
+    explicit FlowWatch(const RoadLayout& layout) : layout_(layout), halted_(layout.approaches.size()) {}
+
+    /// One step. The first one only sets the clock.
+    void step(const truth::Snapshot& snapshot);
+
+    std::uint64_t hard_brakings() const { return hard_brakings_; }
+    /// Root mean square over steps and vehicles that are no emergency vehicles, m/s^3; nothing without one.
+    std::optional<double> jerk_mps3() const;
+    std::uint64_t emergency_red_passages() const { return emergency_red_passages_; }
+    std::uint64_t others_red_passages() const { return others_red_passages_; }
+    /// Vehicles past the stop lines of signals, an hour, while demand departs; nothing without signals.
+    std::optional<double> throughput_per_hour() const;
+    /// Vehicles that stand on an approach to a signal, mean over approaches and the time in which demand
+    /// departs.
+    std::optional<double> mean_queue_vehicles() const;
+    /// Most vehicles that stood on one approach to a signal at once.
+    std::optional<double> longest_queue_vehicles() const;
+
+  private:
+    void compare(const truth::Snapshot& snapshot, core::VehicleIndex row, std::size_t before,
+                 double elapsed_s);
+    void pass(const truth::Snapshot& snapshot, core::VehicleIndex row, core::LaneIndex from);
+    void count_queues(const truth::Snapshot& snapshot, double elapsed_s);
+    const SignalWay* way(core::LaneIndex from, core::LaneIndex to) const;
+    bool was_red(const truth::Snapshot& snapshot, const SignalWay& way) const;
+
+    const RoadLayout& layout_;
+    std::uint64_t hard_brakings_ = 0;
+    double squared_jerk_ = 0.0;
+    std::uint64_t jerk_count_ = 0;
+    std::uint64_t emergency_red_passages_ = 0;
+    std::uint64_t others_red_passages_ = 0;
+    std::uint64_t passages_of_demand_ = 0;
+    double queue_time_s_ = 0.0;  ///< Vehicles x time, over all approaches to signals.
+    std::uint32_t longest_queue_ = 0;
+    double demand_time_s_ = 0.0;
+    std::vector<std::uint32_t> halted_;  ///< By approach, now.
+    double last_s_ = -1.0;
+    /// The step before, by key: snapshots are sorted by it.
+    std::vector<core::VehicleKey> key_;
+    std::vector<core::LaneIndex> lane_;
+    std::vector<float> acceleration_mps2_;
+    std::vector<std::string> shown_;
+};
+
+}  // namespace clearway::metrics::detail

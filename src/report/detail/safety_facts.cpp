@@ -1,0 +1,67 @@
+#include "report/detail/safety_facts.hpp"
+
+#include <array>
+
+namespace clearway::report::detail {
+namespace {
+
+struct Row {
+    const char* metric;
+    const char* title;
+};
+
+constexpr std::array rows = {
+    Row{"collisions", "Collisions, on lanes and at junctions"},
+    Row{"junction_collisions", "Collisions at junctions"},
+    Row{"emergency_collisions", "Collisions with an EV"},
+    Row{"emergency_junction_collisions", "Collisions with an EV at junctions"},
+    Row{"emergency_brakings", "Emergency brakings (9 m/s\u00b2; trucks and buses 7)"},
+    Row{"teleports", "Teleports"},
+    Row{"emergency_conflicts", "Conflicts near an EV (time to collision below 1.5 s)"},
+    Row{"emergency_least_ttc_s", "Least time to collision near an EV, s"},
+    Row{"emergency_greatest_drac_mps2", "Greatest deceleration to avoid a crash near an EV, m/s\u00b2"},
+    Row{"emergency_red_passages", "EVs past a red signal"},
+    Row{"others_red_passages", "Others past a red signal"},
+    Row{"others_hard_brakings", "Hard brakings of others (3.4 m/s\u00b2)"},
+    Row{"others_jerk_mps3", "Jerk of others, root mean square, m/s\u00b3"},
+    Row{"signal_throughput_per_hour", "Vehicles past stop lines of signals, an hour"},
+    Row{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
+    Row{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
+    Row{"worst_approach_delay_s", "Time lost on the worst approach, s a vehicle"},
+};
+
+double total(const analysis::Values& values) {
+    double sum = 0.0;
+    for (const std::optional<double>& value : values)
+        sum += value.value_or(0.0);
+    return sum;
+}
+
+}  // namespace
+
+Estimate estimate_from(const std::optional<analysis::Estimate>& estimate) {
+    if (!estimate) return {};
+    Estimate result{estimate->mean, std::nullopt, std::nullopt, estimate->n};
+    if (estimate->interval) {
+        result.low = estimate->interval->low;
+        result.high = estimate->interval->high;
+    }
+    return result;
+}
+
+std::vector<SafetyFacts> safety_of(const analysis::ConditionSummary& summary) {
+    std::vector<SafetyFacts> facts;
+    if (summary.complete_runs == 0) return facts;
+    const double driven_km = total(summary.metric("vehicle_km").values);
+    for (const Row& row : rows) {
+        const analysis::MetricSummary& metric = summary.metric(row.metric);
+        SafetyFacts fact{row.metric, row.title, estimate_from(metric.estimate), {}, std::nullopt};
+        if (metric.comparison) fact.difference = estimate_from(metric.comparison->difference);
+        if (metric.metric.kind == analysis::MetricKind::count && driven_km > 0.0)
+            fact.per_1000_km = total(metric.values) / driven_km * 1000.0;
+        facts.push_back(fact);
+    }
+    return facts;
+}
+
+}  // namespace clearway::report::detail

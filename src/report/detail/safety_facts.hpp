@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/summary.hpp"
+#include "report/facts.hpp"
+
+namespace clearway::report::detail {
+
+/// An estimate as tables print it; without a mean where there is none.
+Estimate estimate_from(const std::optional<analysis::Estimate>& estimate);
+
+/// Safety, comfort and flow of a condition, always the same rows. Empty without a complete run.
+std::vector<SafetyFacts> safety_of(const analysis::ConditionSummary& summary);
+
+}  // namespace clearway::report::detail
