@@ -59,8 +59,8 @@ struct Actuator::State {
             if (lane.exists() && network.edge(network.lane(lane).edge).internal) occupied.push_back(lane);
         }
         std::ranges::sort(occupied);
-        const detail::SignalTiming timing{config.yellow_s, config.all_red_s, config.clearing_s,
-                                          config.hold_cap_s, config.cool_down_s};
+        const detail::SignalTiming timing{config.yellow_s,   config.all_red_s,   config.clearing_s,
+                                          config.hold_cap_s, config.cool_down_s, config.least_green_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();

@@ -1,6 +1,7 @@
 #include "policy/recover_signals.hpp"
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "policy/detail/approach.hpp"
@@ -11,44 +12,55 @@ namespace {
 
 constexpr char part_name[] = "recover_signals";
 
-using HaltedByLane = std::unordered_map<std::uint32_t, int>;
+using DemandByLane = std::unordered_map<std::uint32_t, int>;
 
-HaltedByLane halted_by_lane(const traffic::BelievedGraph& belief) {
-    HaltedByLane halted;
+/// Vehicles that a green would serve now: those that stand, and those close to the end of their lane.
+DemandByLane demand_by_lane(const roads::Network& network, const traffic::BelievedGraph& belief,
+                            double close_m) {
+    DemandByLane demand;
     for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
-        if (vehicle.state.lane.exists() && vehicle.state.speed_mps < detail::halted_mps)
-            ++halted[vehicle.state.lane.value];
+        if (!vehicle.state.lane.exists()) continue;
+        const double left_m = network.lane(vehicle.state.lane).length_m - vehicle.state.lane_position_m;
+        if (vehicle.state.speed_mps < detail::halted_mps || left_m < close_m)
+            ++demand[vehicle.state.lane.value];
     }
-    return halted;
+    return demand;
 }
 
-/// The links with a queue of the phase that would serve most vehicles; empty when nobody stands.
-std::vector<std::uint16_t> most_waited_for(const roads::Signal& signal, const HaltedByLane& halted) {
-    std::vector<std::uint16_t> best;
-    int most = 0;
-    for (const roads::Phase& phase : signal.program) {
-        std::vector<std::uint16_t> links;
-        std::unordered_map<std::uint32_t, int> lanes;
-        for (std::uint16_t link = 0; link < signal.links.size() && link < phase.state.size(); ++link) {
-            if (!traffic::is_green(phase.state[link])) continue;
-            bool has_queue = false;
-            for (const roads::SignalLink& way : signal.links[link]) {
-                const auto found = halted.find(way.from.value);
-                if (found == halted.end()) continue;
-                has_queue = true;
-                lanes[way.from.value] = found->second;
-            }
-            if (has_queue) links.push_back(link);
+/// A phase's links with demand, and how much that is.
+struct Served {
+    std::vector<std::uint16_t> links;
+    int vehicles = 0;
+};
+
+Served served_by(const roads::Signal& signal, const std::string& state, const DemandByLane& demand) {
+    Served served;
+    std::set<std::uint32_t> lanes;
+    for (std::uint16_t link = 0; link < signal.links.size() && link < state.size(); ++link) {
+        if (!traffic::is_green(state[link])) continue;
+        bool has_demand = false;
+        for (const roads::SignalLink& way : signal.links[link]) {
+            const auto found = demand.find(way.from.value);
+            if (found == demand.end()) continue;
+            has_demand = true;
+            if (lanes.insert(way.from.value).second) served.vehicles += found->second;
         }
-        int served = 0;
-        for (const auto& [lane, count] : lanes)
-            served += count;
-        if (served > most) {
-            most = served;
-            best = std::move(links);
-        }
+        if (has_demand) served.links.push_back(link);
     }
-    return best;
+    return served;
+}
+
+/// The links with demand of the phase that serves most of it; empty when nobody waits. What is shown now
+/// counts `worth` vehicles more: a change costs time.
+std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::string& shown,
+                                       const DemandByLane& demand, int worth) {
+    Served best;
+    for (const roads::Phase& phase : signal.program) {
+        Served served = served_by(signal, phase.state, demand);
+        if (served.vehicles > 0 && phase.state == shown) served.vehicles += worth;
+        if (served.vehicles > best.vehicles) best = std::move(served);
+    }
+    return best.links;
 }
 
 }  // namespace
@@ -67,9 +79,10 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
-    const HaltedByLane halted = halted_by_lane(belief);
+    const DemandByLane demand = demand_by_lane(network_, belief, config_.close_m);
     for (const auto& [signal, until] : until_s_) {
-        std::vector<std::uint16_t> links = most_waited_for(network_.signal(signal), halted);
+        std::vector<std::uint16_t> links = most_wanted(
+            network_.signal(signal), belief.signals.state[signal.value], demand, config_.change_vehicles);
         if (!links.empty())
             write.add(signal, traffic::FavourLinks{std::move(links)}, "waited for an emergency vehicle", {});
     }

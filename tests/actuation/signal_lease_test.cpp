@@ -212,5 +212,34 @@ TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
     EXPECT_EQ(restored[0].phase, 2U);
 }
 
+TEST(Favour, of_what_is_green_needs_no_all_red_on_the_way_back) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::FavourLinks{north}, 60.0);
+    const auto history = watch(bench, 20.0, hold_until(north, 8.0));
+    for (const Shown& shown : history)
+        EXPECT_EQ(shown.state[1], 'G') << "straight on from the north keeps its green at " << shown.from_s;
+    EXPECT_EQ(history.back().state, history.front().state);
+}
+
+TEST(Favour, ends_a_green_that_serves_nobody_it_names_after_its_least_time) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+    std::vector<std::pair<double, traffic::RestoreProgram>> sent;
+    while (bench.now.value < 12.0) {
+        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
+            sent.emplace_back(bench.now.value, restore);
+    }
+    ASSERT_FALSE(sent.empty());
+    EXPECT_GE(sent[0].first, 10.0);
+    EXPECT_EQ(sent[0].second.phase, 1U) << "the yellow of the program itself";
+}
+
+TEST(Favour, leaves_a_green_alone_that_serves_it) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::FavourLinks{north}, 60.0);
+    while (bench.now.value < 40.0)
+        EXPECT_TRUE(bench.only<traffic::RestoreProgram>(bench.step()).empty());
+}
+
 }  // namespace
 }  // namespace clearway::testing

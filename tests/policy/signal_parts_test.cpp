@@ -114,8 +114,22 @@ TEST(RecoverSignals, goes_on_for_a_while_after_the_emergency_vehicle_has_passed)
     scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
     EXPECT_EQ(act(part, scene, 100.0).size(), 1U);
     scene.remove(core::vehicle_key("e"));
-    EXPECT_EQ(act(part, scene, 119.0).size(), 1U);
-    EXPECT_TRUE(act(part, scene, 120.5).empty());
+    EXPECT_EQ(act(part, scene, 159.0).size(), 1U);
+    EXPECT_TRUE(act(part, scene, 160.5).empty());
+}
+
+TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_more) {
+    policy::RecoverSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(100.0);
+    // The first phase serves north and south: one vehicle comes near on green, others stand in the west.
+    scene.add({"h0", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 280.0, 10.0});
+    for (int number = 1; number <= 5; ++number)
+        scene.add(
+            {"h" + std::to_string(number), VehicleClass::human, eastbound, 0, 490.0 - 8.0 * number, 0.0});
+    const auto served = [&] { return std::get<traffic::FavourLinks>(act(part, scene).front().action).links; };
+    EXPECT_EQ(served().front(), 0U) << "one and the worth of a change against five";
+    scene.add({"h6", VehicleClass::human, eastbound, 0, 440.0, 0.0});
+    EXPECT_GE(served().front(), 12U);
 }
 
 TEST(RedPrivilege, is_asked_for_before_red_and_not_before_green) {

@@ -19,6 +19,7 @@ struct SignalTiming {
     double clearing_s;
     double hold_cap_s;
     double cool_down_s;
+    double least_green_s;
 };
 
 /// Internal lanes with a vehicle on them, ascending.
@@ -34,10 +35,15 @@ struct SignalSurroundings {
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.
 ///
-/// own program -> (yellow) -> (all red) -> hold -> yellow -> all red -> own program. Yellow is shown where a
-/// link loses green, all red wherever a link gains it, for longer while the junction is not clear; links that
-/// keep green keep it all the way. A request that changes on the way starts the way again from what is shown
-/// now. Simulated steps decide when a stage ends: it never is shorter than asked.
+/// own program -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> own program. Yellow is shown
+/// where a link loses green, all red wherever a link gains it, for longer while the junction is not clear;
+/// links that keep green keep it all the way. The way back leads to the phase that a favour asks for; without
+/// one all links are cleared, because where the program is by then is not known. A request that changes on
+/// the way starts the way again from what is shown now. Simulated steps decide when a stage ends: it never is
+/// shorter than asked.
+///
+/// In its own program a favour ends a green that serves none of its links, once that has lasted its least
+/// time: the program goes on with its next phase, so with its own yellow.
 class SignalControl {
   public:
     /// The network outlives the object.
@@ -56,12 +62,15 @@ class SignalControl {
 
     Links requested(Ledger& ledger);
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
-    void begin_way(const Links& links, core::Seconds now, std::vector<traffic::Command>& commands);
-    void proceed(const SignalSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    void begin_way(const Links& links, core::Seconds now, Ledger& ledger,
+                   std::vector<traffic::Command>& commands);
+    void begin_return(Ledger& ledger);
+    void shorten(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
+    void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     bool is_clear(const OccupiedLanes& occupied) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
-    void return_to_program(core::Seconds now, const SignalTiming& timing, Ledger& ledger,
+    void return_to_program(core::Seconds now, const SignalTiming& timing,
                            std::vector<traffic::Command>& commands);
 
     core::SignalIndex index_;
@@ -76,7 +85,11 @@ class SignalControl {
     bool capped_ = false;  ///< Held for the cap: on the way back whatever is asked.
     std::string shown_;
     std::string target_;
-    Links links_;  ///< What `target_` serves; empty on the way back.
+    Links links_;    ///< What is held; empty on the way back.
+    Links gaining_;  ///< Whose ways must be clear before `target_` is shown: all that it serves.
+    std::optional<std::uint32_t> return_phase_;  ///< Where the program starts after the way back.
+    std::string program_state_;                  ///< What the own program showed at the step before.
+    core::Seconds program_state_since_;
 };
 
 }  // namespace clearway::actuation::detail

@@ -85,6 +85,29 @@ bool needs_all_red(const std::string& shown, const std::string& target) {
     return false;
 }
 
+Links green_links(const std::string& state) {
+    Links links;
+    for (std::size_t link = 0; link < state.size(); ++link) {
+        if (traffic::is_green(state[link])) links.push_back(static_cast<std::uint16_t>(link));
+    }
+    return links;
+}
+
+bool serves_any(const std::string& state, const Links& links) {
+    return std::ranges::any_of(
+        links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
+}
+
+std::optional<std::uint32_t> phase_after_green(const roads::Signal& signal, const std::string& state) {
+    const bool is_green_phase =
+        std::ranges::any_of(state, traffic::is_green) && std::ranges::none_of(state, is_yellow);
+    if (!is_green_phase || std::ranges::count(signal.program, state, &roads::Phase::state) != 1)
+        return std::nullopt;
+    const auto shown = std::ranges::find(signal.program, state, &roads::Phase::state);
+    const auto row = static_cast<std::uint32_t>(shown - signal.program.begin());
+    return (row + 1) % static_cast<std::uint32_t>(signal.program.size());
+}
+
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right) {
     return std::ranges::any_of(left, [&](std::uint16_t link) { return is_foe_of_any(signal, link, right); });
 }

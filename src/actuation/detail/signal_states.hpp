@@ -29,6 +29,14 @@ bool needs_yellow(const std::string& shown, const std::string& target);
 /// Whether any link turns from not green to green.
 bool needs_all_red(const std::string& shown, const std::string& target);
 
+/// Links that are green in a state, ascending.
+Links green_links(const std::string& state);
+/// Whether any of `links` is green in a state.
+bool serves_any(const std::string& state, const Links& links);
+/// The phase after the one that shows `state`, if that is one phase alone and lets anybody pass without
+/// yellow.
+std::optional<std::uint32_t> phase_after_green(const roads::Signal& signal, const std::string& state);
+
 /// Whether a link of `left` conflicts with one of `right`.
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right);
 
