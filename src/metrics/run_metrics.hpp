@@ -98,7 +98,8 @@ struct RunMetrics {
 
     bool operator==(const RunMetrics&) const = default;
 
-    static constexpr auto fields() {
+  private:
+    static constexpr auto travel_fields() {
         using M = RunMetrics;
         using core::Field;
         return std::make_tuple(
@@ -134,7 +135,12 @@ struct RunMetrics {
             Field{"not_inserted", "1", &M::not_inserted, 0.0, 1e9, "Vehicles that never departed",
                   "demand less tripinfo"},
             Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles gone without arriving",
-                  "tripinfo vaporized"},
+                  "tripinfo vaporized"});
+    }
+    static constexpr auto safety_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
             Field{"teleports", "1", &M::teleports, 0.0, 1e9, "Teleports", "events"},
             Field{"collisions", "1", &M::collisions, 0.0, 1e9, "Collisions, on lanes and at junctions",
                   "events"},
@@ -172,7 +178,12 @@ struct RunMetrics {
             Field{"worst_approach_delay_s", "s", &M::worst_approach_delay_s, 0.0, 1e9,
                   "Mean time lost on the worst approach with five vehicles or more", "approaches"},
             Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
-                  "tripinfo routeLength"},
+                  "tripinfo routeLength"});
+    }
+    static constexpr auto decision_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
             Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
                   "actuation"},
             Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that prolonged one",
@@ -199,6 +210,11 @@ struct RunMetrics {
             Field{"simulated_s", "s", &M::simulated_s, 0.0, 1e9, "Simulated time", "clock"},
             Field{"vehicle_steps", "1", &M::vehicle_steps, 0.0, 1e15,
                   "Vehicles on the road, summed over steps", "snapshots"});
+    }
+
+  public:
+    static constexpr auto fields() {
+        return std::tuple_cat(travel_fields(), safety_fields(), decision_fields());
     }
 };
 
