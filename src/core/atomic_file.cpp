@@ -8,10 +8,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 
 namespace clearway::core {
+
+EnvironmentError write_error(const std::filesystem::path& path, int reason) {
+    const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+    return EnvironmentError(fmt::format("{}: cannot write: {}. {}", path.string(), std::strerror(reason),
+                                        full ? "Free some space there and give the same command again"
+                                             : "Choose another place, or correct its rights"));
+}
 
 AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)),
@@ -43,11 +49,7 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail() {
-    const int reason = errno;
-    const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
-    throw EnvironmentError(fmt::format("{}: cannot write: {}. {}", file_.string(), std::strerror(reason),
-                                       full ? "Free some space there and give the same command again"
-                                            : "Choose another place, or correct its rights"));
+    throw write_error(file_, errno);
 }
 
 }  // namespace clearway::core

@@ -3,7 +3,12 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/error.hpp"
+
 namespace clearway::core {
+
+/// What to throw where `path` could not be written, with the system's reason (errno) and its cure.
+EnvironmentError write_error(const std::filesystem::path& path, int reason);
 
 /// A file that is written piece by piece and is there as a whole or not at all: written aside, and after
 /// `commit` flushed to the disk and renamed, name and all. Without it, nothing is left. All functions throw

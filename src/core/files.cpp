@@ -54,10 +54,7 @@ std::string read_file(const std::filesystem::path& file) {
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error)
-        throw EnvironmentError(
-            fmt::format("{}: cannot make this folder: {}. Choose another place, or correct its rights",
-                        folder.string(), error.message()));
+    if (error) throw write_error(folder, error.value());
     if (::access(folder.c_str(), W_OK) != 0) fail(folder, "write into this folder");
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "results/detail/record_files.hpp"
@@ -29,7 +29,7 @@ constexpr const char* part_suffix = ".part";
 void write_unflushed(const fs::path& file, const std::string& content) {
     std::ofstream stream(file, std::ios::binary);
     stream << content;
-    if (!stream.flush()) throw core::EnvironmentError(fmt::format("{}: cannot write", file.string()));
+    if (!stream.flush()) throw core::write_error(file, errno);
 }
 
 /// A folder that is being filled; goes with this object unless it was put in place.
@@ -56,8 +56,7 @@ class PartFolder {
     bool put_in_place() {
         if (::rename(part_.c_str(), target_.c_str()) != 0) {
             if (errno == EEXIST || errno == ENOTEMPTY) return false;
-            throw core::EnvironmentError(
-                fmt::format("{}: cannot be put in place: {}", target_.string(), std::strerror(errno)));
+            throw core::write_error(target_, errno);
         }
         return true;
     }

@@ -1,13 +1,12 @@
 #include "sumo/detail/message_log.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <iostream>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "core/error.hpp"
+#include "core/atomic_file.hpp"
 
 namespace clearway::sumo::detail {
 namespace {
@@ -30,8 +29,7 @@ void write_all(int descriptor, const char* text, std::size_t count) {
 
 MessageLog::MessageLog(const std::filesystem::path& file)
     : descriptor_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644)) {
-    if (descriptor_ < 0)
-        throw core::EnvironmentError("cannot write " + file.string() + ": " + std::strerror(errno));
+    if (descriptor_ < 0) throw core::write_error(file, errno);
 }
 
 MessageLog::~MessageLog() {
