@@ -58,8 +58,10 @@ void FlowWatch::pass(const truth::Snapshot& snapshot, core::VehicleIndex row, co
 /// A way across a junction is known by its first inner lane, or by both ends where the vehicle jumped over
 /// it within one step.
 const SignalWay* FlowWatch::way(core::LaneIndex from, core::LaneIndex to) const {
-    for (const SignalWay& one : std::ranges::equal_range(layout_.signal_ways, to, {}, &SignalWay::to)) {
-        if (!one.from.exists() || one.from == from) return &one;
+    const std::vector<SignalWay>& ways = layout_.signal_ways;
+    for (auto one = std::ranges::lower_bound(ways, to, {}, &SignalWay::to);
+         one != ways.end() && one->to == to; ++one) {
+        if (!one->from.exists() || one->from == from) return &*one;
     }
     return nullptr;
 }
