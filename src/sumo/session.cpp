@@ -53,7 +53,7 @@ void require_complete(const std::filesystem::path& trips) {
     const std::size_t last = text.find_last_not_of(" \n");
     if (last == std::string::npos || !std::string_view(text).substr(0, last + 1).ends_with(end))
         throw core::EnvironmentError(trips.string() +
-                                     " is incomplete: the disk is full, or the file was cut. Free some space "
+                                     " is incomplete; the disk may be full. Free some space "
                                      "there and give the same command again");
 }
 
