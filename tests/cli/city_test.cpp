@@ -75,6 +75,17 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     EXPECT_THAT(none.out, HasSubstr("0 EVs with a route"));
 }
 
+TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
+    write_line_scenario();
+    const Ended failed = clearway({"check", "line", "--run-time-limit", "0.001"});
+    EXPECT_EQ(failed.code, 1) << failed.out << failed.err;
+    EXPECT_THAT(failed.out,
+                AllOf(HasSubstr("FAILED"), HasSubstr("runs/check-line"), HasSubstr("clearway-run")));
+    EXPECT_TRUE(std::filesystem::exists(folder() / "runs/check-line/manifest.json"));
+    EXPECT_EQ(clearway({"check", "line"}).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line"));
+}
+
 TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {
     write("page.osm", "<!DOCTYPE html><html></html>");
     const Ended ended = clearway({"import", "page.osm", "--name", "page"});

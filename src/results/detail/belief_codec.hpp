@@ -17,15 +17,7 @@ class BelievedVehiclesCodec {
     template <class Stream, class Vehicles>
     void code(Stream& stream, Vehicles& now, const std::vector<traffic::ObservedVehicle>& reports,
               const std::vector<core::VehicleKey>& report_keys, const truth::Snapshot& snapshot) {
-        std::vector<core::VehicleKey> keys;
-        for (const traffic::BelievedVehicle& vehicle : now)
-            keys.push_back(vehicle.key);
-        keys_.code(stream, keys);
-        if constexpr (Stream::reading) {
-            now.assign(keys.size(), {});
-            for (std::uint32_t row = 0; row < keys.size(); ++row)
-                now[row].key = keys[row];
-        }
+        keys_.code_rows(stream, now);
         match(keys_.now(), report_keys, report_row_);
         match(keys_.now(), snapshot.key, true_row_);
         code_columns(stream, now, reports, snapshot);

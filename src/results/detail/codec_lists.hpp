@@ -74,6 +74,20 @@ class KeyList {
         match(now_, last_, before_);
     }
 
+    /// Rows that carry their key: written, their keys; read, one row a key with nothing else in it yet.
+    template <class Stream, class Rows>
+    void code_rows(Stream& stream, Rows& rows) {
+        std::vector<core::VehicleKey> keys;
+        for (const auto& row : rows)
+            keys.push_back(row.key);
+        code(stream, keys);
+        if constexpr (Stream::reading) {
+            rows.assign(keys.size(), {});
+            for (std::size_t row = 0; row < keys.size(); ++row)
+                rows[row].key = keys[row];
+        }
+    }
+
   private:
     void require_ascending() const {
         for (std::size_t i = 1; i < now_.size(); ++i) {

@@ -27,15 +27,7 @@ class ReportsCodec {
   public:
     template <class Stream, class Reports>
     void code(Stream& stream, Reports& now, const truth::Snapshot& snapshot, double elapsed_s) {
-        std::vector<core::VehicleKey> keys;
-        for (const traffic::ObservedVehicle& vehicle : now)
-            keys.push_back(vehicle.key);
-        keys_.code(stream, keys);
-        if constexpr (Stream::reading) {
-            now.assign(keys.size(), {});
-            for (std::uint32_t row = 0; row < keys.size(); ++row)
-                now[row].key = keys[row];
-        }
+        keys_.code_rows(stream, now);
         match(keys_.now(), snapshot.key, true_row_);
         code_columns(stream, now, snapshot, elapsed_s);
         last_ = now;
