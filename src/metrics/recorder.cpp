@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/match_rows.hpp"
 #include "metrics/detail/conflict_watch.hpp"
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
@@ -219,6 +220,8 @@ struct Recorder::State {
     RunMetrics counted;  ///< What events and snapshots say so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
     RoadLayout layout;
+    std::vector<core::VehicleKey> keys;     ///< Of the step before.
+    std::vector<std::uint32_t> row_before;  ///< Row there of each vehicle.
     std::optional<detail::TrafficWatch> traffic;
     std::optional<detail::FlowWatch> flow;
     std::optional<detail::ConflictWatch> conflicts;
@@ -247,8 +250,10 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     state_->trace.add(snapshot);
     state_->trace.add(leases);
     if (state_->traffic) {
-        state_->traffic->step(snapshot);
-        state_->flow->step(snapshot);
+        core::match_rows(snapshot.key, state_->keys, state_->row_before);
+        state_->keys = snapshot.key;
+        state_->traffic->step(snapshot, state_->row_before);
+        state_->flow->step(snapshot, state_->row_before);
         state_->conflicts->step(snapshot, roster);
     }
     RunMetrics& counted = state_->counted;

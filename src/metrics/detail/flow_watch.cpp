@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/match_rows.hpp"
+
 namespace clearway::metrics::detail {
 namespace {
 
@@ -14,21 +16,16 @@ bool is_red(const std::string& state, std::uint16_t link) {
 
 }  // namespace
 
-void FlowWatch::step(const truth::Snapshot& snapshot) {
+void FlowWatch::step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before) {
     const double now_s = snapshot.time.value;
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
     last_s_ = now_s;
     const bool demand_departs = now_s <= layout_.demand_until_s;
     if (demand_departs) demand_time_s_ += elapsed_s;
-    std::size_t before = 0;
     for (core::VehicleIndex row = 0; row < snapshot.size() && elapsed_s > 0.0; ++row) {
-        while (before < key_.size() && key_[before] < snapshot.key[row])
-            ++before;
-        if (before < key_.size() && key_[before] == snapshot.key[row])
-            compare(snapshot, row, before, elapsed_s);
+        if (before[row] != core::no_row) compare(snapshot, row, before[row], elapsed_s);
     }
     count_queues(snapshot, demand_departs ? elapsed_s : 0.0);
-    key_ = snapshot.key;
     lane_ = snapshot.lane;
     acceleration_mps2_ = snapshot.acceleration_mps2;
     shown_ = snapshot.signals.state;

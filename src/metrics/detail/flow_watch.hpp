@@ -22,8 +22,9 @@ class FlowWatch {
     /// The layout outlives the watch.
     explicit FlowWatch(const RoadLayout& layout) : layout_(layout), halted_(layout.approaches.size()) {}
 
-    /// One step. The first one only sets the clock.
-    void step(const truth::Snapshot& snapshot);
+    /// One step; `before` has the row that each vehicle had at the step before (core/match_rows.hpp). The
+    /// first step only sets the clock.
+    void step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before);
 
     std::uint64_t hard_brakings() const { return hard_brakings_; }
     /// Root mean square over steps and vehicles that are no emergency vehicles, m/s^3; nothing without one.
@@ -58,8 +59,7 @@ class FlowWatch {
     double demand_time_s_ = 0.0;
     std::vector<std::uint32_t> halted_;  ///< By approach, now.
     double last_s_ = -1.0;
-    /// The step before, by key: snapshots are sorted by it.
-    std::vector<core::VehicleKey> key_;
+    /// The step before, by its rows.
     std::vector<core::LaneIndex> lane_;
     std::vector<float> acceleration_mps2_;
     std::vector<std::string> shown_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/match_rows.hpp"
+
 namespace clearway::metrics::detail {
 namespace {
 
@@ -72,24 +74,21 @@ TrafficWatch::TrafficWatch(const RoadLayout& layout)
       halted_(layout_.approaches.size()),
       journeys_(layout_.routes.size()) {}
 
-void TrafficWatch::step(const truth::Snapshot& snapshot) {
+void TrafficWatch::step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before) {
     const double now_s = snapshot.time.value;
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
     if (last_s_ < 0.0) first_s_ = now_s;
     last_s_ = now_s;
-    count_vehicles(snapshot, elapsed_s);
+    count_vehicles(snapshot, before, elapsed_s);
     sample_halted(now_s);
     follow(snapshot);
 }
 
-void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, double elapsed_s) {
+void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before,
+                                  double elapsed_s) {
     std::ranges::fill(halted_, 0U);
     approach_.resize(snapshot.size());
-    std::size_t before = 0;
     for (std::size_t row = 0; row < snapshot.size(); ++row) {
-        while (before < previous_key_.size() && previous_key_[before] < snapshot.key[row])
-            ++before;
-        const bool known = before < previous_key_.size() && previous_key_[before] == snapshot.key[row];
         const std::uint32_t lane = snapshot.lane[row].value;
         const bool on_lane = lane < layout_.approach_of_lane.size();
         const std::int32_t approach = on_lane ? layout_.approach_of_lane[lane] : RoadLayout::no_approach;
@@ -98,7 +97,7 @@ void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, double elapse
             continue;
         const auto place = static_cast<std::size_t>(approach);
         Loss& loss = losses_[place][column_of(snapshot.vehicle_class[row])];
-        if (!known || previous_approach_[before] != approach) {
+        if (before[row] == core::no_row || previous_approach_[before[row]] != approach) {
             ++loss.vehicles;
             // Who is there already when the watch begins did not enter in its time.
             if (snapshot.time.value > first_s_ && snapshot.time.value <= layout_.demand_until_s)
@@ -113,7 +112,6 @@ void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, double elapse
         if (speed_mps < limit_mps)
             loss.time_loss_s += elapsed_s * (1.0 - static_cast<double>(speed_mps / limit_mps));
     }
-    previous_key_ = snapshot.key;
     previous_approach_.swap(approach_);
 }
 

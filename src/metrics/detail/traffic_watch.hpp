@@ -17,8 +17,9 @@ class TrafficWatch {
     /// The layout outlives the watch.
     explicit TrafficWatch(const RoadLayout& layout);
 
-    /// One step. The first one only sets the clock.
-    void step(const truth::Snapshot& snapshot);
+    /// One step; `before` has the row that each vehicle had at the step before (core/match_rows.hpp). The
+    /// first step only sets the clock.
+    void step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before);
     TrafficTables tables() const;
 
   private:
@@ -51,7 +52,8 @@ class TrafficWatch {
         std::vector<char> shown;  ///< Last state of each signal on the route.
     };
 
-    void count_vehicles(const truth::Snapshot& snapshot, double elapsed_s);
+    void count_vehicles(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before,
+                        double elapsed_s);
     void sample_halted(double time_s);
     void follow(const truth::Snapshot& snapshot);
     void follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
@@ -72,9 +74,7 @@ class TrafficWatch {
     std::vector<Journey> journeys_;  ///< By route.
     double first_s_ = -1.0;
     double last_s_ = -1.0;
-    /// Where each vehicle was at the step before, by key: both snapshots are sorted by it.
-    std::vector<core::VehicleKey> previous_key_;
-    std::vector<std::int32_t> previous_approach_;
+    std::vector<std::int32_t> previous_approach_;  ///< By row of the step before.
     std::vector<std::int32_t> approach_;
 };
 

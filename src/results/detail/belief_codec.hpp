@@ -18,8 +18,8 @@ class BelievedVehiclesCodec {
     void code(Stream& stream, Vehicles& now, const std::vector<traffic::ObservedVehicle>& reports,
               const std::vector<core::VehicleKey>& report_keys, const truth::Snapshot& snapshot) {
         keys_.code_rows(stream, now);
-        match(keys_.now(), report_keys, report_row_);
-        match(keys_.now(), snapshot.key, true_row_);
+        core::match_rows(keys_.now(), report_keys, report_row_);
+        core::match_rows(keys_.now(), snapshot.key, true_row_);
         code_columns(stream, now, reports, snapshot);
     }
 

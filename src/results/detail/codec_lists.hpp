@@ -1,27 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/match_rows.hpp"
 
 namespace clearway::results::detail {
 
-inline constexpr std::uint32_t no_row = std::numeric_limits<std::uint32_t>::max();
-
-/// Row in `sorted` of each of `keys`, both ascending; `no_row` where there is none.
-inline void match(const std::vector<core::VehicleKey>& keys, const std::vector<core::VehicleKey>& sorted,
-                  std::vector<std::uint32_t>& rows) {
-    rows.clear();
-    std::uint32_t at = 0;
-    for (const core::VehicleKey key : keys) {
-        while (at < sorted.size() && sorted[at] < key)
-            ++at;
-        rows.push_back(at < sorted.size() && sorted[at] == key ? at : no_row);
-    }
-}
+using core::no_row;
 
 /// A column of numbers: `code(row)` codes one.
 template <class Stream, class Code>
@@ -71,7 +59,7 @@ class KeyList {
             apply_changes();
             keys = now_;
         }
-        match(now_, last_, before_);
+        core::match_rows(now_, last_, before_);
     }
 
     /// Rows that carry their key: written, their keys; read, one row a key with nothing else in it yet.
@@ -97,11 +85,11 @@ class KeyList {
     void find_changes() {
         gone_.clear();
         joined_.clear();
-        match(last_, now_, before_);
+        core::match_rows(last_, now_, before_);
         for (std::uint32_t row = 0; row < last_.size(); ++row) {
             if (before_[row] == no_row) gone_.push_back(row);
         }
-        match(now_, last_, before_);
+        core::match_rows(now_, last_, before_);
         for (std::uint32_t row = 0; row < now_.size(); ++row) {
             if (before_[row] == no_row) joined_.push_back(now_[row]);
         }

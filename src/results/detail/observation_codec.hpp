@@ -28,7 +28,7 @@ class ReportsCodec {
     template <class Stream, class Reports>
     void code(Stream& stream, Reports& now, const truth::Snapshot& snapshot, double elapsed_s) {
         keys_.code_rows(stream, now);
-        match(keys_.now(), snapshot.key, true_row_);
+        core::match_rows(keys_.now(), snapshot.key, true_row_);
         code_columns(stream, now, snapshot, elapsed_s);
         last_ = now;
     }
