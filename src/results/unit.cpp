@@ -42,18 +42,6 @@ std::string_view name(traffic::SafetyChecks checks) {
     return checks == traffic::SafetyChecks::on ? "on" : "off";
 }
 
-std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word) {
-    if (word == "on") return traffic::SafetyChecks::on;
-    if (word == "off") return traffic::SafetyChecks::off;
-    return std::nullopt;
-}
-
-std::optional<traffic::BlueLight> bluelight_from(std::string_view word) {
-    if (word == "on") return traffic::BlueLight::on;
-    if (word == "off") return traffic::BlueLight::off;
-    return std::nullopt;
-}
-
 namespace detail {
 
 Json to_json(const ConditionSpec& condition) {
@@ -78,9 +66,10 @@ ConditionSpec condition_from(const Json& object, const std::string& where,
     reader.read("predictor", condition.predictor);
     reader.read("parts", condition.parts);
     reader.read_name("engine", condition.engine, engine_from);
-    reader.read_name("safety_checks", condition.safety_checks, safety_checks_from);
+    reader.read_name("safety_checks", condition.safety_checks, switch_from<traffic::SafetyChecks>);
     reader.read_if_there("loop_settings", condition.loop_settings);
-    if (object.contains("bluelight")) reader.read_name("bluelight", condition.bluelight, bluelight_from);
+    if (object.contains("bluelight"))
+        reader.read_name("bluelight", condition.bluelight, switch_from<traffic::BlueLight>);
     return condition;
 }
 

@@ -27,9 +27,13 @@ std::optional<Engine> engine_from(std::string_view word);
 
 /// `on`, `off`.
 std::string_view name(traffic::SafetyChecks checks);
-std::optional<traffic::SafetyChecks> safety_checks_from(std::string_view word);
-
-std::optional<traffic::BlueLight> bluelight_from(std::string_view word);
+/// One of an enumeration of these two.
+template <class Switch>
+std::optional<Switch> switch_from(std::string_view word) {
+    if (word == "on") return Switch::on;
+    if (word == "off") return Switch::off;
+    return std::nullopt;
+}
 
 /// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };

@@ -129,9 +129,10 @@ void set_condition_key(const Factor& factor, const FactorValue& value, results::
     if (factor.key == "parts") condition.parts = value.words.empty() ? std::vector{value.text} : value.words;
     if (factor.key == "engine") set_word(factor, value, results::engine_from, condition.engine, problems);
     if (factor.key == "bluelight")
-        set_word(factor, value, results::bluelight_from, condition.bluelight, problems);
+        set_word(factor, value, results::switch_from<traffic::BlueLight>, condition.bluelight, problems);
     if (factor.key == "safety_checks")
-        set_word(factor, value, results::safety_checks_from, condition.safety_checks, problems);
+        set_word(factor, value, results::switch_from<traffic::SafetyChecks>, condition.safety_checks,
+                 problems);
 }
 
 /// Names become folders; what cannot be in one becomes `_`.
