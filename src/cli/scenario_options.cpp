@@ -51,6 +51,13 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
     app.add_option("--siren", options.siren_compliance, "Share of human drivers that yield to a siren")
         ->option_text("SHARE, 0 to 1 [by scenario: 0]")
         ->group(group);
+    app.add_option("--road-speed", options.road_speed_factor,
+                   "Factor on all speed limits, as rain or snow has")
+        ->option_text("FACTOR, 0.05 to 1 [by scenario: 1]")
+        ->group(group);
+    app.add_option("--friction", options.friction, "Share of a dry road's grip: accelerating and braking")
+        ->option_text("SHARE, 0.1 to 1 [by scenario: 1]")
+        ->group(group);
     static const std::map<std::string, scenario::IdmPreset> presets = {
         {"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}};
     app.add_option_function<std::string>(

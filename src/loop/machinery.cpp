@@ -1,8 +1,22 @@
 #include "loop/machinery.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace clearway::loop {
+namespace {
+
+/// Yellow lets a driver react and then brake, and braking takes longer on a slippery road (ITE's rule:
+/// reaction time + speed / (2 deceleration); 3 s on a dry one).
+double yellow_s(double friction) {
+    constexpr double reaction_s = 1.0;
+    constexpr double longest_s = 10.0;
+    const double dry_s = actuation::ActuatorConfig{}.yellow_s;
+    return std::min(longest_s, reaction_s + (dry_s - reaction_s) / friction);
+}
+
+}  // namespace
 
 LoopConfig loop_config_of(const results::ConditionSpec& condition) {
     LoopConfig config;
@@ -20,6 +34,7 @@ Machinery make_machinery(const results::ConditionSpec& condition, const Surround
                                         .policy_period_s = surroundings.loop.policy_period_s,
                                         .link_radius_m = surroundings.loop.link_radius_m});
     actuation::ActuatorConfig actuation;
+    actuation.yellow_s = yellow_s(surroundings.friction);
     actuation.safety_checks = condition.safety_checks;
     actuation.lateral_model = condition.engine == results::Engine::sublane ? actuation::LateralModel::sublane
                                                                            : actuation::LateralModel::lane;

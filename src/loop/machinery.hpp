@@ -16,6 +16,7 @@ struct Surroundings {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
     drivers::SirenConfig siren;
+    double friction = 1.0;  ///< Of scenario::RoadCondition.
 };
 
 /// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not

@@ -54,6 +54,27 @@ void read_kinds(TableReader& root, Reading& reading, ScenarioConfig& config) {
     kinds.finish();
 }
 
+void read_road(TableReader& root, Reading& reading, RoadCondition& road) {
+    const toml::table* table = root.table("road");
+    if (table == nullptr) return;
+    TableReader reader(*table, "road", reading);
+    reader.read(road);
+    if (const toml::table* stretches = reader.table("stretch")) {
+        TableReader named(*stretches, "road.stretch", reading);
+        for (const auto& [key, node] : *stretches) {
+            const std::string name(key.str());
+            const toml::table* stretch = named.table(name);
+            if (stretch == nullptr) continue;
+            TableReader members(*stretch, named.full(name), reading);
+            road.stretches.emplace_back().name = name;
+            members.read(road.stretches.back());
+            members.texts("edges", road.stretches.back().edges);
+            members.finish();
+        }
+    }
+    reader.finish();
+}
+
 void read_measured(TableReader& root, Reading& reading, ScenarioConfig& config) {
     const toml::table* table = root.table("measured");
     if (table == nullptr) return;
@@ -79,6 +100,7 @@ void read_root(const toml::table& table, Reading& reading, ScenarioConfig& confi
     read_subtable(root, "limits", reading, config.limits);
     read_subtable(root, "drivers", reading, config.drivers);
     read_subtable(root, "siren", reading, config.siren);
+    read_road(root, reading, config.road);
     read_kinds(root, reading, config);
     read_subtable(root, "trips", reading, config.trips);
     read_list(root, "flow", reading, config.flows);

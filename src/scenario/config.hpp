@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "scenario/road_condition.hpp"
 #include "traffic/siren.hpp"
 
 namespace clearway::scenario {
@@ -374,6 +375,7 @@ struct ScenarioConfig {
     SpeedLimits limits;
     Drivers drivers;
     traffic::SirenConfig siren;  ///< Table `[siren]`, optional: without it nobody yields.
+    RoadCondition road;
     TrafficKinds traffic_kinds;
     EmergencyKinds emergency_kinds;
     Trips trips;
@@ -403,6 +405,8 @@ struct Options {
     std::optional<double> time_to_teleport_s;  ///< --time-to-teleport
     std::optional<IdmPreset> idm;              ///< --idm
     std::optional<double> siren_compliance;    ///< --siren, 0 to 1
+    std::optional<double> road_speed_factor;   ///< --road-speed, 0.05 to 1
+    std::optional<double> friction;            ///< --friction, 0.1 to 1
     std::string traffic_kinds;    ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
     std::string emergency_kinds;  ///< --emergency-kinds, `ambulance=1,police_car=1`
     /// Keys of scenario.toml that replace the file's before it is read, `demand.human` -> `40` as TOML writes

@@ -70,6 +70,14 @@ std::string measured_text(const Measured& measured) {
     return text + tables("measured.type", measured.types);
 }
 
+std::string road_text(const RoadCondition& road) {
+    std::string text = "\n[road]\n" + members(road);
+    for (const Stretch& stretch : road.stretches)
+        text += fmt::format("\n[road.stretch.{}]\n{}edges = {}\n", detail::quoted(stretch.name),
+                            members(stretch), text_array(stretch.edges));
+    return text;
+}
+
 /// The files that a configuration names relative to its folder.
 std::vector<std::string> own_files(const ScenarioConfig& config) {
     const NetworkSource& network = config.network;
@@ -118,8 +126,10 @@ std::string to_toml(const ScenarioConfig& config) {
     if (config.dense) text += "\n[dense]\n" + members(*config.dense);
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
-    // A siren that nobody heeds is none: so configurations from before it keep their hash.
+    // A siren that nobody heeds is none, and so is a dry road: so configurations from before them keep their
+    // hash.
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
+    if (!config.road.is_dry()) text += road_text(config.road);
     text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);
     text += "\n[kinds.emergency]\n" + members(config.emergency_kinds);
     text += "\n[trips]\n" + members(config.trips);

@@ -1,6 +1,8 @@
 #include "scenario/network.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -78,10 +80,39 @@ void restrict_network(const ScenarioConfig& config, const std::filesystem::path&
     std::filesystem::remove(whole);
 }
 
+/// Speed factors of the lanes by edge; edges inside junctions have the factor of all roads. Throws
+/// core::InputError for stretches over edges that the network does not have.
+void slow_down(const ScenarioConfig& config, NetworkDocument& document) {
+    const RoadCondition& road = config.road;
+    std::map<std::string, double> own;
+    std::vector<core::Problem> problems;
+    const std::set<std::string> known = document.edges();
+    for (const Stretch& stretch : road.stretches) {
+        for (const std::string& edge : stretch.edges) {
+            own[edge] = stretch.speed_factor;
+            if (known.contains(edge)) continue;
+            const std::string near = core::nearest(edge, {known.begin(), known.end()});
+            problems.push_back({config.where(fmt::format("road.stretch.{}.edges", stretch.name)),
+                                fmt::format("the network has no edge '{}'", edge), "ids of its edges",
+                                near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    document.scale_speeds([&](const std::string& edge) {
+        const auto found = own.find(edge);
+        return found == own.end() ? road.speed_factor : found->second;
+    });
+}
+
 std::string hash_of_inputs(const ScenarioConfig& config) {
     const NetworkSource& source = config.network;
     std::string bytes =
         fmt::format("restrict={} road_kmh={}\n", static_cast<int>(source.restrict), config.limits.road_kmh);
+    if (config.road.changes_limits()) {
+        bytes += fmt::format("road {}\n", config.road.speed_factor);
+        for (const Stretch& stretch : config.road.stretches)
+            bytes += fmt::format("{} {}\n", stretch.speed_factor, fmt::join(stretch.edges, " "));
+    }
     for (const std::string& file :
          {source.nodes, source.edges, source.connections, source.signals, source.file})
         if (!file.empty()) bytes += core::read_file(resolve(config, file)) + "\n";
@@ -105,6 +136,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
     }
     NetworkDocument document(raw);
     if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
+    if (config.road.changes_limits()) slow_down(config, document);
     core::write_atomically(folder / network_name, document.text());
     std::filesystem::remove(raw);
     return open_network(config, folder);

@@ -65,6 +65,10 @@ struct TextWriter : pugi::xml_writer {
     }
 };
 
+bool is_internal(pugi::xml_node edge) {
+    return std::string_view(edge.attribute("function").value()) == "internal";
+}
+
 /// Calls `visit` for every element of the document.
 template <class Visit>
 void walk(const pugi::xml_node& node, const Visit& visit) {
@@ -121,9 +125,8 @@ int NetworkDocument::admit_emergency() {
 }
 
 bool NetworkDocument::has_edges() const {
-    return std::ranges::any_of(document_.document_element().children("edge"), [](pugi::xml_node edge) {
-        return std::string_view(edge.attribute("function").value()) != "internal";
-    });
+    return std::ranges::any_of(document_.document_element().children("edge"),
+                               [](pugi::xml_node edge) { return !is_internal(edge); });
 }
 
 std::string NetworkDocument::attribute(const char* name) const {
@@ -136,6 +139,23 @@ void NetworkDocument::limit_speed(core::MetresPerSecond limit) {
         pugi::xml_attribute speed = node.attribute("speed");
         if (speed.as_double() > limit.value) speed.set_value(fmt::format("{:.2f}", limit.value).c_str());
     });
+}
+
+std::set<std::string> NetworkDocument::edges() const {
+    std::set<std::string> ids;
+    for (const pugi::xml_node edge : document_.document_element().children("edge"))
+        if (!is_internal(edge)) ids.insert(edge.attribute("id").value());
+    return ids;
+}
+
+void NetworkDocument::scale_speeds(const std::function<double(const std::string& edge)>& factor_of) {
+    for (const pugi::xml_node edge : document_.document_element().children("edge")) {
+        const double factor = factor_of(edge.attribute("id").value());
+        for (const pugi::xml_node lane : edge.children("lane")) {
+            pugi::xml_attribute speed = lane.attribute("speed");
+            speed.set_value(fmt::format("{:.4f}", speed.as_double() * factor).c_str());
+        }
+    }
 }
 
 std::string NetworkDocument::text() const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <string>
 
 #include <pugixml.hpp>
@@ -30,6 +32,10 @@ class NetworkDocument {
     std::string attribute(const char* name) const;
     /// No lane is faster than `limit`.
     void limit_speed(core::MetresPerSecond limit);
+    /// Ids of the edges outside junctions.
+    std::set<std::string> edges() const;
+    /// Multiplies the limit of each lane with the factor of its edge, those inside junctions included.
+    void scale_speeds(const std::function<double(const std::string& edge)>& factor_of);
     std::string text() const;
 
   private:

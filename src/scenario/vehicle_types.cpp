@@ -54,22 +54,23 @@ double class_limit_kmh(const SpeedLimits& limits, VehicleClass vehicle_class) {
 std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, const KindProperties& kind,
                      Access access) {
     const IdmParameters& idm = parameters(config.drivers.idm);
+    const double friction = config.road.friction;
     const double limit_mps = core::from_kmh(class_limit_kmh(config.limits, vehicle_class)).value;
     return fmt::format(
         "    <vType id=\"{}\" vClass=\"{}\" guiShape=\"{}\" length=\"{}\" width=\"{}\" height=\"{}\" "
         "minGap=\"{}\" "
-        "accel=\"{}\" decel=\"{}\" emergencyDecel=\"{}\" maxSpeed=\"{:.2f}\" speedFactor=\"1\" "
+        "accel=\"{:.6g}\" decel=\"{:.6g}\" emergencyDecel=\"{:.6g}\" maxSpeed=\"{:.2f}\" speedFactor=\"1\" "
         "speedDev=\"0\" "
-        "carFollowModel=\"IDM\" tau=\"{}\" delta=\"{}\">\n"
+        "carFollowModel=\"IDM\" tau=\"{:.6g}\" delta=\"{}\">\n"
         "        <param key=\"{}\" value=\"{}\"/>\n        <param key=\"{}\" value=\"{}\"/>\n    </vType>\n",
         type_id(vehicle_class, kind.kind, access),
         access == Access::unrestricted ? "ignoring" : kind.vehicle_permission, kind.gui_shape, kind.length_m,
         kind.width_m, kind.height_m, idm.minimum_gap_m,
-        std::min(kind.acceleration_mps2, idm.acceleration_cap_mps2),
-        std::min(kind.deceleration_mps2, idm.deceleration_cap_mps2), kind.emergency_deceleration_mps2,
-        std::min(limit_mps, kind.maximum_speed_mps), idm.time_headway_s, idm.exponent,
-        traffic::class_parameter, traffic::name(vehicle_class), traffic::kind_parameter,
-        traffic::name(kind.kind));
+        std::min(kind.acceleration_mps2, idm.acceleration_cap_mps2) * friction,
+        std::min(kind.deceleration_mps2, idm.deceleration_cap_mps2) * friction,
+        kind.emergency_deceleration_mps2 * friction, std::min(limit_mps, kind.maximum_speed_mps),
+        idm.time_headway_s * config.road.headway_factor, idm.exponent, traffic::class_parameter,
+        traffic::name(vehicle_class), traffic::kind_parameter, traffic::name(kind.kind));
 }
 
 bool is_emergency(const KindProperties& kind) {

@@ -41,7 +41,7 @@ std::string type_id(traffic::VehicleClass vehicle_class, traffic::VehicleKind ki
 /// A SUMO additional file with every type that the demand of `config` may use. Class and kind are parameters
 /// of the type (traffic::class_parameter, traffic::kind_parameter); maxSpeed is the class limit; speedFactor
 /// 1 without deviation (an individual factor stands at the vehicle); SUMO's own default of 1.5 for emergency
-/// vehicles never applies.
+/// vehicles never applies. Friction and headway factor of `[road]` are in all of them.
 std::string vehicle_types_xml(const ScenarioConfig& config);
 
 }  // namespace clearway::scenario

@@ -26,10 +26,20 @@ void append(Problems& problems, const core::InputError& error) {
 }
 
 /// Keys of `[overrides]`, which factors of scenarios may set, too.
-const std::vector<std::string> override_keys = {
-    "variant",   "density",       "automated_share", "road_limit_kmh",
-    "warm_up_s", "horizon_s",     "step_length_s",   "time_to_teleport_s",
-    "idm",       "traffic_kinds", "emergency_kinds", "siren_compliance"};
+const std::vector<std::string> override_keys = {"variant",
+                                                "density",
+                                                "automated_share",
+                                                "road_limit_kmh",
+                                                "warm_up_s",
+                                                "horizon_s",
+                                                "step_length_s",
+                                                "time_to_teleport_s",
+                                                "idm",
+                                                "traffic_kinds",
+                                                "emergency_kinds",
+                                                "siren_compliance",
+                                                "road_speed_factor",
+                                                "friction"};
 
 scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
@@ -47,6 +57,8 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     reader.word<scenario::IdmPreset>(
         "idm", {{"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}}, options.idm);
     reader.number("siren_compliance", options.siren_compliance);
+    reader.number("road_speed_factor", options.road_speed_factor);
+    reader.number("friction", options.friction);
     reader.text("traffic_kinds", options.traffic_kinds);
     reader.text("emergency_kinds", options.emergency_kinds);
     reader.finish();

@@ -82,6 +82,32 @@ TEST(Worker, RunsSumosBluelightAndDriversWhoYield) {
     EXPECT_NE(trace(heard, "baseline"), trace(plain, "baseline"));
 }
 
+TEST(Worker, DrivesInRainAndOnIceInEveryConditionAndAlone) {
+    const auto travel_times = [](const scenario::Options& options) {
+        const test::StudyFolder folder("intersection", options, {baseline, perfect, solo});
+        EXPECT_TRUE(run_worker(folder, folder.unit(0)).ok());
+        EXPECT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+        std::map<std::string, double> times;
+        for (const char* const name : {"baseline", "perfect", "solo"}) {
+            const metrics::RunMetrics run = record_of(folder, "intersection", name).metrics;
+            EXPECT_EQ(run.emergency_arrived, 2U) << name;
+            times[name] = run.emergency_travel_time_s.value_or(0.0);
+        }
+        return times;
+    };
+    const auto dry = travel_times({});
+    scenario::Options rain;
+    rain.road_speed_factor = 0.5;
+    scenario::Options ice;
+    ice.friction = 0.2;
+    const auto wet = travel_times(rain);
+    for (const auto& [name, time_s] : dry)
+        EXPECT_GT(wet.at(name), time_s * 1.05) << name;
+    const auto icy = travel_times(ice);
+    for (const char* const name : {"baseline", "perfect"})
+        EXPECT_GT(icy.at(name), dry.at(name) * 1.05) << name << "; alone they meet no one to brake for";
+}
+
 TEST(Worker, BelievesTheTrueGraphUnderPerfectSensing) {
     const test::StudyFolder folder("intersection", {}, {perfect});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());

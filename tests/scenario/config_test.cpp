@@ -242,6 +242,48 @@ TEST_F(Config, a_siren_enters_the_effective_configuration_where_somebody_heeds_i
     EXPECT_THROW(load("merge", options), core::InputError);
 }
 
+TEST_F(Config, a_dry_road_leaves_the_effective_configuration_as_it_was) {
+    const ScenarioConfig plain = load_text("");
+    const ScenarioConfig dry =
+        load_text("[road]\nfriction = 1.0\n[road.stretch.works]\nedges = [\"first\"]\n");
+    EXPECT_EQ(to_toml(dry), to_toml(plain));
+    EXPECT_EQ(to_toml(load("merge")).find("[road"), std::string::npos);
+}
+
+TEST_F(Config, road_conditions_come_from_table_options_and_factors_and_read_back) {
+    Options options;
+    options.road_speed_factor = 0.8;
+    options.friction = 0.7;
+    options.settings = {{"road.stretch.works.speed_factor", "0.3"}};
+    const ScenarioConfig config = load_text(
+        "[road]\nheadway_factor = 1.2\n[road.stretch.\"works\"]\nspeed_factor = 0.5\nedges = [\"first\"]\n",
+        options);
+    EXPECT_EQ(config.road.speed_factor, 0.8);
+    EXPECT_EQ(config.road.friction, 0.7);
+    EXPECT_EQ(config.road.headway_factor, 1.2);
+    ASSERT_EQ(config.road.stretches.size(), 1U);
+    EXPECT_EQ(config.road.stretches[0].speed_factor, 0.3);
+    EXPECT_THAT(config.road.stretches[0].edges, ElementsAre("first"));
+    store(config, folder() / "stored");
+    EXPECT_EQ(to_toml(load((folder() / "stored").string())), to_toml(config));
+}
+
+TEST_F(Config, bad_road_conditions_say_where_and_what) {
+    EXPECT_THAT(only_problem("[road]\nspeed_factor = 1.5\n"),
+                AllOf(Field(&core::Problem::where, HasSubstr("scenario.toml:7:1: road.speed_factor")),
+                      Field(&core::Problem::allowed, "0.05 to 1")));
+    EXPECT_THAT(only_problem("[road]\nfrcition = 0.5\n").cure, HasSubstr("friction"));
+    EXPECT_THAT(only_problem("[road.stretch.ice]\nspeed_factor = 0.5\n").what, HasSubstr("has no edges"));
+    EXPECT_THAT(only_problem("[road.stretch]\nice = 0.5\n").allowed, "a table");
+    EXPECT_THAT(only_problem("[road.stretch.ice]\nedges = [\"first\"]\n"
+                             "[road.stretch.works]\nedges = [\"second\", \"first\"]\n"),
+                AllOf(Field(&core::Problem::where, HasSubstr("road.stretch.works.edges")),
+                      Field(&core::Problem::what, HasSubstr("stands in 'ice' already"))));
+    Options options;
+    options.friction = 0.0;
+    EXPECT_EQ(only_problem("", options).where, "--friction");
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

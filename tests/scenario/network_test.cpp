@@ -117,6 +117,36 @@ TEST_F(BuiltNetworks, road_limit_slows_faster_roads_only_and_keeps_the_signal) {
         100 / 3.6, 0.01);
 }
 
+TEST_F(BuiltNetworks, rain_slows_all_roads_and_a_stretch_has_a_factor_of_its_own) {
+    ScenarioConfig config = load("merge");
+    const BuiltNetwork dry = build_network(config, folder() / "dry");
+    config.road.speed_factor = 0.8;
+    config.road.stretches = {{"works", 0.5, {"ramp"}}};
+    const BuiltNetwork wet = build_network(config, folder() / "wet");
+    EXPECT_NE(wet.inputs_hash, dry.inputs_hash);
+    ASSERT_EQ(wet.network.lanes().size(), dry.network.lanes().size());
+    for (std::size_t row = 0; row < wet.network.lanes().size(); ++row) {
+        const roads::Lane& lane = wet.network.lanes()[row];
+        const double factor = wet.network.edge(lane.edge).id == "ramp" ? 0.5 : 0.8;
+        EXPECT_NEAR(lane.speed_limit_mps, dry.network.lanes()[row].speed_limit_mps * factor, 1e-3) << lane.id;
+    }
+    config.road = {};
+    config.road.friction = 0.5;
+    EXPECT_EQ(core::read_file(build_network(config, folder() / "slippery").file), core::read_file(dry.file));
+}
+
+TEST_F(BuiltNetworks, a_stretch_over_an_unknown_edge_names_the_nearest) {
+    write("line.nod.xml", line_nodes);
+    write("line.edg.xml", line_edges);
+    const std::string road = "[road.stretch.ice]\nspeed_factor = 0.5\nedges = [\"frist\", \"second\"]\n";
+    const ScenarioConfig config = load(write("scenario.toml", line_head + road).string());
+    const auto problems = problems_of([&] { build_network(config, folder() / "out"); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].where, HasSubstr("scenario.toml:8:1: road.stretch.ice.edges"));
+    EXPECT_THAT(problems[0].what, HasSubstr("'frist'"));
+    EXPECT_THAT(problems[0].cure, HasSubstr("'first'"));
+}
+
 TEST_F(BuiltNetworks, equal_inputs_give_equal_bytes_without_time_or_path) {
     const ScenarioConfig config = load("merge");
     const std::string first = core::read_file(build_network(config, folder() / "first").file);

@@ -7,6 +7,7 @@
 namespace clearway::scenario {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -14,8 +15,9 @@ class VehicleTypes : public ScratchTest {
   protected:
     /// The element of one type.
     static std::string element(const std::string& xml, const std::string& id) {
-        const std::size_t start = xml.find("<vType id=\"" + id + "\"");
-        if (start == std::string::npos) return "";
+        const std::size_t name = xml.find(" id=\"" + id + "\"");
+        if (name == std::string::npos) return "";
+        const std::size_t start = xml.rfind("<vType", name);
         return xml.substr(start, xml.find("</vType>", start) - start);
     }
 };
@@ -48,6 +50,35 @@ TEST_F(VehicleTypes, presets_differ_in_headway_and_acceleration) {
     const std::string sumo = element(vehicle_types_xml(load("merge", options)), "human_car");
     EXPECT_THAT(sumo, HasSubstr("accel=\"2.6\" decel=\"4.5\""));
     EXPECT_THAT(sumo, HasSubstr("tau=\"1\""));
+}
+
+TEST_F(VehicleTypes, feel_friction_and_headway_of_the_road_emergency_vehicles_too) {
+    ScenarioConfig config = load("merge");
+    config.road.friction = 0.5;
+    config.road.headway_factor = 1.2;
+    const std::string xml = vehicle_types_xml(config);
+    for (const char* const id : {"human_car", "automated_van", "emergency_ambulance"}) {
+        EXPECT_THAT(element(xml, id), HasSubstr("accel=\"1.3\" decel=\"2.25\" emergencyDecel=\"4.5\"")) << id;
+        EXPECT_THAT(element(xml, id), HasSubstr("tau=\"1.2\"")) << id;
+    }
+}
+
+TEST_F(VehicleTypes, of_an_imported_demand_feel_the_road_as_far_as_their_grip_is_known) {
+    write("types.add.xml",
+          "<additional><vType id=\"slow\" accel=\"2\"><carFollowing-Krauss tau=\"2\"/></vType>"
+          "<vType id=\"tram\" accel=\"1\"/></additional>");
+    ScenarioConfig config = load("bologna");
+    config.folder = folder();
+    config.measured->own_types = OwnTypes{"types.add.xml", CarFollowing::own};
+    config.measured->types = {{"slow", "car", Access::own}, {"tram", "other", Access::own}};
+    config.road.friction = 0.5;
+    config.road.headway_factor = 1.5;
+    const std::string xml = vehicle_types_xml(config);
+    EXPECT_THAT(element(xml, "human.slow"),
+                AllOf(HasSubstr("accel=\"1\""), HasSubstr("decel=\"2.25\""),
+                      HasSubstr("emergencyDecel=\"4.5\""), HasSubstr("carFollowing-Krauss tau=\"3\"")));
+    EXPECT_THAT(element(xml, "human.tram"), AllOf(HasSubstr("accel=\"1\""), Not(HasSubstr("decel"))));
+    EXPECT_THAT(element(xml, "automated.slow"), HasSubstr("tau=\"1.5\""));
 }
 
 TEST_F(VehicleTypes, a_truck_gains_no_acceleration_from_a_preset) {

@@ -64,7 +64,7 @@ TEST_F(StudyFile, GivesAScenarioOverridesAndANameOfItsOwn) {
 scenarios = ["merge"]
 conditions = ["baseline"]
 condition = [{name = "light", bluelight = "on"}]
-scenario = [{name = "crossing", from = "intersection", road_limit_kmh = 70.0, siren_compliance = 0.5}]
+scenario = [{name = "crossing", from = "intersection", road_limit_kmh = 70.0, siren_compliance = 0.5, friction = 0.7}]
 [overrides]
 step_length_s = 0.1
 )");
@@ -73,6 +73,7 @@ step_length_s = 0.1
     EXPECT_EQ(config.scenarios[1].name, "crossing");
     EXPECT_EQ(config.scenarios[1].limits.road_kmh, 70.0);
     EXPECT_EQ(config.scenarios[1].siren.compliance, 0.5);
+    EXPECT_EQ(config.scenarios[1].road.friction, 0.7);
     EXPECT_EQ(config.scenarios[1].time.step_length_s, 0.1);
     EXPECT_EQ(config.conditions[1].bluelight, traffic::BlueLight::on);
 }

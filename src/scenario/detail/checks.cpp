@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -232,6 +233,23 @@ void check_sites(const ScenarioConfig& config, Problems& problems) {
                                 "id of an edge", "set it"});
 }
 
+void check_road(const ScenarioConfig& config, Problems& problems) {
+    std::map<std::string, std::string> owner;
+    for (const Stretch& stretch : config.road.stretches) {
+        const std::string key = fmt::format("road.stretch.{}", stretch.name);
+        if (stretch.edges.empty())
+            problems.push_back({config.where(key), "has no edges", "edges = [\"id\", ...]", "name them"});
+        for (const std::string& edge : stretch.edges) {
+            const auto [first, is_new] = owner.emplace(edge, stretch.name);
+            if (!is_new)
+                problems.push_back(
+                    {config.where(key + ".edges"),
+                     fmt::format("names edge '{}', which stands in '{}' already", edge, first->second),
+                     "each edge once", "remove one"});
+        }
+    }
+}
+
 template <class Struct>
 double sum_of_weights(const Struct& weights) {
     double sum = 0.0;
@@ -302,6 +320,8 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
     if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
     set("--siren", "compliance", options.siren_compliance, config.siren, problems);
+    set("--road-speed", "speed_factor", options.road_speed_factor, config.road, problems);
+    set("--friction", "friction", options.friction, config.road, problems);
     if (options.idm) config.drivers.idm = *options.idm;
     set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
     set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);
@@ -319,6 +339,7 @@ void check(const ScenarioConfig& config, Problems& problems) {
     check_density(config, problems);
     check_measured(config, problems);
     check_sites(config, problems);
+    check_road(config, problems);
     check_drivers(config, problems);
 }
 

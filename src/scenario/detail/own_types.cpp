@@ -47,6 +47,30 @@ void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_k
     set(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
 }
 
+/// Multiplies an attribute of the type and of the car-following model nested in it; `standard` where the type
+/// has none.
+void scale(pugi::xml_node type, const char* name, double factor, double standard) {
+    const auto multiply = [&](pugi::xml_node node, double value) {
+        set(node, name, fmt::format("{:.6g}", value * factor));
+    };
+    multiply(type, type.attribute(name).as_double(standard));
+    for (const pugi::xml_node nested : type.children())
+        if (nested.attribute(name)) multiply(nested, nested.attribute(name).as_double());
+}
+
+/// What is neither car, van, truck nor bus keeps its grip: SUMO's standards for it stand in no file.
+void feel_road(pugi::xml_node type, const MeasuredType& listed, const RoadCondition& road) {
+    if (listed.kind == "other") return;
+    const KindProperties& kind = properties(*traffic::vehicle_kind_from(listed.kind));
+    if (road.friction != 1.0) {
+        scale(type, "accel", road.friction, kind.acceleration_mps2);
+        scale(type, "decel", road.friction, kind.deceleration_mps2);
+        scale(type, "emergencyDecel", road.friction, kind.emergency_deceleration_mps2);
+    }
+    constexpr double standard_headway_s = 1.0;  // SUMO's tau
+    if (road.headway_factor != 1.0) scale(type, "tau", road.headway_factor, standard_headway_s);
+}
+
 void add_parameter(pugi::xml_node type, const char* key, std::string_view value) {
     pugi::xml_node parameter = type.append_child("param");
     parameter.append_attribute("key").set_value(key);
@@ -94,6 +118,7 @@ class TypeWriter {
         if (automated || own_.car_following == CarFollowing::idm)
             follow_by_idm(type, parameters(config_.drivers.idm));
         limit_speed(type, listed, automated ? config_.limits.automated_kmh : config_.limits.human_kmh);
+        feel_road(type, listed, config_.road);
         add_parameter(type, traffic::class_parameter, traffic::name(vehicle_class));
         add_parameter(type, traffic::kind_parameter, listed.kind);
     }
