@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/csv.hpp"
 #include "report/links.hpp"
 #include "report/text.hpp"
 
@@ -160,12 +161,7 @@ std::string csv_cell(const Json& value) {
     if (value.is_null()) return "";
     if (value.is_number_float()) return fmt::format("{}", value.get<double>());
     if (!value.is_string()) return value.dump();
-    std::string text = value.get<std::string>();
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char letter : text)
-        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
+    return core::csv_text(value.get<std::string>());
 }
 
 }  // namespace

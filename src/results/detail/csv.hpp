@@ -11,12 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "results/detail/json.hpp"
 
 namespace clearway::results::detail {
 
-/// A cell of a CSV file (RFC 4180): quoted only where it must be.
-std::string csv_text(std::string_view text);
+using core::csv_text;
 
 /// Shortest decimal text that reads back as the same number.
 template <class Value>
