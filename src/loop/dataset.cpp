@@ -70,13 +70,6 @@ std::unique_ptr<sensing::SensorModel> sensor_for(const results::DatasetOrder& or
     return sensing::make_sensor(config, random, {.network = run.network(), .rules = rules});
 }
 
-std::filesystem::path file_for(const results::DatasetOrder& order, const std::string& failure,
-                               const char* ending) {
-    return order.output / fmt::format("{}-{}{}-{:04}{}", order.scenario, failure,
-                                      exits_unknown(order) ? "-exits-unknown" : "", order.replication,
-                                      ending);
-}
-
 /// One recorder of a kind for each failure, all watching one run.
 template <class SampleRecorder>
 void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
@@ -98,7 +91,7 @@ void record_samples(const results::DatasetOrder& order, UnitRun& run, const grap
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            file_for(order, order.failures[i], prediction::graph_sample_extension);
+            results::sample_file(order, order.failures[i], prediction::graph_sample_extension);
         recorders[i]->writer().write(file);
         fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
     }
@@ -120,7 +113,8 @@ void record_pair_samples(const results::DatasetOrder& order, UnitRun& run, const
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
-        const std::filesystem::path file = file_for(order, order.failures[i], prediction::pair_sample_ending);
+        const std::filesystem::path file =
+            results::sample_file(order, order.failures[i], prediction::pair_sample_ending);
         prediction::write_pair_samples(file, recorders[i]->samples());
         fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
     }

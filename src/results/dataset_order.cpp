@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -55,6 +56,13 @@ std::optional<DatasetKind> dataset_kind_from(std::string_view name) {
 
 std::optional<ListedPairs> listed_pairs_from(std::string_view name) {
     return find_name<ListedPairs>(pair_names, name);
+}
+
+std::filesystem::path sample_file(const DatasetOrder& order, const std::string& failure,
+                                  std::string_view ending) {
+    return order.output / fmt::format("{}-{}{}-{:04}{}", order.scenario, failure,
+                                      order.exits == "unknown" ? "-exits-unknown" : "", order.replication,
+                                      ending);
 }
 
 std::string to_json(const DatasetOrder& order) {

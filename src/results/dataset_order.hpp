@@ -45,6 +45,10 @@ struct DatasetOrder {
     bool operator==(const DatasetOrder&) const = default;
 };
 
+/// The file of the order's samples of one failure. `ending` tells what is in it; see prediction.
+std::filesystem::path sample_file(const DatasetOrder& order, const std::string& failure,
+                                  std::string_view ending);
+
 /// JSON, for the worker's command line. `read_dataset_order` throws core::InputError.
 std::string to_json(const DatasetOrder& order);
 DatasetOrder read_dataset_order(const std::filesystem::path& file);
