@@ -11,6 +11,13 @@
 namespace clearway::actuation {
 namespace {
 
+/// How long a driver takes to react to yellow, s. Assumed: short, for it is foreseen.
+constexpr double reaction_s = 0.5;
+/// Drivers stop this far before the line, m: SUMO's own stop-line gap.
+constexpr double stop_line_gap_m = 1.0;
+/// Farther from the line everybody can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
+constexpr double farthest_stop_m = 200.0;
+
 /// Why a lease can never be carried out, or null.
 const char* check_vehicle_action(const traffic::Action& action) {
     if (std::holds_alternative<traffic::HoldGreen>(action) ||
@@ -52,20 +59,41 @@ struct Actuator::State {
             return check_signal_action(network, *signal, lease.action);
         return check_vehicle_action(lease.action);
     }
-    void step_signals(const truth::Snapshot& snapshot, std::vector<traffic::Command>& commands) {
+    /// Whether a vehicle can stop before the end of its lane with its usual deceleration, but not when it
+    /// takes its time to react: one that is shown yellow now brakes hard.
+    bool could_just_stop(const truth::Snapshot& snapshot, std::size_t row,
+                         const traffic::Roster& roster) const {
+        const double speed_mps = snapshot.speed_mps[row];
+        const double left_m = network.lane(snapshot.lane[row]).length_m - snapshot.lane_position_m[row];
+        if (left_m > farthest_stop_m) return false;
+        const traffic::VehicleInfo* info = roster.find(snapshot.key[row]);
+        if (info == nullptr) return false;
+        const double stop_m = speed_mps * speed_mps / (2.0 * info->deceleration_mps2);
+        return left_m > stop_m && left_m < stop_m + reaction_s * speed_mps + stop_line_gap_m;
+    }
+    void step_signals(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                      std::vector<traffic::Command>& commands) {
         if (signals.empty()) return;
-        detail::OccupiedLanes occupied;
-        for (const core::LaneIndex lane : snapshot.lane) {
-            if (lane.exists() && network.edge(network.lane(lane).edge).internal) occupied.push_back(lane);
+        detail::Lanes occupied;
+        detail::Lanes pressed;
+        for (std::size_t row = 0; row < snapshot.size(); ++row) {
+            const core::LaneIndex lane = snapshot.lane[row];
+            if (!lane.exists()) continue;
+            if (network.edge(network.lane(lane).edge).internal)
+                occupied.push_back(lane);
+            else if (could_just_stop(snapshot, row, roster))
+                pressed.push_back(lane);
         }
         std::ranges::sort(occupied);
-        const detail::SignalTiming timing{config.yellow_s,   config.all_red_s,   config.clearing_s,
-                                          config.hold_cap_s, config.cool_down_s, config.least_green_s};
+        std::ranges::sort(pressed);
+        const detail::SignalTiming timing{config.yellow_s,     config.all_red_s,  config.clearing_s,
+                                          config.gap_wait_s,   config.hold_cap_s, config.cool_down_s,
+                                          config.least_green_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
-            signal.step({snapshot.time, shown, timing, occupied}, ledger, commands);
+            signal.step({snapshot.time, shown, timing, occupied, pressed}, ledger, commands);
         }
     }
     void take(const traffic::Lease& lease) {
@@ -111,7 +139,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);
-    state.step_signals(snapshot, commands);
+    state.step_signals(snapshot, roster, commands);
     std::erase_if(state.vehicles, [&](const auto& entry) { return entry.second.is_idle(now); });
     std::erase_if(state.signals, [&](const auto& entry) { return entry.second.is_idle(now); });
 }

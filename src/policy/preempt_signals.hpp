@@ -1,5 +1,8 @@
 #pragma once
 
+#include <set>
+#include <utility>
+
 #include "policy/part.hpp"
 
 namespace clearway::policy {
@@ -29,6 +32,9 @@ class PreemptSignals : public Part {
   private:
     const roads::Network& network_;
     PreemptSignalsConfig config_;
+    /// Whose signals were asked for at the last call: a request stands until its vehicle has passed, for the
+    /// queue that begins to move is not gone yet.
+    std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked_;
 };
 
 }  // namespace clearway::policy

@@ -110,6 +110,44 @@ TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_the_cool_down) {
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("cool_down"), 1U);
 }
 
+TEST(SignalHold, has_a_cap_of_its_own_when_it_takes_over_from_one_that_conflicts) {
+    ActuationBench bench;
+    const auto history = watch(bench, 130.0, [](ActuationBench& b) {
+        if (b.now.value < 40.0)
+            b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "part", core::VehicleKey{1});
+        if (b.now.value > 20.0)
+            b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "part", core::VehicleKey{2});
+    });
+    double taken_over_s = 0.0;
+    double ended_s = 0.0;
+    for (const Shown& shown : history) {
+        if (shown.state == "GrrrrrrrrrrrGyyy" || shown.state == "Grrrrrrrrrrryyyy")
+            taken_over_s = shown.from_s;
+        const bool ends = shown.state.substr(0, 4).find('y') != std::string::npos;
+        if (taken_over_s > 0.0 && ended_s == 0.0 && ends) ended_s = shown.from_s;
+    }
+    EXPECT_NEAR(taken_over_s, 41.75, 0.6);
+    EXPECT_NEAR(ended_s, taken_over_s + 60.0, 0.5) << "not 60 s after the first took it";
+}
+
+TEST(SignalHold, ends_a_green_when_nobody_on_it_could_just_stop_or_2_s_later) {
+    // 8 m/s stop within 7.1 m at 4.5 m/s2; who reacts for half a second and keeps 1 m needs 12.1 m.
+    const auto yellow_begins_s = [](double before_line_m, double leaves_s) {
+        ActuationBench bench;
+        const auto vehicle = bench.add(
+            {"h", traffic::VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 289.6 - before_line_m, 8.0});
+        const auto history = watch(bench, 4.0, [&](ActuationBench& b) {
+            hold_until(west, 1000.0)(b);
+            if (b.now.value >= leaves_s) b.on_road.erase(vehicle);
+        });
+        return history.at(1).from_s;
+    };
+    EXPECT_NEAR(yellow_begins_s(10.0, 1.0), 1.25, 1e-9);
+    EXPECT_NEAR(yellow_begins_s(10.0, 100.0), 2.25, 1e-9);
+    EXPECT_NEAR(yellow_begins_s(6.0, 100.0), 0.25, 1e-9) << "it drives on";
+    EXPECT_NEAR(yellow_begins_s(14.0, 100.0), 0.25, 1e-9) << "it stops in comfort";
+}
+
 TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_other) {
     ActuationBench bench;
     const core::VehicleKey first{1};

@@ -52,6 +52,22 @@ TEST(PreemptSignals, asks_two_seconds_earlier_for_each_vehicle_in_the_longest_qu
     EXPECT_EQ(act(part, scene).size(), 1U) << "lead 12 s";
 }
 
+TEST(PreemptSignals, keeps_asking_until_the_vehicle_has_passed) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(180.0);
+    for (int number = 0; number < 3; ++number)
+        scene.add(
+            {"h" + std::to_string(number), VehicleClass::human, eastbound, 1, 485.0 - 8.0 * number, 0.0});
+    EXPECT_EQ(act(part, scene).size(), 1U);
+    for (int number = 0; number < 3; ++number)
+        scene.remove(core::vehicle_key("h" + std::to_string(number)));
+    EXPECT_EQ(act(part, scene).size(), 1U) << "11.25 s away behind a queue that has just begun to move";
+    policy::PreemptSignals fresh({two_crossings()});
+    EXPECT_TRUE(act(fresh, scene).empty());
+    scene.remove(core::vehicle_key("e"));
+    EXPECT_TRUE(act(part, scene).empty());
+}
+
 TEST(PreemptSignals, asks_for_the_whole_approach_and_nothing_else) {
     policy::PreemptSignals part({two_crossings()});
     CrossingScene scene = emergency_at(50.0);

@@ -67,15 +67,35 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
         return;
     }
     const Links links = allowed_now(around.now, around.timing, ledger);
-    if (stage_ == Stage::own_program) {
-        if (links.empty()) return shorten(around, commands);
-        shown_ = around.state;
-        taken_since_ = around.now;
-        begin_way(links, around.now, ledger, commands);
-    } else if (links != links_) {
-        begin_way(links, around.now, ledger, commands);
+    const bool in_program = stage_ == Stage::own_program;
+    if (in_program && links.empty()) return shorten(around, commands);
+    if (in_program) shown_ = around.state;
+    if (in_program || links != way_.links) {
+        Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
+        const bool in_green = in_program || stage_ == Stage::hold;
+        if (in_green && waits_for_gap(way.target, around)) return;
+        if (in_program || conflict(signal_, links, last_held_)) taken_since_ = around.now;
+        begin(std::move(way), around.now, commands);
+    } else {
+        gap_awaited_.reset();
     }
     proceed(around, commands);
+}
+
+/// Whether a green that is shown should not end just now, for the sake of one who could just stop. Never for
+/// longer than the timing allows.
+bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroundings& around) {
+    const bool is_pressed = std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
+        return link < signal_.links.size() &&
+               std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
+                   return std::ranges::binary_search(around.pressed, way.from);
+               });
+    });
+    if (!gap_awaited_) gap_awaited_ = around.now;
+    const bool waits =
+        is_pressed && (around.now - *gap_awaited_).value < around.timing.gap_wait_s - time_tolerance_s;
+    if (!waits) gap_awaited_.reset();
+    return waits;
 }
 
 /// The phase after a green that a favour wants to end; the program itself goes on from there.
@@ -91,38 +111,40 @@ void SignalControl::shorten(const SignalSurroundings& around, std::vector<traffi
     const Links& links = std::get<traffic::FavourLinks>(favour->lease.action).links;
     const auto next = phase_after_green(signal_, around.state);
     if (!next || serves_any(around.state, links)) return;
+    if (waits_for_gap(signal_.program[*next].state, around)) return;
     commands.push_back(traffic::RestoreProgram{index_, next});
 }
 
-void SignalControl::begin_return(Ledger& ledger) {
-    return_phase_.reset();
-    if (HeldLease* favour = favours_.best()) {
-        return_phase_ = best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
-        if (!return_phase_) LeaseQueue::refuse(*favour, "no_phase_serves", ledger);
-    }
-    target_.assign(shown_.size(), 'r');
-    if (return_phase_)
-        target_.replace(0, signal_.program[*return_phase_].state.size(),
-                        signal_.program[*return_phase_].state);
-    gaining_ = green_links(return_phase_ ? target_ : std::string(shown_.size(), 'G'));
+SignalControl::Way SignalControl::plan_hold(const Links& links) const {
+    return {links, hold_state(signal_, shown_, links), links, std::nullopt};
 }
 
-void SignalControl::begin_way(const Links& links, core::Seconds now, Ledger& ledger,
-                              std::vector<traffic::Command>& commands) {
-    links_ = links;
-    if (links.empty()) {
-        begin_return(ledger);
-    } else {
-        target_ = hold_state(signal_, shown_, links);
-        gaining_ = links;
+SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
+    Way way;
+    if (HeldLease* favour = favours_.best()) {
+        way.return_phase = best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
+        if (!way.return_phase) LeaseQueue::refuse(*favour, "no_phase_serves", ledger);
     }
-    const bool to_unknown = links.empty() && !return_phase_;
-    if (needs_yellow(shown_, target_))
-        enter(Stage::yellow, yellow_state(shown_, target_), now, commands);
-    else if (to_unknown || needs_all_red(shown_, target_))
-        enter(Stage::all_red, all_red_state(shown_, target_), now, commands);
+    way.target.assign(shown_.size(), 'r');
+    if (way.return_phase) {
+        const std::string& state = signal_.program[*way.return_phase].state;
+        way.target.replace(0, state.size(), state);
+    }
+    way.gaining = green_links(way.return_phase ? way.target : std::string(shown_.size(), 'G'));
+    return way;
+}
+
+void SignalControl::begin(Way way, core::Seconds now, std::vector<traffic::Command>& commands) {
+    way_ = std::move(way);
+    if (!way_.links.empty()) last_held_ = way_.links;
+    const std::string& target = way_.target;
+    const bool to_unknown = way_.links.empty() && !way_.return_phase;
+    if (needs_yellow(shown_, target))
+        enter(Stage::yellow, yellow_state(shown_, target), now, commands);
+    else if (to_unknown || needs_all_red(shown_, target))
+        enter(Stage::all_red, all_red_state(shown_, target), now, commands);
     else
-        enter(Stage::hold, target_, now, commands);
+        enter(Stage::hold, target, now, commands);
 }
 
 void SignalControl::enter(Stage stage, const std::string& state, core::Seconds now,
@@ -135,11 +157,11 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
 }
 
 /// Nobody who has lost green is still on a way that those who get it will cross.
-bool SignalControl::is_clear(const OccupiedLanes& occupied) const {
+bool SignalControl::is_clear(const Lanes& occupied) const {
     const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
     for (std::uint16_t link = 0; link < link_count; ++link) {
-        const bool keeps = link < target_.size() && traffic::is_green(target_[link]);
-        if (keeps || !conflict(signal_, {link}, gaining_)) continue;
+        const bool keeps = link < way_.target.size() && traffic::is_green(way_.target[link]);
+        if (keeps || !conflict(signal_, {link}, way_.gaining)) continue;
         for (const core::LaneIndex lane : inner_lanes_[link]) {
             if (std::ranges::binary_search(occupied, lane)) return false;
         }
@@ -152,20 +174,20 @@ void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffi
         return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
     };
     if (stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
-        const std::string red = all_red_state(shown_, target_);
-        const bool to_red = (links_.empty() && !return_phase_) || needs_all_red(red, target_);
-        enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : target_, around.now, commands);
+        const std::string red = all_red_state(shown_, way_.target);
+        const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target);
+        enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : way_.target, around.now, commands);
     }
     const bool is_cleared =
         stage_ == Stage::all_red && is_over(around.timing.all_red_s) &&
         (is_over(around.timing.all_red_s + around.timing.clearing_s) || is_clear(around.occupied));
-    if (is_cleared) enter(Stage::hold, target_, around.now, commands);
-    if (stage_ == Stage::hold && links_.empty()) return_to_program(around.now, around.timing, commands);
+    if (is_cleared) enter(Stage::hold, way_.target, around.now, commands);
+    if (stage_ == Stage::hold && way_.links.empty()) return_to_program(around.now, around.timing, commands);
 }
 
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
-    commands.push_back(traffic::RestoreProgram{index_, return_phase_});
+    commands.push_back(traffic::RestoreProgram{index_, way_.return_phase});
     program_state_.clear();
     stage_ = Stage::own_program;
     capped_ = false;

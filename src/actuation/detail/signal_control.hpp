@@ -17,20 +17,23 @@ struct SignalTiming {
     double yellow_s;
     double all_red_s;
     double clearing_s;
+    double gap_wait_s;
     double hold_cap_s;
     double cool_down_s;
     double least_green_s;
 };
 
-/// Internal lanes with a vehicle on them, ascending.
-using OccupiedLanes = std::vector<core::LaneIndex>;
+/// Lanes, ascending.
+using Lanes = std::vector<core::LaneIndex>;
 
 /// What a signal meets in one step.
 struct SignalSurroundings {
     core::Seconds now;
     const std::string& state;  ///< What it shows now; empty when there is no such signal any more.
     const SignalTiming& timing;
-    const OccupiedLanes& occupied;
+    const Lanes& occupied;  ///< Internal lanes with a vehicle on them.
+    /// Lanes with a vehicle that could stop before their end, but not comfortably.
+    const Lanes& pressed;
 };
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.
@@ -40,7 +43,8 @@ struct SignalSurroundings {
 /// links that keep green keep it all the way. The way back leads to the phase that a favour asks for; without
 /// one all links are cleared, because where the program is by then is not known. A request that changes on
 /// the way starts the way again from what is shown now. Simulated steps decide when a stage ends: it never is
-/// shorter than asked.
+/// shorter than asked. A green ends when nobody on it is so near that he could just stop, or a little later
+/// all the same.
 ///
 /// In its own program a favour ends a green that serves none of its links, once that has lasted its least
 /// time: the program goes on with its next phase, so with its own yellow.
@@ -59,15 +63,23 @@ class SignalControl {
 
   private:
     enum class Stage : std::uint8_t { own_program, yellow, all_red, hold };
+    /// From what is shown to what shall be.
+    struct Way {
+        Links links;                                ///< What is to be held; empty on the way back.
+        std::string target;                         ///< What is shown at its end.
+        Links gaining;                              ///< Whose ways must be clear before: all that it serves.
+        std::optional<std::uint32_t> return_phase;  ///< Where the program starts after the way back.
+    };
 
     Links requested(Ledger& ledger);
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
-    void begin_way(const Links& links, core::Seconds now, Ledger& ledger,
-                   std::vector<traffic::Command>& commands);
-    void begin_return(Ledger& ledger);
+    Way plan_hold(const Links& links) const;
+    Way plan_return(Ledger& ledger);
+    void begin(Way way, core::Seconds now, std::vector<traffic::Command>& commands);
     void shorten(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
-    bool is_clear(const OccupiedLanes& occupied) const;
+    bool is_clear(const Lanes& occupied) const;
+    bool waits_for_gap(const std::string& target, const SignalSurroundings& around);
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
     void return_to_program(core::Seconds now, const SignalTiming& timing,
@@ -80,15 +92,15 @@ class SignalControl {
     LeaseQueue favours_;
     Stage stage_ = Stage::own_program;
     core::Seconds stage_since_;
-    core::Seconds taken_since_;  ///< When the signal last left its own program.
+    /// When the signal last left its own program, or was last handed over to links that conflict.
+    core::Seconds taken_since_;
     core::Seconds cool_until_{-1e9};
     bool capped_ = false;  ///< Held for the cap: on the way back whatever is asked.
     std::string shown_;
-    std::string target_;
-    Links links_;    ///< What is held; empty on the way back.
-    Links gaining_;  ///< Whose ways must be clear before `target_` is shown: all that it serves.
-    std::optional<std::uint32_t> return_phase_;  ///< Where the program starts after the way back.
-    std::string program_state_;                  ///< What the own program showed at the step before.
+    Way way_;
+    Links last_held_;                           ///< Links of the last way that was none back.
+    std::optional<core::Seconds> gap_awaited_;  ///< Since when a green is kept for want of a gap.
+    std::string program_state_;                 ///< What the own program showed at the step before.
     core::Seconds program_state_since_;
 };
 

@@ -93,6 +93,14 @@ Links green_links(const std::string& state) {
     return links;
 }
 
+Links losing_links(const std::string& shown, const std::string& target) {
+    Links links;
+    for (const std::uint16_t link : green_links(shown)) {
+        if (link >= target.size() || !traffic::is_green(target[link])) links.push_back(link);
+    }
+    return links;
+}
+
 bool serves_any(const std::string& state, const Links& links) {
     return std::ranges::any_of(
         links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });

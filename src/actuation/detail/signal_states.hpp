@@ -31,6 +31,8 @@ bool needs_all_red(const std::string& shown, const std::string& target);
 
 /// Links that are green in a state, ascending.
 Links green_links(const std::string& state);
+/// Links that are green in `shown` and not in `target`, ascending.
+Links losing_links(const std::string& shown, const std::string& target);
 /// Whether any of `links` is green in a state.
 bool serves_any(const std::string& state, const Links& links);
 /// The phase after the one that shows `state`, if that is one phase alone and lets anybody pass without
