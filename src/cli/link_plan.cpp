@@ -10,7 +10,6 @@
 #include "cli/names.hpp"
 #include "cli/programs.hpp"
 #include "core/files.hpp"
-#include "core/named_numbers.hpp"
 #include "core/progress.hpp"
 #include "prediction/predictor.hpp"
 #include "results/link_order.hpp"
@@ -219,12 +218,13 @@ void check(const LinkPlan& plan) {
     for (const LinkPredictor& predictor : plan.predictors) {
         check_name("--predictor", predictor.name, prediction::predictor_names());
         present.push_back(predictor.name);
-        prediction::PredictionConfig config;
-        core::set_numbers(predictor.settings, "--set " + predictor.name, config, problems);
+        prediction::check_settings(predictor.name, predictor.settings, "--set " + predictor.name, problems);
         if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
             problems.push_back({"--model " + predictor.name,
                                 fmt::format("{} is no file", predictor.model_file),
                                 "a .weights file of clearway train", ""});
+        } else if (!predictor.model_file.empty()) {
+            prediction::check_model(predictor.name, predictor.model_file);
         }
     }
     if (!plan.against.empty()) check_name("--against", plan.against, present);

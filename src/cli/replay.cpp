@@ -1,5 +1,6 @@
 #include "replay/replay.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "cli/names.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
+#include "replay/failure_log.hpp"
 #include "results/recording_tables.hpp"
 
 namespace clearway::cli {
@@ -25,6 +27,15 @@ const char* const open_loop =
     "policy gains is for `clearway run`. Without --predictor, --failure and --policy the recorded beliefs "
     "and\n"
     "leases must come out to the bit; exit code 6 if they do not.";
+
+/// What the sensors lacked: made by a replay of them, while the other tables stand in the recording.
+constexpr const char* failures_table = "failures";
+
+std::vector<std::string> table_names() {
+    std::vector<std::string> names = results::recording_table_names();
+    names.emplace_back(failures_table);
+    return names;
+}
 
 struct Arguments {
     std::string file;
@@ -76,29 +87,52 @@ results::RoadNames names_of(const roads::Network& network) {
     return names;
 }
 
-core::ExitCode print_csv(results::RecordingReader& recording, const Arguments& arguments) {
-    const results::RecordingTable table = results::recording_table_from(arguments.table).value();
-    const results::RoadNames names = names_of(network_of(recording.info(), arguments));
+/// Prints header and, of each step between --from and --to, what `lines` gives.
+core::ExitCode print_csv(results::RecordingReader& recording, const Arguments& arguments,
+                         const std::string& header,
+                         const std::function<std::string(const results::RecordedStep&)>& lines) {
     if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s)
         throw core::InputError({"--from",
                                 fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s),
                                 "", "Swap them"});
-    fmt::print("{}", results::csv_header(table));
+    fmt::print("{}", header);
     std::optional<double> begin_s;
     double end_s = 0.0;
     bool any = false;
     while (const auto step = recording.next()) {
         end_s = step->snapshot->time.value;
         if (!begin_s) begin_s = end_s;
+        const std::string text = lines(*step);
         if (arguments.from_s && end_s < *arguments.from_s) continue;
         if (arguments.to_s && end_s > *arguments.to_s) continue;
         any = true;
-        fmt::print("{}", results::csv_lines(table, *step, names));
+        fmt::print("{}", text);
     }
     if (!any)
         throw core::InputError({"--from, --to", "no recorded step lies between them",
                                 begin_s ? fmt::format("{} to {} s", *begin_s, end_s) : "", ""});
     return core::ExitCode::ok;
+}
+
+core::ExitCode print_table(results::RecordingReader& recording, const Arguments& arguments) {
+    const roads::Network network = network_of(recording.info(), arguments);
+    if (arguments.table == failures_table) {
+        replay::FailureLogger logger(recording.info(), condition_of(recording.info(), arguments).failure,
+                                     network);
+        return print_csv(recording, arguments, replay::failure_log_header,
+                         [&](const results::RecordedStep& step) {
+                             const sensing::FailureLog* const log = logger.step(step);
+                             return log == nullptr ? std::string() : replay::csv_lines(*log, *step.roster);
+                         });
+    }
+    if (arguments.failure)
+        throw core::InputError({"--failure", fmt::format("does not go with --csv {}", arguments.table),
+                                "a replay, or --csv failures", "The table shows what was recorded"});
+    const results::RecordingTable table = results::recording_table_from(arguments.table).value();
+    const results::RoadNames names = names_of(network);
+    return print_csv(
+        recording, arguments, results::csv_header(table),
+        [&](const results::RecordedStep& step) { return results::csv_lines(table, step, names); });
 }
 
 std::string number(const std::optional<double>& value) {
@@ -215,7 +249,7 @@ bool is_same(const replay::ReplayResult& result) {
 
 core::ExitCode replay_file(const Arguments& arguments) {
     results::RecordingReader recording(arguments.file);
-    if (!arguments.table.empty()) return print_csv(recording, arguments);
+    if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
         throw core::InputError(
             {"--from, --to", "go with --csv alone", "", "A replay needs the recording from its beginning"});
@@ -237,11 +271,10 @@ core::ExitCode replay_file(const Arguments& arguments) {
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
     const char* const group = "Export for people, in place of a replay";
-    CLI::Option* const csv =
-        app.add_option("--csv", arguments->table, "CSV: " + joined(results::recording_table_names()))
-            ->check(CLI::IsMember(results::recording_table_names()))
-            ->option_text("TABLE [none: replay]")
-            ->group(group);
+    CLI::Option* const csv = app.add_option("--csv", arguments->table, "CSV: " + joined(table_names()))
+                                 ->check(CLI::IsMember(table_names()))
+                                 ->option_text("TABLE [none: replay]")
+                                 ->group(group);
     for (CLI::Option* const other : others)
         csv->excludes(other);
     app.add_option("--from", arguments->from_s, "First simulation time of the table, s")
@@ -265,9 +298,9 @@ Action configure_replay(CLI::App& app) {
     std::vector<CLI::Option*> thinking;
     thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
                            ->option_text("NAME [as recorded]"));
-    thinking.push_back(app.add_option("--failure", arguments->failure,
-                                      "How sensors fail, with the draws of the recorded run")
-                           ->option_text("NAME [as recorded]"));
+    app.add_option("--failure", arguments->failure,
+                   "How sensors fail, with the draws of the recorded run; also of --csv failures")
+        ->option_text("NAME [as recorded]");
     thinking.push_back(app.add_option("--policy", arguments->parts, "Policy parts, in this order")
                            ->option_text("PART ... [as recorded]"));
     app.add_option("--network", arguments->network, "Network file on which the recording was made")

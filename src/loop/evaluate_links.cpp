@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/named_numbers.hpp"
 #include "loop/detail/work_folder.hpp"
 #include "loop/link_evaluation.hpp"
 #include "loop/unit_run.hpp"
@@ -24,11 +23,8 @@ sensing::Exits exits_from(const std::string& word) {
 
 std::unique_ptr<prediction::Predictor> make(const results::LinkPredictorOrder& order,
                                             const roads::Network& network, const graph::LinkRules& rules) {
-    prediction::PredictorContext context{.network = network, .rules = rules, .model_file = order.model_file};
-    std::vector<core::Problem> problems;
-    core::set_numbers(order.settings, order.name, context.config, problems);
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    return prediction::make_predictor(order.name, context);
+    return prediction::make_predictor(
+        order.name, {.network = network, .rules = rules, .model_file = order.model_file}, order.settings);
 }
 
 void add_trials(const results::LinkOrder& order, const roads::Network& network, const graph::LinkRules& rules,

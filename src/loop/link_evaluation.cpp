@@ -116,10 +116,6 @@ void LinkTrial::ask(const truth::Snapshot& snapshot, const LinkTruthView& truth,
 
 void LinkTrial::match_rows(const truth::Snapshot& snapshot, const prediction::Tracks& tracks) {
     match_by_key(tracks.key, snapshot.key, snapshot_row_);
-    seen_.assign(snapshot.size(), 0);
-    for (const core::VehicleIndex row : snapshot_row_) {
-        if (row != nowhere) seen_[row] = 1;
-    }
 }
 
 bool LinkTrial::truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const {
@@ -155,12 +151,9 @@ bool LinkTrial::is_ahead_of_emergency(const prediction::Tracks& tracks, predicti
 
 void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,
                             const LinkTruthView& truth) {
-    std::uint64_t never_seen = 0;
-    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
-        for (const core::VehicleIndex other : truth.graph().neighbours_of(row)) {
-            if (other > row && (seen_[row] == 0 || seen_[other] == 0)) ++never_seen;
-        }
-    }
+    sensor_->log_failures(snapshot, truth.graph(), log_);
+    const auto never_seen = static_cast<std::uint64_t>(std::ranges::count(
+        log_.lost_links, sensing::FailureLog::Cause::never_seen, &sensing::FailureLog::LostLink::cause));
     auto in_reach = static_cast<std::uint64_t>(std::ranges::count(label_, 1));
     for (const prediction::PairList* const pairs : {&scene.known, &scene.detected}) {
         for (const prediction::RowPair rows : pairs->rows)

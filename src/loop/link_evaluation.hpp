@@ -85,12 +85,12 @@ class LinkTrial {
     std::string failure_, exits_;
     std::unique_ptr<sensing::SensorModel> sensor_;
     traffic::Observation observation_;
+    sensing::FailureLog log_;
     std::vector<Contestant> contestants_;
     metrics::LinkTruth truth_;
     std::uint64_t observed_vehicles_ = 0;
 
     std::vector<core::VehicleIndex> snapshot_row_;  ///< By row of the tracks; `nowhere` when it has left.
-    std::vector<std::uint8_t> seen_;                ///< By row of the snapshot.
     std::vector<std::uint8_t> label_;               ///< By candidate.
     std::vector<metrics::PairTraits> traits_;       ///< By candidate.
     std::vector<core::VehicleIndex> believed_snapshot_row_, row_believed_;

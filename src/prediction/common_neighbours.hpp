@@ -25,7 +25,7 @@ struct CommonNeighboursConfig {
 /// Common neighbours (Liben-Nowell and Kleinberg 2003, "The Link Prediction Problem for Social Networks"):
 /// two vehicles are likely linked when many vehicles are near both. The graph: all pairs within the link
 /// radius by last seen positions, of whatever class (links of the allowed classes alone hardly close a
-/// triangle), and all detected pairs. P = 1 / (1 + exp(-(intercept + slope ln(1 + shared)))). Vehicles stay
+/// triangle), and all detected pairs. P = 1 / (1 + exp(-(intercept + slope shared))). Vehicles stay
 /// where they were last seen, as in `last_seen`.
 std::unique_ptr<Predictor> make_common_neighbours(const PredictorContext& context,
                                                   const CommonNeighboursConfig& config = {});

@@ -78,6 +78,7 @@ GraphSageNet::GraphSageNet(const Weights& weights, const FeatureSchema& features
     decoder_bias_ = padded_vector(weights.tensor("nn.fc1.bias", {dimensions_.hidden}));
     output_weight_ = padded_vector(weights.tensor("nn.fc2.weight", {1, dimensions_.hidden}));
     output_bias_ = weights.tensor("nn.fc2.bias", {1}).values.front();
+    weights.require_tensors(10);
 }
 
 GraphSageNet::Convolution GraphSageNet::convolution_from(const Weights& weights, const std::string& name,

@@ -42,10 +42,15 @@ struct GraphSageDimensions {
 
 /// The dissertation's GraphSAGENet (chapters 5.1 and 5.2), for inference without torch:
 ///
-///     h_i = W1l mean_{j -> i} x_j + b1 + W1r x_i        (SAGEConv with mean aggregation, Hamilton et al.
-///     2017; z_i = W2l mean_{j -> i} h_j + b2 + W2r h_i         as published: no activation between the two)
-///     logit_ij = w4 . relu(W3 (z_i * z_j) + b3) + b4     (* is the elementwise product)
+// clang-format off: equations, one a line
+///     h_i      = W1l mean_{j -> i} x_j + b1 + W1r x_i
+///     z_i      = W2l mean_{j -> i} h_j + b2 + W2r h_i
+///     logit_ij = w4 . relu(W3 (z_i * z_j) + b3) + b4
+// clang-format on
 ///
+/// Two SAGEConv with mean aggregation (Hamilton et al. 2017), as published without an activation between
+/// them;
+/// * is the elementwise product.
 /// A row that receives nothing has mean 0. Tensors by PyTorch Geometric's names:
 /// `graphsage.conv1.lin_l.weight` (W1l),
 /// `.lin_l.bias`, `.lin_r.weight`, `graphsage.conv2...`, `nn.fc1.weight`, `nn.fc1.bias`, `nn.fc2.weight`,

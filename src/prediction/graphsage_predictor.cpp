@@ -67,8 +67,10 @@ std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context) {
                                 fmt::format("{} m, for which the net was trained", repair_link_radius_m),
                                 "Choose predictor route_rule for other radii"});
     }
-    return std::make_unique<GraphSage>(
-        context, context.model_file.empty() ? shipped_model("graphsage") : read_weights(context.model_file));
+    return std::make_unique<GraphSage>(context, model_of("graphsage", context.model_file));
+}
+void check_graphsage(const Weights& weights) {
+    const RepairNet net(weights);
 }
 
 }  // namespace clearway::prediction

@@ -12,9 +12,6 @@ namespace {
 using detail::PairwisePredictor;
 using detail::RowBelief;
 
-constexpr float start_speed_mps = 2.0F;
-constexpr float speed_change_mps = 2.5F;
-
 /// P(d < radius) by the distances in `distances_m` and the sigmas of both ends.
 void score_by_distance(const Scene& scene, const std::vector<RowBelief>& beliefs,
                        const std::vector<float>& distances_m, double radius_m,
@@ -54,51 +51,59 @@ class NoRepair final : public PairwisePredictor {
 
 class LastSeen final : public PairwisePredictor {
   public:
-    using PairwisePredictor::PairwisePredictor;
+    LastSeen(const PredictorContext& context, const LastSeenConfig& config)
+        : PairwisePredictor(context), config_(config) {}
     std::string_view name() const override { return "last_seen"; }
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        detail::believe_last_seen(scene.tracks, beliefs);
+        detail::believe_last_seen(scene.tracks, beliefs, config_);
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
         score_by_distance(scene, beliefs, scene.candidates.last_seen_m, rules().radius_m, probabilities);
     }
+
+    LastSeenConfig config_;
 };
 
 class DeadReckoning final : public PairwisePredictor {
   public:
-    using PairwisePredictor::PairwisePredictor;
+    DeadReckoning(const PredictorContext& context, const DeadReckoningConfig& config)
+        : PairwisePredictor(context), config_(config) {}
     std::string_view name() const override { return "dead_reckoning"; }
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        detail::believe_dead_reckoned(scene.tracks, beliefs);
+        detail::believe_dead_reckoned(scene.tracks, beliefs, config_);
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
         score_by_distance(scene, beliefs, scene.candidates.dead_reckoned_m, rules().radius_m, probabilities);
     }
+
+    DeadReckoningConfig config_;
 };
 
 }  // namespace
 
 namespace detail {
 
-void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs) {
+void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs, const LastSeenConfig& config) {
     for (std::size_t row = 0; row < tracks.size(); ++row) {
         beliefs[row] = {
             tracks.last[row],
-            held_sigma_m(tracks.sensor_sigma_m[row], tracks.last[row].speed_mps, tracks.age_s[row]), true};
+            held_sigma_m(tracks.sensor_sigma_m[row], tracks.last[row].speed_mps, tracks.age_s[row], config),
+            true};
     }
 }
 
-void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs) {
+void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs,
+                           const DeadReckoningConfig& config) {
     for (std::size_t row = 0; row < tracks.size(); ++row) {
         beliefs[row] = {tracks.state[row],
-                        dead_reckoned_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row]),
-                        tracks.past_end_m[row] <= 0.0F};
+                        dead_reckoned_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row], config),
+                        !tracks.has_left(row)};
     }
 }
 
@@ -117,12 +122,12 @@ void score_by_place(const PairList& candidates, const std::vector<RowBelief>& be
 
 }  // namespace detail
 
-float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s) {
-    return std::hypot(sensor_sigma_m, (speed_mps + start_speed_mps) * age_s);
+float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s, const LastSeenConfig& config) {
+    return std::hypot(sensor_sigma_m, (speed_mps + static_cast<float>(config.start_speed_mps)) * age_s);
 }
 
-float dead_reckoned_sigma_m(float sensor_sigma_m, float age_s) {
-    return std::hypot(sensor_sigma_m, speed_change_mps * age_s);
+float dead_reckoned_sigma_m(float sensor_sigma_m, float age_s, const DeadReckoningConfig& config) {
+    return std::hypot(sensor_sigma_m, static_cast<float>(config.speed_change_mps) * age_s);
 }
 
 float probability_within(float radius_m, float distance_m, float sigma_m) {
@@ -134,11 +139,12 @@ float probability_within(float radius_m, float distance_m, float sigma_m) {
 std::unique_ptr<Predictor> make_no_repair(const PredictorContext& context) {
     return std::make_unique<NoRepair>(context);
 }
-std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context) {
-    return std::make_unique<LastSeen>(context);
+std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context, const LastSeenConfig& config) {
+    return std::make_unique<LastSeen>(context, config);
 }
-std::unique_ptr<Predictor> make_dead_reckoning(const PredictorContext& context) {
-    return std::make_unique<DeadReckoning>(context);
+std::unique_ptr<Predictor> make_dead_reckoning(const PredictorContext& context,
+                                               const DeadReckoningConfig& config) {
+    return std::make_unique<DeadReckoning>(context, config);
 }
 
 }  // namespace clearway::prediction

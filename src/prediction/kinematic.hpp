@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 
+#include "core/fields.hpp"
 #include "prediction/predictor.hpp"
 
 namespace clearway::prediction {
@@ -10,20 +12,43 @@ namespace clearway::prediction {
 /// exist.
 std::unique_ptr<Predictor> make_no_repair(const PredictorContext& context);
 
+struct LastSeenConfig {
+    double start_speed_mps = 2.0;
+
+    static constexpr auto fields() {
+        using C = LastSeenConfig;
+        return std::make_tuple(
+            core::Field{"start_speed_mps", "m/s", &C::start_speed_mps, 0.0, 50.0,
+                        "How fast a vehicle that stood may go by now, beside the speed it had",
+                        "mean over 3 s from standstill at 1.4 m/s2"});
+    }
+};
+
 /// Vehicles stay where they were last seen, for ever.
-std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context);
+std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context, const LastSeenConfig& config = {});
 
-/// Vehicles go on at their reported speed along their route, and leave at its end.
-std::unique_ptr<Predictor> make_dead_reckoning(const PredictorContext& context);
+struct DeadReckoningConfig {
+    double speed_change_mps = 2.5;
 
-/// Standard deviation of a held position, m: sqrt(sensor^2 + ((speed + 2 m/s) age)^2). The vehicle moved by
-/// about speed x age; one that stood may have started (2 m/s is the mean over 3 s from standstill at 1.4
-/// m/s^2).
-float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s);
+    static constexpr auto fields() {
+        using C = DeadReckoningConfig;
+        return std::make_tuple(
+            core::Field{"speed_change_mps", "m/s", &C::speed_change_mps, 0.0, 50.0,
+                        "Growth of a position's standard deviation with the age of its report",
+                        "assumed: half of the usual change of speed between two signals"});
+    }
+};
 
-/// Standard deviation of a dead-reckoned position, m: sqrt(sensor^2 + (2.5 m/s age)^2). 2.5 m/s is assumed:
-/// half of the usual change of speed between two signals.
-float dead_reckoned_sigma_m(float sensor_sigma_m, float age_s);
+/// Vehicles go on at their reported speed along their route, and leave at its end where exits are not known.
+std::unique_ptr<Predictor> make_dead_reckoning(const PredictorContext& context,
+                                               const DeadReckoningConfig& config = {});
+
+/// Standard deviation of a held position, m: sqrt(sensor^2 + ((speed + start_speed) age)^2). The vehicle
+/// moved by about speed x age.
+float held_sigma_m(float sensor_sigma_m, float speed_mps, float age_s, const LastSeenConfig& config = {});
+
+/// Standard deviation of a dead-reckoned position, m: sqrt(sensor^2 + (speed_change age)^2).
+float dead_reckoned_sigma_m(float sensor_sigma_m, float age_s, const DeadReckoningConfig& config = {});
 
 /// P(d < radius) for a distance believed to be `distance_m` with standard deviation `sigma_m`, taken as
 /// normal: 0.5 at the radius, steeper the smaller sigma is; a step for sigma 0.

@@ -15,10 +15,6 @@ namespace {
 using detail::PairwisePredictor;
 using detail::RowBelief;
 
-Weights load(const PredictorContext& context, const std::string& predictor) {
-    return context.model_file.empty() ? shipped_model(predictor) : read_weights(context.model_file);
-}
-
 /// The published schema that a model file names; otherwise the net's constructor explains the mismatch.
 FeatureSchema published_schema_of(const Weights& weights) {
     const FeatureSchema attributes = as_published_attributes_schema();
@@ -92,10 +88,17 @@ class GraphSageCorrected final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& context) {
-    return std::make_unique<GraphSageAsPublished>(context, load(context, "graphsage_as_published"));
+    return std::make_unique<GraphSageAsPublished>(context,
+                                                  model_of("graphsage_as_published", context.model_file));
+}
+void check_graphsage_as_published(const Weights& weights) {
+    const GraphSageNet net(weights, published_schema_of(weights));
 }
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context) {
-    return std::make_unique<GraphSageCorrected>(context, load(context, "graphsage_corrected"));
+    return std::make_unique<GraphSageCorrected>(context, model_of("graphsage_corrected", context.model_file));
+}
+void check_graphsage_corrected(const Weights& weights) {
+    const GraphSageNet net(weights, corrected_schema());
 }
 
 }  // namespace clearway::prediction

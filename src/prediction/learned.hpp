@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "prediction/predictor.hpp"
+#include "prediction/weights.hpp"
 
 namespace clearway::prediction {
 
@@ -12,14 +13,19 @@ namespace clearway::prediction {
 /// measurements); it is kept to show that.
 std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& context);
 
+/// Throws core::InputError when the weights are no model of it; so do the functions below.
+void check_graphsage_as_published(const Weights& weights);
+
 /// The same architecture with what was wrong put right: inputs in which distance can be measured
 /// (features.hpp, `corrected`), messages along observed links only, trained with negatives from the
 /// candidates. Believed states are dead-reckoned; pairs out of the kernel's reach have probability 0.
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context);
+void check_graphsage_corrected(const Weights& weights);
 
 /// The improved net: messages over predicted-position neighbours of all classes in the receiver's route
 /// frame, a motion head, and a pair decoder on corrected distances (repair_net.hpp). Throws core::InputError
 /// for a link radius other than 50 m.
 std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context);
+void check_graphsage(const Weights& weights);
 
 }  // namespace clearway::prediction

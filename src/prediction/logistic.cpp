@@ -18,7 +18,7 @@ using detail::RowBelief;
 class Logistic final : public PairwisePredictor {
   public:
     Logistic(const PredictorContext& context, const Weights& weights) : PairwisePredictor(context) {
-        weights.require(logistic_architecture, pair_feature_schema());
+        check_logistic(weights);
         std::ranges::copy(weights.tensor("weight", {1, pair_feature_count}).values, weight_.begin());
         bias_ = weights.tensor("bias", {1}).values[0];
     }
@@ -26,11 +26,7 @@ class Logistic final : public PairwisePredictor {
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        const Tracks& tracks = scene.tracks;
-        detail::believe_dead_reckoned(tracks, beliefs);
-        for (std::size_t row = 0; row < tracks.size(); ++row) {
-            beliefs[row].present = !tracks.has_left(row);
-        }
+        detail::believe_dead_reckoned(scene.tracks, beliefs);
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
@@ -52,9 +48,15 @@ class Logistic final : public PairwisePredictor {
 
 }  // namespace
 
+void check_logistic(const Weights& weights) {
+    weights.require(logistic_architecture, pair_feature_schema());
+    weights.tensor("weight", {1, pair_feature_count});
+    weights.tensor("bias", {1});
+    weights.require_tensors(2);
+}
+
 std::unique_ptr<Predictor> make_logistic(const PredictorContext& context) {
-    return std::make_unique<Logistic>(
-        context, context.model_file.empty() ? shipped_model("logistic") : read_weights(context.model_file));
+    return std::make_unique<Logistic>(context, model_of("logistic", context.model_file));
 }
 
 }  // namespace clearway::prediction

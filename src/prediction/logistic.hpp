@@ -16,5 +16,7 @@ inline constexpr const char* logistic_architecture = "logistic_pairs";
 /// features + bias))). Vehicles are believed where dead reckoning has them. Throws core::InputError for a
 /// model file that does not fit.
 std::unique_ptr<Predictor> make_logistic(const PredictorContext& context);
+/// Throws core::InputError when the weights are no such model.
+void check_logistic(const Weights& weights);
 
 }  // namespace clearway::prediction

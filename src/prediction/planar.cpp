@@ -23,8 +23,8 @@ constexpr double same_time_s = 0.01;
 
 class HeadingReckoning final : public PairwisePredictor {
   public:
-    HeadingReckoning(const PredictorContext& context, const HeadingConfig& config)
-        : PairwisePredictor(context), speed_change_mps_(static_cast<float>(config.speed_change_mps)) {}
+    HeadingReckoning(const PredictorContext& context, const DeadReckoningConfig& config)
+        : PairwisePredictor(context), config_(config) {}
     std::string_view name() const override { return "dead_reckoning_heading"; }
 
   private:
@@ -38,7 +38,7 @@ class HeadingReckoning final : public PairwisePredictor {
             belief.state.x_m = last.x_m + std::cos(last.heading_rad) * moved_m;
             belief.state.y_m = last.y_m + std::sin(last.heading_rad) * moved_m;
             belief.state.heading_rad = last.heading_rad;
-            belief.sigma_m = std::hypot(tracks.sensor_sigma_m[row], speed_change_mps_ * tracks.age_s[row]);
+            belief.sigma_m = dead_reckoned_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row], config_);
             belief.present = !tracks.has_left(row);
         }
     }
@@ -47,7 +47,7 @@ class HeadingReckoning final : public PairwisePredictor {
         detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
     }
 
-    float speed_change_mps_;
+    DeadReckoningConfig config_;
 };
 
 /// The filter of one vehicle and the time of the report that it has come to.
@@ -147,7 +147,7 @@ class Kalman final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_dead_reckoning_heading(const PredictorContext& context,
-                                                       const HeadingConfig& config) {
+                                                       const DeadReckoningConfig& config) {
     return std::make_unique<HeadingReckoning>(context, config);
 }
 std::unique_ptr<Predictor> make_kalman(const PredictorContext& context, const KalmanConfig& config) {

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "prediction/kinematic.hpp"
 #include "prediction/predictor.hpp"
 
 namespace clearway::prediction {
@@ -12,21 +13,9 @@ namespace clearway::prediction {
 // (lane, lane position, position in the route) that a policy needs beside it is that of dead reckoning along
 // the route. Where exits are not known, a vehicle that its speed took past the end of its route has left.
 
-struct HeadingConfig {
-    double speed_change_mps = 2.5;
-
-    static constexpr auto fields() {
-        using C = HeadingConfig;
-        return std::make_tuple(
-            core::Field{"speed_change_mps", "m/s", &C::speed_change_mps, 0.0, 50.0,
-                        "Growth of a position's standard deviation with the age of its report",
-                        "as dead_reckoning: half of the usual change of speed between two signals"});
-    }
-};
-
 /// Vehicles go straight on by their reported heading and speed. P(d < r) as kinematic.hpp has it.
 std::unique_ptr<Predictor> make_dead_reckoning_heading(const PredictorContext& context,
-                                                       const HeadingConfig& config = {});
+                                                       const DeadReckoningConfig& config = {});
 
 struct KalmanConfig {
     double along_psd = 1.0;

@@ -1,16 +1,18 @@
 #include "prediction/predictor.hpp"
 
-#include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "core/named_numbers.hpp"
 #include "prediction/common_neighbours.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
 #include "prediction/logistic.hpp"
 #include "prediction/planar.hpp"
 #include "prediction/route_rule.hpp"
+#include "prediction/shipped_models.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -18,27 +20,63 @@ namespace {
 struct Registration {
     const char* name;
     const char* summary;
-    std::unique_ptr<Predictor> (*make)(const PredictorContext&);
+    void (*check)(const PredictorSettings&, const std::string& where, std::vector<core::Problem>&);
+    std::unique_ptr<Predictor> (*make)(PredictorContext, const PredictorSettings&);
+    void (*check_model)(const Weights&) = nullptr;  ///< Of learned predictors.
 };
 
+struct NoSettings {
+    static constexpr auto fields() { return std::make_tuple(); }
+};
+
+/// A predictor whose own settings are a `Config`.
+template <auto make, class Config = NoSettings>
+constexpr Registration registered(const char* name, const char* summary,
+                                  void (*check_model)(const Weights&) = nullptr) {
+    return {name, summary,
+            [](const PredictorSettings& settings, const std::string& where,
+               std::vector<core::Problem>& problems) {
+                PredictionConfig shared;
+                Config own;
+                core::set_numbers(settings, where, problems, shared, own);
+            },
+            [](PredictorContext context, const PredictorSettings& settings) {
+                Config own;
+                std::vector<core::Problem> problems;
+                core::set_numbers(settings, "predictor", problems, context.config, own);
+                if (!problems.empty()) throw core::InputError(std::move(problems));
+                if constexpr (std::is_same_v<Config, NoSettings>) {
+                    return make(context);
+                } else {
+                    return make(context, own);
+                }
+            },
+            check_model};
+}
+
 constexpr Registration registry[] = {
-    {"none", "no repair: only vehicles whose newest report arrived", make_no_repair},
-    {"last_seen", "vehicles stay where they were last seen", make_last_seen},
-    {"dead_reckoning", "vehicles go on at their reported speed along their route", make_dead_reckoning},
-    {"dead_reckoning_heading", "vehicles go straight on by heading and speed",
-     [](const PredictorContext& context) { return make_dead_reckoning_heading(context); }},
-    {"kalman", "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances",
-     [](const PredictorContext& context) { return make_kalman(context); }},
-    {"route_rule", "dead reckoning held by red lights and leaders, drawn to where surviving links can be",
-     make_route_rule},
-    {"common_neighbours", "links by the number of vehicles near both when last seen",
-     [](const PredictorContext& context) { return make_common_neighbours(context); }},
-    {"logistic", "logistic regression on distances, ages and speeds of a pair", make_logistic},
-    {"graphsage_as_published", "the dissertation's net on raw coordinates", make_graphsage_as_published},
-    {"graphsage_corrected", "the same architecture on inputs that carry distance and age",
-     make_graphsage_corrected},
-    {"graphsage", "the improved net: messages in route frames, motion head, calibrated links",
-     make_graphsage},
+    registered<make_no_repair>("none", "no repair: only vehicles whose newest report arrived"),
+    registered<make_last_seen, LastSeenConfig>("last_seen", "vehicles stay where they were last seen"),
+    registered<make_dead_reckoning, DeadReckoningConfig>(
+        "dead_reckoning", "vehicles go on at their reported speed along their route"),
+    registered<make_dead_reckoning_heading, DeadReckoningConfig>(
+        "dead_reckoning_heading", "vehicles go straight on by heading and speed"),
+    registered<make_kalman, KalmanConfig>(
+        "kalman", "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances"),
+    registered<make_route_rule, RouteRuleConfig>(
+        "route_rule", "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+    registered<make_common_neighbours, CommonNeighboursConfig>(
+        "common_neighbours", "links by the number of vehicles near both when last seen"),
+    registered<make_logistic>("logistic", "logistic regression on distances, ages and speeds of a pair",
+                              check_logistic),
+    registered<make_graphsage_as_published>(
+        "graphsage_as_published", "the dissertation's net on raw coordinates", check_graphsage_as_published),
+    registered<make_graphsage_corrected>("graphsage_corrected",
+                                         "the same architecture on inputs that carry distance and age",
+                                         check_graphsage_corrected),
+    registered<make_graphsage>("graphsage",
+                               "the improved net: messages in route frames, motion head, calibrated links",
+                               check_graphsage),
 };
 
 }  // namespace
@@ -59,9 +97,27 @@ std::vector<std::string> predictor_names() {
     return names;
 }
 
-std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context) {
+void check_settings(const std::string& name, const PredictorSettings& settings, const std::string& where,
+                    std::vector<core::Problem>& problems) {
     for (const Registration& registration : registry) {
-        if (name == registration.name) return registration.make(context);
+        if (name == registration.name) registration.check(settings, where, problems);
+    }
+}
+
+void check_model(const std::string& name, const std::string& file) {
+    for (const Registration& registration : registry) {
+        if (name != registration.name) continue;
+        if (registration.check_model == nullptr)
+            throw core::InputError({file, fmt::format("{} is not learned and takes no model", name),
+                                    fmt::format("{}", fmt::join(shipped_model_names(), ", ")), ""});
+        registration.check_model(read_weights(file));
+    }
+}
+
+std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
+                                          const PredictorSettings& settings) {
+    for (const Registration& registration : registry) {
+        if (name == registration.name) return registration.make(context, settings);
     }
     const std::vector<std::string> names = predictor_names();
     const std::string near = core::nearest(name, names);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -7,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/fields.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
@@ -70,7 +72,21 @@ std::vector<PredictorEntry> predictors();
 /// Their names alone.
 std::vector<std::string> predictor_names();
 
-/// Throws core::InputError for an unknown name (naming the nearest) or an unreadable or unfit model file.
-std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context);
+/// Settings by name: those that all predictors share, and a predictor's own (the field tables of the
+/// predictors' headers).
+using PredictorSettings = std::map<std::string, double>;
+
+/// Appends a problem for every setting that the predictor `name` does not have and every value out of its
+/// range, `where` being where they stand. A name that is no predictor has no problem here.
+void check_settings(const std::string& name, const PredictorSettings& settings, const std::string& where,
+                    std::vector<core::Problem>& problems);
+
+/// Throws core::InputError when `file` holds no model of the predictor `name`, or the predictor takes none.
+void check_model(const std::string& name, const std::string& file);
+
+/// Throws core::InputError for an unknown name (naming the nearest), unfit settings, or an unreadable or
+/// unfit model file. `settings` win over `context.config`.
+std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
+                                          const PredictorSettings& settings = {});
 
 }  // namespace clearway::prediction

@@ -56,7 +56,7 @@ RepairNet::Linear RepairNet::linear_from(const Weights& weights, const std::stri
     return linear;
 }
 
-RepairNet::RepairNet(const Weights& weights, Kernel kernel) : kernel_(kernel) {
+RepairNet::RepairNet(const Weights& weights, Kernel kernel) : source_(weights.source), kernel_(kernel) {
     weights.require(repair_architecture, repair_schema());
     require_size(weights, "edge", edge_width);
     require_size(weights, "pair", pair_width);
@@ -82,6 +82,7 @@ RepairNet::RepairNet(const Weights& weights, Kernel kernel) : kernel_(kernel) {
     decoder2_ = linear_from(weights, "decoder2", dimensions_.decoder, dimensions_.last, Bias::with);
     decoder3_ = linear_from(weights, "decoder3", dimensions_.last, 1, Bias::with);
     skip_ = weights.tensor("skip", {1}).values.front();
+    weights.require_tensors(15 + 10 * std::size_t{dimensions_.layers});
 }
 
 // NOLINTNEXTLINE(readability-function-size): a matrix, what goes in, and where it comes out
@@ -234,6 +235,7 @@ void RepairNet::move(const RepairInputs& inputs, std::vector<BelievedMotion>& mo
         const float displacement_m =
             std::clamp(receiver.displacement_m + spread_m * out[0], 0.0F, receiver.reach_m);
         const float sigma_m = least_sigma_m + spread_m * softplus(out[1]);
+        if (!std::isfinite(displacement_m) || !std::isfinite(sigma_m)) refuse_result();
         motions.push_back({displacement_m, sigma_m});
         const roads::Point place = receiver.path.place_at(displacement_m, receiver.reach_m);
         const roads::Point direction = receiver.path.direction_at(displacement_m, receiver.reach_m);
@@ -243,6 +245,11 @@ void RepairNet::move(const RepairInputs& inputs, std::vector<BelievedMotion>& mo
         direction_y_[receiver.row] = direction.y_m;
         sigma_m_[receiver.row] = sigma_m;
     }
+}
+
+void RepairNet::refuse_result() const {
+    throw core::InputError(
+        {source_, "its results overflow", "", "Its numbers are damaged: use another file"});
 }
 
 /// Writes what the decoder is told of distances and returns the score.

@@ -45,26 +45,32 @@ struct BelievedMotion {
 /// The improved net, `graphsage`, for inference without torch. With x the numbers of a vehicle, e those of an
 /// edge, N(i) the sources of receiver i, and g(a) = 0.5 + 0.5 a / (1 + |a|):
 ///
-///     h_i   = relu(W x_i + b)
-///     m_i   = mean over j in N(i) of g(A h_j + B h_i + C e_ij + b) (D h_j + E e_ij + b)   (GraphSAGE's mean
-///     h_i'  = relu(F m_i + b + G h_i)                 aggregation, Hamilton et al. 2017, with gates),
-///     receivers (o, p) = W relu(W h_i + b) + b                  alone; known vehicles keep h. `layers`
-///     times. s_i   = rule + (3 m + 0.2 reach) o              displacement along the path, held within the
-///     reach sigma_i = 0.5 m + (3 m + 0.2 reach) ln(1 + e^p) z_i   = W h_i + b logit = MLP([z_i * z_j, |z_i -
-///     z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
+// clang-format off: equations, one a line
+///     h_i     = relu(W x_i + b)
+///     m_i     = mean over j in N(i) of g(A h_j + B h_i + C e_ij + b) (D h_j + E e_ij + b)
+///     h_i     = relu(F m_i + b + G h_i)
+///     (o, p)  = W relu(W h_i + b) + b
+///     s_i     = rule + (3 m + 0.2 reach) o
+///     sigma_i = 0.5 m + (3 m + 0.2 reach) ln(1 + e^p)
+///     z_i     = W h_i + b
+///     logit   = MLP([z_i * z_j, |z_i - z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
+// clang-format on
 ///
-/// with d the distance of the believed places, v^2 = 1 + the variances of both: of the place where each was
-/// last seen, and of its displacement along the line between them (a fiftieth of that acts across), and c =
-/// (50 m - d) / v within +-6. The logit does not depend on the order of a pair. Held to libtorch by a test of
-/// the training module. Single precision; both kernels give the same bits; no allocation once buffers have
-/// grown; one object, one thread.
+/// The second and third line, GraphSAGE's mean aggregation (Hamilton et al. 2017) with gates, happen `layers`
+/// times and change receivers alone; known vehicles keep h. s_i is the displacement along the path, held
+/// within the reach, and d the distance of the believed places, v^2 = 1 + the variances of both: of the place
+/// where each was last seen, and of its displacement along the line between them (a fiftieth of that acts
+/// across), and c = (50 m - d) / v within +-6. The logit does not depend on the order of a pair. Held to
+/// libtorch by a test of the training module. Single precision; both kernels give the same bits; no
+/// allocation once buffers have grown; one object, one thread.
 class RepairNet {
   public:
     /// Throws core::InputError when the weights are not such a net for `repair_schema()`.
     explicit RepairNet(const Weights& weights, Kernel kernel = best_kernel());
 
     const RepairDimensions& dimensions() const { return dimensions_; }
-    /// One logit a pair, one motion a receiver.
+    /// One logit a pair, one motion a receiver. Throws core::InputError when numbers overflow, which only
+    /// damaged weights do.
     void run(const RepairInputs& inputs, std::vector<float>& logits, std::vector<BelievedMotion>& motions);
 
   private:
@@ -96,6 +102,9 @@ class RepairNet {
     void decode(const RepairInputs& inputs, std::vector<float>& logits);
     float distance_facts(const RepairInputs& inputs, const RowPair& pair, float* facts) const;
 
+    [[noreturn]] void refuse_result() const;
+
+    std::string source_;
     RepairDimensions dimensions_;
     Kernel kernel_;
     Linear encoder_, motion1_, motion2_, embedding_, decoder1_, decoder2_, decoder3_;

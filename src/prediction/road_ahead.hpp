@@ -80,9 +80,8 @@ inline constexpr float route_horizon_m = 200.0F;
 ///   1. it went on at its reported speed along its route (dead reckoning) from where it was last seen; noisy
 ///      places are filtered first (motion_filter.hpp),
 ///   2. not beyond the first stop line that shows red or yellow,
-///   3. not into the vehicle that was ahead of it in its lane (its rear, less the minimum gap), as far as
-///   that
-///      one is believed to have come,
+///   3. not into the vehicle that was ahead of it in its lane (its rear, less the minimum gap),
+///      as far as that one is believed to have come,
 ///   4. and, of the places within reach, rather where the neighbours that still detect it can do so: the
 ///      displacement s that makes ((s - s3) / (1 m + 2.5 m/s age))^2 + sum (miss / 5 m)^2 least, where a miss
 ///      is the distance beyond the link radius, or the error of a measured range.

@@ -15,15 +15,10 @@ namespace {
 using detail::PairwisePredictor;
 using detail::RowBelief;
 
-constexpr float first_sigma_m = 0.5F;
-constexpr float growth_m = 1.2F;
-constexpr float growth_power = 1.25F;
-constexpr float most_sigma_m = 80.0F;
-
 class RouteRule final : public PairwisePredictor {
   public:
-    explicit RouteRule(const PredictorContext& context)
-        : PairwisePredictor(context), roads_(context.network, context.rules) {}
+    RouteRule(const PredictorContext& context, const RouteRuleConfig& config)
+        : PairwisePredictor(context), config_(config), roads_(context.network, context.rules) {}
     std::string_view name() const override { return "route_rule"; }
 
   private:
@@ -40,7 +35,7 @@ class RouteRule final : public PairwisePredictor {
 
     RowBelief belief_of(const Tracks& tracks, const RoadAhead& ahead) const {
         const std::uint32_t row = ahead.row;
-        const float sigma_m = route_rule_sigma_m(ahead.sigma_m, tracks.age_s[row]);
+        const float sigma_m = route_rule_sigma_m(ahead.sigma_m, tracks.age_s[row], config_);
         return {detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m), sigma_m,
                 !ahead.has_left};
     }
@@ -50,20 +45,23 @@ class RouteRule final : public PairwisePredictor {
         detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
     }
 
+    RouteRuleConfig config_;
     RoadAheadBuilder roads_;
     std::vector<RoadAhead> ahead_;
 };
 
 }  // namespace
 
-float route_rule_sigma_m(float sensor_sigma_m, float age_s) {
+float route_rule_sigma_m(float sensor_sigma_m, float age_s, const RouteRuleConfig& config) {
     if (age_s <= 0.0F) return sensor_sigma_m;
-    const float grown_m = std::min(most_sigma_m, first_sigma_m + growth_m * std::pow(age_s, growth_power));
-    return std::hypot(sensor_sigma_m, grown_m);
+    const float grown_m =
+        static_cast<float>(config.first_sigma_m) +
+        static_cast<float>(config.growth_m) * std::pow(age_s, static_cast<float>(config.growth_power));
+    return std::hypot(sensor_sigma_m, std::min(static_cast<float>(config.most_sigma_m), grown_m));
 }
 
-std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context) {
-    return std::make_unique<RouteRule>(context);
+std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context, const RouteRuleConfig& config) {
+    return std::make_unique<RouteRule>(context, config);
 }
 
 }  // namespace clearway::prediction

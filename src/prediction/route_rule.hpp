@@ -1,20 +1,40 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 
+#include "core/fields.hpp"
 #include "prediction/predictor.hpp"
 
 namespace clearway::prediction {
+
+/// How the standard deviation of the rule's displacement grows with the age of a report.
+struct RouteRuleConfig {
+    double first_sigma_m = 0.5;
+    double growth_m = 1.2;
+    double growth_power = 1.25;
+    double most_sigma_m = 80.0;
+
+    static constexpr auto fields() {
+        using C = RouteRuleConfig;
+        constexpr const char* tuned = "of the numbers tried the least log loss in A.5 and B10, dense";
+        return std::make_tuple(
+            core::Field{"first_sigma_m", "m", &C::first_sigma_m, 0.0, 100.0, "At an age just above 0", tuned},
+            core::Field{"growth_m", "m", &C::growth_m, 0.0, 100.0, "Growth until an age of 1 s", tuned},
+            core::Field{"growth_power", "1", &C::growth_power, 0.1, 4.0, "Power of the age in s", tuned},
+            core::Field{"most_sigma_m", "m", &C::most_sigma_m, 1.0, 1000.0, "Upper bound", tuned});
+    }
+};
 
 /// The strongest repair without learning: dead reckoning along the route, not through red lights nor through
 /// the vehicle ahead, drawn to where surviving links can be, and gone at the end of the route where exits are
 /// not known (RoadAheadBuilder says how). P(d < radius) from the distance of the believed places, whose
 /// standard deviation grows with age.
-std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context);
+std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context,
+                                           const RouteRuleConfig& config = {});
 
-/// Standard deviation of the rule's displacement, m: that of the sensor, and 0.5 m + 1.2 m (age / 1 s)^1.25,
-/// at most 80 m, as independent parts. Of the numbers tried these gave the least log loss in A.5 and B10 on
-/// the dense merge, intersection and city, on seeds that serve for nothing else.
-float route_rule_sigma_m(float sensor_sigma_m, float age_s);
+/// Standard deviation of the rule's displacement, m: that of the sensor, and first_sigma_m + growth_m (age /
+/// 1 s)^growth_power, at most most_sigma_m, as independent parts.
+float route_rule_sigma_m(float sensor_sigma_m, float age_s, const RouteRuleConfig& config);
 
 }  // namespace clearway::prediction

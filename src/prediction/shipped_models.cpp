@@ -20,6 +20,10 @@ Weights shipped_model(const std::string& predictor) {
     return parse_weights(found->text, fmt::format("shipped model {}", predictor));
 }
 
+Weights model_of(const std::string& predictor, const std::string& file) {
+    return file.empty() ? shipped_model(predictor) : read_weights(file);
+}
+
 std::vector<std::string> shipped_model_names() {
     std::vector<std::string> names;
     for (const detail::ModelText& model : detail::model_texts()) {

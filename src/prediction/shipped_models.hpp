@@ -11,6 +11,10 @@ namespace clearway::prediction {
 /// build time. Throws core::InputError, naming those that there are, when the program carries none for it.
 Weights shipped_model(const std::string& predictor);
 
+/// The model in `file`, or the shipped one where it is empty. Throws core::InputError as shipped_model and
+/// read_weights do.
+Weights model_of(const std::string& predictor, const std::string& file);
+
 /// Names of the predictors for which the program carries a model.
 std::vector<std::string> shipped_model_names();
 

@@ -211,6 +211,12 @@ void Weights::require(std::string_view wanted_architecture, const FeatureSchema&
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
+void Weights::require_tensors(std::size_t wanted) const {
+    if (tensors.size() == wanted) return;
+    throw core::InputError({source, fmt::format("{} tensors", tensors.size()),
+                            fmt::format("{} for its dimensions", wanted), "use another model file"});
+}
+
 std::string format_weights(const Weights& weights) {
     std::string text = fmt::format("{} {}\narchitecture {}\nfeatures {} {} {}\n", magic,
                                    weights_format_version, weights.architecture, weights.features.name,

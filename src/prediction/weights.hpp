@@ -62,6 +62,10 @@ struct Weights {
     /// features.
     void require(std::string_view wanted_architecture, const FeatureSchema& wanted_features) const;
 
+    /// Throws core::InputError when there are more or fewer tensors: one that no layer reads means another
+    /// net.
+    void require_tensors(std::size_t wanted) const;
+
     std::string source = "weights";  ///< The file, for messages. Not written.
 };
 

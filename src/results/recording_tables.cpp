@@ -79,11 +79,7 @@ class StepLines {
         ((text_ += "," + fmt::format("{}", cells)), ...);
         text_ += "\n";
     }
-    std::string vehicle(core::VehicleKey key) const {
-        const traffic::VehicleInfo* const info = step_.roster->find(key);
-        if (info != nullptr) return csv_text(info->id);
-        return key.value == 0 ? "" : fmt::format("#{:016x}", key.value);
-    }
+    std::string vehicle(core::VehicleKey key) const { return vehicle_cell(*step_.roster, key); }
     static std::string name_in(const std::vector<std::string>& names, std::uint32_t index, bool exists) {
         if (!exists) return "";
         return index < names.size() ? csv_text(names[index]) : fmt::format("#{}", index);
@@ -205,6 +201,12 @@ std::optional<RecordingTable> recording_table_from(std::string_view word) {
         if (word == entry.name) return entry.table;
     }
     return std::nullopt;
+}
+
+std::string vehicle_cell(const traffic::Roster& roster, core::VehicleKey key) {
+    const traffic::VehicleInfo* const info = roster.find(key);
+    if (info != nullptr) return csv_text(info->id);
+    return key.value == 0 ? "" : fmt::format("#{:016x}", key.value);
 }
 
 std::string csv_header(RecordingTable table) {

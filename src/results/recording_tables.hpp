@@ -33,6 +33,9 @@ struct RoadNames {
     std::vector<std::string> signals;
 };
 
+/// A vehicle as a cell: SUMO's id, or its key where the roster does not know it; empty for none.
+std::string vehicle_cell(const traffic::Roster& roster, core::VehicleKey key);
+
 /// Header of the table, units in the names of columns, with its line end.
 std::string csv_header(RecordingTable table);
 /// The lines of one step, in the order of the recording; empty where the step has nothing of the table. Reals

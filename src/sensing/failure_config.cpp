@@ -49,9 +49,11 @@ FailureConfig late(double latency_s) {
     return config;
 }
 
-bool fails(const FailureConfig& config) {
+/// Whether anything is drawn or seen by report rounds.
+bool needs_rounds(const FailureConfig& config) {
     return config.loss_rate > 0.0 || config.dark_share > 0.0 || config.position_sigma_m > 0.0 ||
-           config.speed_sigma_mps > 0.0 || config.latency_s > 0.0 || config.connected_share < 1.0;
+           config.speed_sigma_mps > 0.0 || config.latency_s > 0.0 || config.connected_share < 1.0 ||
+           config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 || config.link_detection_rate > 0.0;
 }
 
 void check_ranges(const FailureConfig& config, const std::string& where,
@@ -69,6 +71,20 @@ void check_ranges(const FailureConfig& config, const std::string& where,
     });
 }
 
+/// Parts of an error without the error that they are parts of.
+void check_errors(const FailureConfig& config, const std::string& where,
+                  std::vector<core::Problem>& problems) {
+    const auto refuse = [&](const char* field, const char* what, const char* cure) {
+        problems.push_back({fmt::format("{}.{}", where, field), what, "", cure});
+    };
+    if (config.position_correlation_s > 0.0 && config.position_sigma_m == 0.0)
+        refuse("position_correlation_s", "no position error to correlate", "give position_sigma_m");
+    if (config.speed_correlation_s > 0.0 && config.speed_sigma_mps == 0.0)
+        refuse("speed_correlation_s", "no speed error to correlate", "give speed_sigma_mps");
+    if (config.range_sigma_m > 0.0 && config.detection != Detection::range)
+        refuse("range_sigma_m", "no range is detected", "give detection=range");
+}
+
 void check_together(const FailureConfig& config, const std::string& where,
                     std::vector<core::Problem>& problems) {
     const double interval_s = config.report_interval_s;
@@ -76,11 +92,12 @@ void check_together(const FailureConfig& config, const std::string& where,
         problems.push_back({where + ".report_interval_s", fmt::format("{} is too short", interval_s),
                             "0.1 to 1 s, or 0 for a report at every step", ""});
     }
-    if (interval_s == 0.0 && fails(config)) {
+    if (interval_s == 0.0 && needs_rounds(config)) {
         problems.push_back({where + ".report_interval_s", "0 together with failures",
                             "0 for perfect sensing alone",
-                            "failures are drawn per report: give an interval, as 1"});
+                            "failures and sights are drawn per report: give an interval, as 1"});
     }
+    check_errors(config, where, problems);
     // Outages shorter than this would be rarer than chance after each other; independent loss is the limit.
     const double least_outage_s = interval_s / (1.0 - config.dark_share);
     if (config.dark_share > 0.0 && config.mean_outage_s < least_outage_s - 1e-9) {

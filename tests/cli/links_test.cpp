@@ -126,6 +126,8 @@ TEST_F(LinksTest, settings_reach_the_predictor_and_make_runs_of_their_own) {
     const double generous = recall({"--set", "dead_reckoning.link_threshold=0.001"});
     EXPECT_GT(generous, usual);
     EXPECT_EQ(files(".links").size(), 6U);
+    EXPECT_NE(recall({"--set", "dead_reckoning.speed_change_mps=20"}), usual);
+    EXPECT_EQ(files(".links").size(), 9U);
 }
 
 TEST_F(LinksTest, unknown_names_are_told_with_the_nearest_before_anything_runs) {
@@ -154,6 +156,14 @@ TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refus
     EXPECT_THAT(message({"--predictor", "none", "--set", "last_seen.link_threshold=0.5"}),
                 HasSubstr("last_seen"));
     EXPECT_THAT(message({"--model", "graphsage_corrected=none.weights"}), HasSubstr("none.weights"));
+    core::write_atomically(folder() / "text.weights", "no weights\n");
+    EXPECT_THAT(message({"--model", "graphsage=text.weights"}), HasSubstr("text.weights:1"));
+    EXPECT_THAT(message({"--model", "kalman=text.weights"}), HasSubstr("takes no model"));
+    EXPECT_THAT(message({"--predictor", "kalman", "--set", "kalman.along_psd=-1"}),
+                HasSubstr("-1 is out of range"));
+    EXPECT_THAT(message({"--predictor", "kalman", "none", "--set", "along_psd=2"}),
+                HasSubstr("--set none along_psd"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     EXPECT_EQ(clearway(evaluate({"--exits", "knwon"})).code, 2);
     EXPECT_EQ(clearway(evaluate({"--split", "train"})).code, 2);
     EXPECT_EQ(clearway({"links", "evaluate", "--benchmark", "eval_v1", "--density", "2"}).code, 2);

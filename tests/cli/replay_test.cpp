@@ -90,6 +90,25 @@ TEST_F(ReplayTest, tables_of_a_window_are_csv) {
     EXPECT_GT(count, 2);
 }
 
+TEST_F(ReplayTest, the_failure_log_tells_who_was_dark_and_what_links_that_cost) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const auto lines = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"replay", recording, "--csv", "failures"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_THAT(ended.out, StartsWith("time_s,what,vehicle,other_vehicle,cause\n"));
+        return ended.out;
+    };
+    const std::string log = lines({});
+    EXPECT_THAT(log, AllOf(HasSubstr(",dark,"), HasSubstr(",lost_link,"), HasSubstr(",never_seen,")));
+    EXPECT_EQ(lines({"--failure", "perfect"}), "time_s,what,vehicle,other_vehicle,cause\n");
+    EXPECT_GT(lines({"--failure", "B10,dark_share=0.8"}).size(), 2 * log.size());
+    const Ended refused = clearway({"replay", recording, "--csv", "links", "--failure", "B20"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("--csv failures"));
+}
+
 TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     ASSERT_EQ(run({"--record"}).code, 0);
     const Ended none = clearway({"replay", "none.recording"});

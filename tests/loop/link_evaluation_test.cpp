@@ -26,8 +26,21 @@ class ToldSensor final : public sensing::SensorModel {
         observation = told_;
         observation.time = snapshot.time;
     }
-    void log_failures(const truth::Snapshot&, const graph::ProximityGraph&,
-                      sensing::FailureLog&) const override {}
+    void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+                      sensing::FailureLog& log) const override {
+        const auto is_told = [&](core::VehicleIndex row) {
+            return std::ranges::find(told_.vehicles, snapshot.key[row], &traffic::ObservedVehicle::key) !=
+                   told_.vehicles.end();
+        };
+        log.lost_links.clear();
+        for (core::VehicleIndex left = 0; left < snapshot.size(); ++left) {
+            for (const core::VehicleIndex right : true_graph.neighbours_of(left)) {
+                if (right > left && !(is_told(left) && is_told(right)))
+                    log.lost_links.push_back(
+                        {snapshot.key[left], snapshot.key[right], sensing::FailureLog::Cause::never_seen});
+            }
+        }
+    }
 
   private:
     traffic::Observation told_;

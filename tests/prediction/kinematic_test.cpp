@@ -73,9 +73,14 @@ TEST(DeadReckoning, LetsVehiclesLeaveAtTheEndOfTheirRoute) {
     const auto before = belief_of("dead_reckoning", scene, after_outage(scene, 12.0, {"a1"}));
     EXPECT_NE(before.find(scene.key("a1")), nullptr);
     support::Scene later(side_by_side);
-    const auto after = belief_of("dead_reckoning", later, after_outage(later, 14.0, {"a1"}));
+    traffic::Observation unknown = after_outage(later, 14.0, {"a1"});
+    unknown.exits_known = false;
+    const auto after = belief_of("dead_reckoning", later, unknown);
     EXPECT_EQ(after.find(later.key("a1")), nullptr);
     EXPECT_EQ(after.link_count(), 0u);
+    unknown.exits_known = true;
+    EXPECT_NE(belief_of("dead_reckoning", later, unknown).find(later.key("a1")), nullptr)
+        << "no detector saw it leave";
     support::Scene held(side_by_side);
     EXPECT_NE(belief_of("last_seen", held, after_outage(held, 14.0, {"a1"})).find(held.key("a1")), nullptr);
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "prediction/darkness.hpp"
 #include "prediction/nets.hpp"
 #include "prediction/shipped_models.hpp"
@@ -121,12 +122,61 @@ TEST(LearnedPredictors, RefuseAModelForOtherFeaturesNamingBoth) {
     EXPECT_THROW(make_graphsage_as_published({scene.network(), {}, file.string(), {}}), core::InputError);
 }
 
+TEST(LearnedPredictors, RefuseDamagedNumbersWhenTheyOverflow) {
+    const support::TemporaryFolder folder;
+    const std::string file = (folder.path() / "damaged.weights").string();
+    Weights damaged = shipped_model("graphsage");
+    for (Tensor& tensor : damaged.tensors)
+        tensor.values.front() = 1e38F;
+    write_weights(file, damaged);
+    support::Scene scene(platoon);
+    const auto predictor = make_predictor("graphsage", {scene.network(), {}, file, {}});
+    traffic::BelievedGraph belief;
+    try {
+        predictor->predict(after_outage(scene, 5.0, {"a1"}), belief);
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr(file), HasSubstr("damaged")));
+    }
+}
+
+TEST(LearnedPredictors, RefuseTensorsThatNoLayerReads) {
+    const support::TemporaryFolder folder;
+    const std::string file = (folder.path() / "more.weights").string();
+    for (const std::string& name : shipped_model_names()) {
+        Weights more = shipped_model(name);
+        more.tensors.push_back({"layer3.more", {1}, {0.0F}});
+        write_weights(file, more);
+        try {
+            check_model(name, file);
+            ADD_FAILURE() << name;
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("tensors")) << name;
+        }
+    }
+}
+
 TEST(ShippedModels, AreReadableAndFitTheirPredictor) {
     const support::Scene scene(platoon);
     for (const std::string& name : shipped_model_names()) {
         EXPECT_NO_THROW(make_predictor(name, {scene.network(), {}, "", {}})) << name;
     }
     EXPECT_THROW(shipped_model("last_seen"), core::InputError);
+}
+
+TEST(ShippedModels, WereLeftByTheTrainingsThatAreShippedWithThem) {
+    const std::filesystem::path trainings = CLEARWAY_SOURCE_DIR "/models/training";
+    for (const auto& [name, training] : {std::pair("graphsage", "graphsage"),
+                                         {"graphsage_corrected", "corrected"},
+                                         {"graphsage_as_published", "as_published"}}) {
+        const std::vector<std::string> notes = shipped_model(name).notes;
+        ASSERT_FALSE(notes.empty()) << name;
+        const std::size_t at = notes.front().find("data ");
+        ASSERT_NE(at, std::string::npos) << name;
+        EXPECT_THAT(core::read_file(trainings / training / "summary.json"),
+                    HasSubstr(notes.front().substr(at + 5)))
+            << name;
+    }
 }
 
 }  // namespace

@@ -90,6 +90,23 @@ TEST(FailureText, IsRefusedWithAllThatIsWrong) {
     EXPECT_THAT(refusal("B1O,dark_shore=1"), ::testing::AllOf(HasSubstr("'B1O'"), HasSubstr("dark_shore")));
 }
 
+TEST(FailureConfig, RefusesPartsOfAnErrorThatIsNotThere) {
+    const auto refusal = [](const char* text) -> std::string {
+        try {
+            failure_from(text);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(refusal("B10,position_correlation_s=5"), HasSubstr("give position_sigma_m"));
+    EXPECT_THAT(refusal("B10,speed_correlation_s=5"), HasSubstr("give speed_sigma_mps"));
+    EXPECT_THAT(refusal("C.link,range_sigma_m=1"), HasSubstr("give detection=range"));
+    EXPECT_THAT(refusal("perfect,roadside_range_m=50"), HasSubstr("per report"));
+    EXPECT_THAT(refusal("perfect,onboard_range_m=50"), HasSubstr("per report"));
+    EXPECT_EQ(refusal("D3,position_correlation_s=5"), "accepted");
+}
+
 TEST(FailureConfig, RefusesEachNewPartOutOfItsRange) {
     const auto refused = [](double FailureConfig::*member, double value) {
         FailureConfig config;

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
 namespace clearway::prediction::detail {
 namespace {
 
@@ -25,6 +29,7 @@ void PairwisePredictor::predict(const traffic::Observation& observation, traffic
     believe(scene_, beliefs_);
     probabilities_.assign(scene_.candidates.size(), 0.0F);
     score(scene_, beliefs_, probabilities_);
+    check_probabilities();
 
     belief.time = observation.time;
     belief.signals = observation.signals;
@@ -36,6 +41,14 @@ void PairwisePredictor::predict(const traffic::Observation& observation, traffic
     place_vehicles(belief);
     collect_links();
     write_links(belief);
+}
+
+void PairwisePredictor::check_probabilities() const {
+    const auto fit = [](float probability) { return probability >= 0.0F && probability <= 1.0F; };
+    const auto unfit = std::ranges::find_if_not(probabilities_, fit);
+    if (unfit == probabilities_.end()) return;
+    throw core::InputError({fmt::format("model of {}", name()), fmt::format("a probability of {}", *unfit),
+                            "0 to 1", "Its numbers are damaged: use another file"});
 }
 
 CandidateScores PairwisePredictor::scores() const {

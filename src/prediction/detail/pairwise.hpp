@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "prediction/candidates.hpp"
+#include "prediction/kinematic.hpp"
 #include "prediction/predictor.hpp"
 
 namespace clearway::prediction::detail {
@@ -15,9 +16,11 @@ struct RowBelief {
 };
 
 /// Every vehicle where it was last seen, with held_sigma_m of kinematic.hpp.
-void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs);
-/// Dead-reckoned states with the sigma of kinematic.hpp; those past the end of their route are absent.
-void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs);
+void believe_last_seen(const Tracks& tracks, std::vector<RowBelief>& beliefs,
+                       const LastSeenConfig& config = {});
+/// Dead-reckoned states with the sigma of kinematic.hpp; those that have left (Tracks) are absent.
+void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs,
+                           const DeadReckoningConfig& config = {});
 /// P(d < radius) by the distance of the believed places (kinematic.hpp); absent vehicles keep theirs.
 void score_by_place(const PairList& candidates, const std::vector<RowBelief>& beliefs, double radius_m,
                     std::vector<float>& probabilities);
@@ -50,6 +53,7 @@ class PairwisePredictor : public Predictor {
         float distance_m = 0.0F;
         float probability = 1.0F;
     };
+    void check_probabilities() const;
     void place_vehicles(traffic::BelievedGraph& belief);
     void collect_links();
     void collect_detected();
