@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,12 +47,21 @@ void occupy_process() {
     process_state = ProcessState::occupied;
 }
 
-/// SUMO says nothing when the disk is full; a whole table has its end.
-void require_complete(const std::filesystem::path& trips) {
+bool is_complete(const std::filesystem::path& trips) {
     constexpr std::string_view end = "</tripinfos>";
     const std::string text = core::read_file(trips);
     const std::size_t last = text.find_last_not_of(" \n");
-    if (last == std::string::npos || !std::string_view(text).substr(0, last + 1).ends_with(end))
+    return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with(end);
+}
+
+/// SUMO says nothing when the disk is full; a whole table has its end. A remote SUMO writes its last lines
+/// after the connection has ended.
+void require_complete(const std::filesystem::path& trips, core::Seconds patience) {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience.value);
+    while (!is_complete(trips) && std::chrono::steady_clock::now() < until)
+        std::this_thread::sleep_for(pause);
+    if (!is_complete(trips))
         throw core::EnvironmentError(trips.string() +
                                      " is incomplete; the disk may be full. Free some space "
                                      "there and give the same command again");
@@ -61,10 +71,16 @@ void require_complete(const std::filesystem::path& trips) {
 
 struct Session::State {
     double step_wall_s = 0.0;
-    explicit State(SessionConfig given)
-        : config(std::move(given)), names(std::move(config.names)), observer(names) {}
+    State(std::unique_ptr<gateway::Sumo> simulator, SessionConfig given)
+        : sumo(std::move(simulator)),
+          config(std::move(given)),
+          names(std::move(config.names)),
+          observer(*sumo, names) {}
 
     void load();
+    void take_over();
+    /// What both have in common, SUMO's simulation being loaded.
+    void begin();
     void close();
     std::string fault_message(const char* doing, const std::string& what) const;
 
@@ -82,7 +98,10 @@ struct Session::State {
         }
     }
 
+    std::unique_ptr<gateway::Sumo> sumo;
     SessionConfig config;
+    std::filesystem::path trip_file;
+    bool is_remote = false;
     NameTable names;
     Observer observer;
     std::optional<MessageLog> log;
@@ -101,48 +120,81 @@ std::string Session::State::fault_message(const char* doing, const std::string& 
 
 void Session::State::load() {
     config.folder = detail::prepare_folder(config.folder);
+    trip_file = config.folder / detail::trip_file;
     detail::set_sumo_home();
     const std::set<int> before = Outputs::open_descriptors();
     log.emplace(config.folder / detail::log_file);
     snapshot.time = config.begin;
     is_open = true;
     guarded("SUMO cannot load the scenario", [&] {
-        gateway::load(detail::arguments(config));
-        const std::vector<std::string> signals = gateway::signal_ids();
-        for (const std::string& signal : names.names().signals) {
-            if (std::ranges::find(signals, signal) == signals.end())
-                throw std::invalid_argument("SUMO's network has no signal '" + signal + "'");
-        }
-        const bool has_sublanes = std::stod(gateway::option("lateral-resolution")) > 0.0;
-        commander.emplace(observer.fleet(), names,
-                          has_sublanes ? LateralModel::sublanes : LateralModel::lanes,
-                          gateway::step_length_s());
-        observer.observe_signals(snapshot);
+        sumo->load(detail::arguments(config));
+        begin();
         outputs = Outputs(before, config.folder);
     });
 }
 
-void Session::State::close() {
-    if (!is_open) return;
-    guarded("SUMO cannot end the simulation", [] { gateway::close(); });
-    is_open = false;
-    process_state = ProcessState::free;
-    require_complete(config.folder / detail::trip_file);
+void Session::State::take_over() {
+    core::make_folder(config.folder);
+    log.emplace(config.folder / "connection.log");
+    is_open = true;
+    is_remote = true;
+    guarded("SUMO cannot be taken over", [&] {
+        trip_file = sumo->option("tripinfo-output");
+        begin();
+        observer.take_present();
+    });
 }
 
-Session::Session(SessionConfig config) {
-    detail::check(config);
+void Session::State::begin() {
+    const std::vector<std::string> signals = sumo->signal_ids();
+    for (const std::string& signal : names.names().signals) {
+        if (std::ranges::find(signals, signal) == signals.end())
+            throw std::invalid_argument("SUMO's network has no signal '" + signal + "'");
+    }
+    const bool has_sublanes = std::stod(sumo->option("lateral-resolution")) > 0.0;
+    commander.emplace(*sumo, observer.fleet(), names,
+                      has_sublanes ? LateralModel::sublanes : LateralModel::lanes);
+    observer.observe_signals(snapshot);
+}
+
+void Session::State::close() {
+    if (!is_open) return;
+    guarded("SUMO cannot end the simulation", [this] { sumo->close(); });
+    is_open = false;
+    process_state = ProcessState::free;
+    if (!trip_file.empty()) require_complete(trip_file, core::Seconds(is_remote ? 30.0 : 0.0));
+}
+
+template <class Load>
+void Session::open(Load&& load) {
     occupy_process();
-    state_ = std::make_unique<State>(std::move(config));
     try {
-        state_->load();
+        load();
     } catch (...) {
         if (process_state == ProcessState::occupied) {
-            if (state_->is_open) gateway::close();
+            if (state_ && state_->is_open) state_->sumo->close();
             process_state = ProcessState::free;
         }
         throw;
     }
+}
+
+Session::Session(SessionConfig config) {
+    detail::check(config);
+    open([&] {
+        state_ = std::make_unique<State>(gateway::in_this_process(), std::move(config));
+        state_->load();
+    });
+}
+
+Session::Session(RemoteSumo remote, const std::filesystem::path& folder, Names names) {
+    open([&] {
+        SessionConfig config;
+        config.folder = folder;
+        config.names = std::move(names);
+        state_ = std::make_unique<State>(std::move(remote.sumo_), std::move(config));
+        state_->take_over();
+    });
 }
 
 Session::~Session() {
@@ -156,7 +208,7 @@ Session::~Session() {
 void Session::step() {
     state_->guarded("SUMO cannot step", [this] {
         const auto started = std::chrono::steady_clock::now();
-        gateway::step();
+        state_->sumo->step();
         state_->step_wall_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
         state_->observer.observe(state_->snapshot, state_->events);
@@ -184,7 +236,8 @@ const traffic::Roster& Session::roster() const {
 }
 
 int Session::expected_vehicles() const {
-    return state_->guarded("SUMO cannot count vehicles", [] { return gateway::expected_vehicles(); });
+    return state_->guarded("SUMO cannot count vehicles",
+                           [this] { return state_->sumo->expected_vehicles(); });
 }
 
 void Session::add(const traffic::EmergencyDeparture& departure) {
@@ -194,7 +247,8 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
         if (!(departure.depart >= time()))
             problems.push_back({where, fmt::format("departs at {} s, in the past", departure.depart.value),
                                 fmt::format("{} s or later", time().value), ""});
-        if (!gateway::type_exists(departure.type))
+        const std::vector<std::string> types = state_->sumo->type_ids();
+        if (std::ranges::find(types, departure.type) == types.end())
             problems.push_back({where, "has the vehicle type '" + departure.type + "', which is not defined",
                                 "", "Define it in an additional file."});
         if (departure.edges.empty()) problems.push_back({where, "has no route", "one edge or more", ""});
@@ -204,13 +258,13 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
         }
         if (!problems.empty()) throw core::InputError(std::move(problems));
         if (departure.bluelight == traffic::BlueLight::on)
-            gateway::set_type_parameter(departure.type, "has.bluelight.device", "true");
-        gateway::add({.vehicle = departure.id,
-                      .type = departure.type,
-                      .edges = departure.edges,
-                      .depart = fmt::format("{}", departure.depart.value),
-                      .depart_lane = departure.depart_lane,
-                      .depart_speed = departure.depart_speed});
+            state_->sumo->set_type_parameter(departure.type, "has.bluelight.device", "true");
+        state_->sumo->add({.vehicle = departure.id,
+                           .type = departure.type,
+                           .edges = departure.edges,
+                           .depart = fmt::format("{}", departure.depart.value),
+                           .depart_lane = departure.depart_lane,
+                           .depart_speed = departure.depart_speed});
         state_->observer.declare_emergency(departure.id, departure.kind);
     });
 }
@@ -234,6 +288,7 @@ std::uint64_t Session::refused_commands() const {
 void Session::continue_in(const std::filesystem::path& folder) {
     core::make_folder(folder);
     state_->config.folder = std::filesystem::canonical(folder);
+    state_->trip_file = state_->config.folder / detail::trip_file;
     state_->outputs.move_to(state_->config.folder);
 }
 
@@ -245,7 +300,7 @@ std::optional<bool> Session::could_change_lane(core::VehicleKey vehicle, truth::
     const Vehicle* found = state_->observer.fleet().find(vehicle);
     if (found == nullptr || !found->on_road) return std::nullopt;
     return state_->guarded("SUMO cannot judge a lane change", [&] {
-        return gateway::could_change_lane(found->id, static_cast<int>(direction));
+        return state_->sumo->could_change_lane(found->id, static_cast<int>(direction));
     });
 }
 
@@ -253,10 +308,10 @@ std::optional<std::vector<truth::LaneOutlook>> Session::lane_outlook(core::Vehic
     const Vehicle* found = state_->observer.fleet().find(vehicle);
     if (found == nullptr || !found->on_road) return std::nullopt;
     return state_->guarded("SUMO cannot look ahead", [&] {
-        const std::string prefix = gateway::edge_of(found->id) + "_";
-        const double position_m = gateway::lane_position_m(found->id);
+        const std::string prefix = state_->sumo->edge_of(found->id) + "_";
+        const double position_m = state_->sumo->lane_position_m(found->id);
         std::vector<truth::LaneOutlook> outlook;
-        for (const gateway::BestLane& lane : gateway::best_lanes(found->id)) {
+        for (const gateway::BestLane& lane : state_->sumo->best_lanes(found->id)) {
             if (!lane.lane.starts_with(prefix)) continue;
             outlook.push_back(
                 {.lane_number = static_cast<std::uint32_t>(std::stoul(lane.lane.substr(prefix.size()))),
@@ -271,11 +326,42 @@ std::optional<core::MetresPerSecond> Session::allowed_speed(core::VehicleKey veh
     const Vehicle* found = state_->observer.fleet().find(vehicle);
     if (found == nullptr || !found->on_road) return std::nullopt;
     return state_->guarded("SUMO cannot tell the allowed speed",
-                           [&] { return core::MetresPerSecond(gateway::allowed_speed_mps(found->id)); });
+                           [&] { return core::MetresPerSecond(state_->sumo->allowed_speed_mps(found->id)); });
+}
+
+const std::filesystem::path& Session::trip_file() const {
+    return state_->trip_file;
+}
+
+std::vector<std::string> command_line(const SessionConfig& config) {
+    detail::check(config);
+    SessionConfig placed = config;
+    placed.folder = detail::prepare_folder(config.folder);
+    return detail::arguments(placed);
+}
+
+RemoteSumo::RemoteSumo(const std::string& host, int port) : sumo_(gateway::at(host, port)) {}
+RemoteSumo::~RemoteSumo() = default;
+RemoteSumo::RemoteSumo(RemoteSumo&&) noexcept = default;
+RemoteSumo& RemoteSumo::operator=(RemoteSumo&&) noexcept = default;
+
+void RemoteSumo::declare(const std::string& type, traffic::VehicleClass vehicle_class) {
+    const std::vector<std::string> known = sumo_->type_ids();
+    if (std::ranges::find(known, type) == known.end()) {
+        const std::string near = core::nearest(type, known);
+        throw core::InputError({fmt::format("vehicle type '{}'", type), "is not known to that SUMO",
+                                "a type of its simulation",
+                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+    }
+    sumo_->set_type_parameter(type, traffic::class_parameter, std::string(traffic::name(vehicle_class)));
+}
+
+std::string RemoteSumo::option(const std::string& name) const {
+    return sumo_->option(name);
 }
 
 std::string version() {
-    const std::string text = gateway::version();
+    const std::string text = gateway::in_this_process()->version();
     constexpr std::string_view prefix = "SUMO ";
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
 }

@@ -18,6 +18,10 @@
 
 namespace clearway::sumo {
 
+namespace detail::gateway {
+class Sumo;
+}
+
 /// SUMO names by table row, so that the session can speak in indices of `roads::Network` without knowing it.
 struct Names {
     std::vector<std::string> lanes;
@@ -38,13 +42,44 @@ struct SessionConfig {
     Names names;
 };
 
-/// SUMO in this process: at most one session at a time, used by one thread. Every fault of SUMO leaves as
-/// core::SimulatorError with the end of SUMO's own log; after one the session can only be destroyed.
+/// What SUMO is started with for a session, without the name of the program: `--net-file`, `...`. A session
+/// in this process does it itself. Throws core::InputError for what cannot work.
+std::vector<std::string> command_line(const SessionConfig& config);
+
+/// A SUMO that was started elsewhere with `--remote-port`, has its simulation loaded and waits for orders; in
+/// sumo-gui, for its start button. It ends with the connection. One at a time in a process.
+class RemoteSumo {
+  public:
+    /// Connects. Throws core::EnvironmentError when nobody listens there, what listens speaks no TraCI, or it
+    /// is a SUMO of another version than the one that this program is built with.
+    RemoteSumo(const std::string& host, int port);
+    ~RemoteSumo();
+    RemoteSumo(RemoteSumo&&) noexcept;
+    RemoteSumo& operator=(RemoteSumo&&) noexcept;
+
+    /// Value of an option of SUMO (`net-file`); empty when it is not set. Throws core::SimulatorError.
+    std::string option(const std::string& name) const;
+    /// Vehicles of a type count as such from now on. Other types have the class of their parameter
+    /// (traffic::class_parameter); without one those of SUMO's vClass emergency are emergency vehicles and
+    /// the rest human. Throws core::InputError for a type that SUMO does not know.
+    void declare(const std::string& type, traffic::VehicleClass vehicle_class);
+
+  private:
+    friend class Session;
+    std::unique_ptr<detail::gateway::Sumo> sumo_;
+};
+
+/// SUMO in this process or at a port: at most one session at a time, used by one thread. Every fault of SUMO
+/// leaves as core::SimulatorError with the end of SUMO's own log; after one the session can only be
+/// destroyed.
 class Session : public truth::SelfKnowledge {
   public:
-    /// Loads the scenario. Throws core::SimulatorError when it does not load, core::EnvironmentError when
-    /// SUMO or the folder is unusable.
+    /// Loads the scenario into a SUMO in this process. Throws core::SimulatorError when it does not load,
+    /// core::EnvironmentError when SUMO or the folder is unusable.
     explicit Session(SessionConfig config);
+    /// Takes over a simulation as it stands, with the vehicles that are in it. `folder` receives a log. Such
+    /// a session cannot be continued by a forked child.
+    Session(RemoteSumo remote, const std::filesystem::path& folder, Names names);
     ~Session() override;
 
     /// Advances by one step, then reads the state and the events of that step.
@@ -77,6 +112,9 @@ class Session : public truth::SelfKnowledge {
     /// Ends the simulation so that all output files are complete. The destructor does it too, without
     /// throwing.
     void close();
+    /// SUMO's table of trips, complete after `close`; empty when a remote SUMO writes none. A remote SUMO's
+    /// path is as it was given there.
+    const std::filesystem::path& trip_file() const;
 
     std::optional<bool> could_change_lane(core::VehicleKey vehicle,
                                           truth::Neighbour direction) const override;
@@ -85,6 +123,9 @@ class Session : public truth::SelfKnowledge {
 
   private:
     struct State;
+    template <class Load>
+    void open(Load&& load);
+
     std::unique_ptr<State> state_;
 };
 

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "sumo/detail/gateway.hpp"
-
 namespace clearway::sumo::detail {
 namespace {
 
@@ -66,30 +64,29 @@ Vehicle* Commander::on_road(core::VehicleKey key) {
 void Commander::run(const traffic::SetSpeed& command) {
     require(std::isfinite(command.speed.value) && command.speed.value >= 0.0,
             fmt::format("a speed of {} m/s is not a number from 0", command.speed.value));
-    if (const Vehicle* vehicle = present(command.vehicle))
-        gateway::set_speed(vehicle->id, command.speed.value);
+    if (const Vehicle* vehicle = present(command.vehicle)) sumo_.set_speed(vehicle->id, command.speed.value);
 }
 
 void Commander::run(const traffic::ReleaseSpeed& command) {
-    if (const Vehicle* vehicle = present(command.vehicle)) gateway::set_speed(vehicle->id, released_speed);
+    if (const Vehicle* vehicle = present(command.vehicle)) sumo_.set_speed(vehicle->id, released_speed);
 }
 
 void Commander::run(const traffic::RequestLane& command) {
     const Vehicle* vehicle = on_road(command.vehicle);
     if (vehicle == nullptr) return;
     require_duration(*vehicle, command.duration);
-    const std::string edge = gateway::edge_of(vehicle->id);
-    const auto lanes = static_cast<std::uint32_t>(gateway::lane_count(edge));
+    const std::string edge = sumo_.edge_of(vehicle->id);
+    const auto lanes = static_cast<std::uint32_t>(sumo_.lane_count(edge));
     require(command.lane_number < lanes,
             fmt::format("vehicle '{}': edge '{}' has {} lanes, none with number {}", vehicle->id, edge, lanes,
                         command.lane_number));
-    gateway::change_lane(vehicle->id, static_cast<int>(command.lane_number), command.duration.value);
+    sumo_.change_lane(vehicle->id, static_cast<int>(command.lane_number), command.duration.value);
 }
 
 void Commander::run(const traffic::ReleaseLane& command) {
     const Vehicle* vehicle = on_road(command.vehicle);
     // A request for the present lane that is over at once replaces the former one.
-    if (vehicle != nullptr) gateway::change_lane(vehicle->id, gateway::lane_number(vehicle->id), 0.0);
+    if (vehicle != nullptr) sumo_.change_lane(vehicle->id, sumo_.lane_number(vehicle->id), 0.0);
 }
 
 void Commander::run(const traffic::SetLateralAlignment& command) {
@@ -98,14 +95,14 @@ void Commander::run(const traffic::SetLateralAlignment& command) {
     Vehicle* vehicle = present(command.vehicle);
     if (vehicle == nullptr) return;
     std::optional<std::string>& usual = vehicle->controls.usual_alignment;
-    if (!usual) usual = gateway::lateral_alignment(vehicle->id);
+    if (!usual) usual = sumo_.lateral_alignment(vehicle->id);
     switch (command.alignment) {
         case traffic::LateralAlignment::usual:
-            return gateway::set_lateral_alignment(vehicle->id, *usual);
+            return sumo_.set_lateral_alignment(vehicle->id, *usual);
         case traffic::LateralAlignment::right:
-            return gateway::set_lateral_alignment(vehicle->id, "right");
+            return sumo_.set_lateral_alignment(vehicle->id, "right");
         case traffic::LateralAlignment::left:
-            return gateway::set_lateral_alignment(vehicle->id, "left");
+            return sumo_.set_lateral_alignment(vehicle->id, "left");
     }
 }
 
@@ -133,25 +130,25 @@ void Commander::run(const traffic::SetSafetyChecks& command) {
 void Commander::set_modes(const Vehicle& vehicle) const {
     const Controls& controls = vehicle.controls;
     if (controls.checks == traffic::SafetyChecks::off) {
-        gateway::set_speed_mode(vehicle.id, mode_without_checks);
-        gateway::set_lane_change_mode(vehicle.id, mode_without_checks);
+        sumo_.set_speed_mode(vehicle.id, mode_without_checks);
+        sumo_.set_lane_change_mode(vehicle.id, mode_without_checks);
         return;
     }
     const bool may_pass_red = controls.privilege == traffic::JunctionPrivilege::pass_red;
-    gateway::set_speed_mode(vehicle.id, may_pass_red ? speed_mode_pass_red : speed_mode_default);
-    gateway::set_lane_change_mode(vehicle.id, lane_change_mode(controls.freedom));
+    sumo_.set_speed_mode(vehicle.id, may_pass_red ? speed_mode_pass_red : speed_mode_default);
+    sumo_.set_lane_change_mode(vehicle.id, lane_change_mode(controls.freedom));
 }
 
 void Commander::run(const traffic::StopOnLane& command) {
     Vehicle* vehicle = on_road(command.vehicle);
     if (vehicle == nullptr) return;
     require_duration(*vehicle, command.duration);
-    const double length_m = gateway::lane_length_m(vehicle->lane_id);
+    const double length_m = sumo_.lane_length_m(vehicle->lane_id);
     require(command.position.value >= 0.0 && command.position.value <= length_m,
             fmt::format("vehicle '{}': lane '{}' is {} m long, {} m is not on it", vehicle->id,
                         vehicle->lane_id, length_m, command.position.value));
-    const double speed = gateway::speed_mps(vehicle->id);
-    const double nearest_m = gateway::lane_position_m(vehicle->id) + speed * step_s_ +
+    const double speed = sumo_.speed_mps(vehicle->id);
+    const double nearest_m = sumo_.lane_position_m(vehicle->id) + speed * step_s_ +
                              speed * speed / (2.0 * vehicle->deceleration_mps2) + 0.1;
     const double position_m = std::max(command.position.value, nearest_m);
     if (position_m > length_m) {
@@ -159,23 +156,23 @@ void Commander::run(const traffic::StopOnLane& command) {
         return;
     }
     run(traffic::ResumeFromStop{command.vehicle});
-    gateway::stop(vehicle->id, {.edge = gateway::edge_of(vehicle->id),
-                                .lane_number = gateway::lane_number(vehicle->id),
-                                .position_m = position_m,
-                                .duration_s = command.duration.value});
-    vehicle->controls.own_stop = gateway::next_stop(vehicle->id);
+    sumo_.stop(vehicle->id, {.edge = sumo_.edge_of(vehicle->id),
+                             .lane_number = sumo_.lane_number(vehicle->id),
+                             .position_m = position_m,
+                             .duration_s = command.duration.value});
+    vehicle->controls.own_stop = sumo_.next_stop(vehicle->id);
 }
 
 void Commander::run(const traffic::ResumeFromStop& command) {
     Vehicle* vehicle = on_road(command.vehicle);
     if (vehicle == nullptr || !vehicle->controls.own_stop) return;
-    const bool is_ours = gateway::next_stop(vehicle->id) == vehicle->controls.own_stop;
+    const bool is_ours = sumo_.next_stop(vehicle->id) == vehicle->controls.own_stop;
     vehicle->controls.own_stop.reset();
     if (!is_ours) return;
-    if (gateway::is_stopped(vehicle->id))
-        gateway::resume(vehicle->id);
+    if (sumo_.is_stopped(vehicle->id))
+        sumo_.resume(vehicle->id);
     else
-        gateway::cancel_next_stop(vehicle->id);
+        sumo_.cancel_next_stop(vehicle->id);
 }
 
 const std::string& Commander::signal_name(core::SignalIndex signal) const {
@@ -186,29 +183,29 @@ const std::string& Commander::signal_name(core::SignalIndex signal) const {
 
 void Commander::run(const traffic::SetSignalState& command) {
     const std::string& signal = signal_name(command.signal);
-    const std::size_t links = gateway::signal_state(signal).size();
+    const std::size_t links = sumo_.signal_state(signal).size();
     require(command.state.size() == links, fmt::format("signal '{}': '{}' has {} letters for {} links",
                                                        signal, command.state, command.state.size(), links));
     require(
         command.state.find_first_not_of(signal_letters) == std::string::npos,
         fmt::format("signal '{}': '{}' has a letter other than {}", signal, command.state, signal_letters));
-    if (!own_programs_.contains(signal)) own_programs_.emplace(signal, gateway::signal_program(signal));
-    gateway::set_signal_state(signal, command.state);
+    if (!own_programs_.contains(signal)) own_programs_.emplace(signal, sumo_.signal_program(signal));
+    sumo_.set_signal_state(signal, command.state);
 }
 
 void Commander::run(const traffic::RestoreProgram& command) {
     const std::string& signal = signal_name(command.signal);
     const auto own = own_programs_.find(signal);
-    const std::string program = own == own_programs_.end() ? gateway::signal_program(signal) : own->second;
+    const std::string program = own == own_programs_.end() ? sumo_.signal_program(signal) : own->second;
     if (command.phase) {
-        const std::uint32_t phases = gateway::phase_count(signal, program);
+        const std::uint32_t phases = sumo_.phase_count(signal, program);
         require(*command.phase < phases,
                 fmt::format("signal '{}': program '{}' has {} phases, none with number {}", signal, program,
                             phases, *command.phase));
     }
-    if (own != own_programs_.end()) gateway::set_signal_program(signal, program);
+    if (own != own_programs_.end()) sumo_.set_signal_program(signal, program);
     own_programs_.erase(signal);
-    if (command.phase) gateway::set_signal_phase(signal, *command.phase);
+    if (command.phase) sumo_.set_signal_phase(signal, *command.phase);
 }
 
 }  // namespace clearway::sumo::detail

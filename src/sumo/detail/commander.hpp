@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "sumo/detail/fleet.hpp"
+#include "sumo/detail/gateway.hpp"
 #include "sumo/detail/name_table.hpp"
 #include "traffic/command.hpp"
 
@@ -28,9 +29,9 @@ enum class LateralModel : std::uint8_t { lanes, sublanes };
 /// - SafetyChecks::off is speedMode 0 and laneChangeMode 0, whatever else is set.
 class Commander {
   public:
-    /// `fleet` and `names` outlive the commander.
-    Commander(Fleet& fleet, const NameTable& names, LateralModel lateral, double step_s)
-        : fleet_(fleet), names_(names), lateral_(lateral), step_s_(step_s) {}
+    /// `sumo`, `fleet` and `names` outlive the commander.
+    Commander(gateway::Sumo& sumo, Fleet& fleet, const NameTable& names, LateralModel lateral)
+        : sumo_(sumo), fleet_(fleet), names_(names), lateral_(lateral), step_s_(sumo.step_length_s()) {}
 
     /// Throws std::invalid_argument as Session::apply says.
     void carry_out(const traffic::Command& command);
@@ -58,6 +59,7 @@ class Commander {
     const std::string& signal_name(core::SignalIndex signal) const;
     void set_modes(const Vehicle& vehicle) const;
 
+    gateway::Sumo& sumo_;
     Fleet& fleet_;
     const NameTable& names_;
     LateralModel lateral_;

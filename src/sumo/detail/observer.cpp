@@ -28,7 +28,7 @@ bool is_internal(const std::string& lane) {
 }  // namespace
 
 void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
-    const double now_s = gateway::time_s();
+    const double now_s = sumo_.time_s();
     const double step_s = now_s - snapshot.time.value;
     snapshot.time = core::Seconds(now_s);
     events.clear();
@@ -42,17 +42,25 @@ void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
     observe_signals(snapshot);
 }
 
+void Observer::take_present() {
+    for (const std::string& id : sumo_.vehicle_ids()) {
+        Vehicle& vehicle = fleet_.insert(id);
+        register_vehicle(vehicle);
+        fleet_.put_on_road(vehicle);
+    }
+}
+
 void Observer::observe_signals(truth::Snapshot& snapshot) {
-    snapshot.time = core::Seconds(gateway::time_s());
+    snapshot.time = core::Seconds(sumo_.time_s());
     const std::vector<std::string>& signals = names_.names().signals;
     snapshot.signals.state.resize(signals.size());
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        snapshot.signals.state[i] = gateway::signal_state(signals[i]);
+        snapshot.signals.state[i] = sumo_.signal_state(signals[i]);
     }
 }
 
 void Observer::take_departures(truth::Events& events) {
-    for (const std::string& id : gateway::departed()) {
+    for (const std::string& id : sumo_.departed()) {
         Vehicle& vehicle = fleet_.insert(id);
         register_vehicle(vehicle);
         fleet_.put_on_road(vehicle);
@@ -61,20 +69,20 @@ void Observer::take_departures(truth::Events& events) {
 }
 
 void Observer::take_teleports(truth::Events& events) {
-    for (const std::string& id : gateway::teleports_started()) {
+    for (const std::string& id : sumo_.teleports_started()) {
         Vehicle* vehicle = fleet_.find(id);
         if (vehicle == nullptr) continue;
         fleet_.take_off_road(*vehicle);
         events.teleported.push_back(vehicle->key);
     }
-    for (const std::string& id : gateway::teleports_ended()) {
+    for (const std::string& id : sumo_.teleports_ended()) {
         Vehicle* vehicle = fleet_.find(id);
         if (vehicle != nullptr) fleet_.put_on_road(*vehicle);
     }
 }
 
 void Observer::take_arrivals(truth::Events& events, double step_s) {
-    for (const std::string& id : gateway::arrived()) {
+    for (const std::string& id : sumo_.arrived()) {
         const Vehicle* vehicle = fleet_.find(id);
         const bool arrived = vehicle != nullptr && reached_destination(*vehicle, step_s);
         (arrived ? events.arrived : events.removed).push_back(core::vehicle_key(id));
@@ -88,16 +96,16 @@ bool Observer::reached_destination(const Vehicle& vehicle, double step_s) const 
     const double reach_m = (vehicle.speed_mps + acceleration_bound_mps2 * step_s) * step_s + 1.0;
     double ahead_m = 0.0;
     if (vehicle.route_edge + 1 < route.size() && !is_internal(vehicle.lane_id))
-        ahead_m = gateway::lane_length_m(vehicle.lane_id) - vehicle.lane_position_m;
+        ahead_m = sumo_.lane_length_m(vehicle.lane_id) - vehicle.lane_position_m;
     for (std::size_t i = vehicle.route_edge + 1; i + 1 < route.size(); ++i) {
-        ahead_m += gateway::lane_length_m(names_.names().edges[route[i].value] + "_0");
+        ahead_m += sumo_.lane_length_m(names_.names().edges[route[i].value] + "_0");
     }
     return ahead_m <= reach_m;
 }
 
 void Observer::take_collisions(truth::Events& events) {
     std::set<Contact> contacts;
-    for (const gateway::CollisionReport& report : gateway::collisions()) {
+    for (const gateway::CollisionReport& report : sumo_.collisions()) {
         const core::VehicleKey collider = core::vehicle_key(report.collider);
         const core::VehicleKey victim = core::vehicle_key(report.victim);
         const Contact contact = std::minmax(collider, victim);
@@ -118,14 +126,14 @@ void Observer::take_collisions(truth::Events& events) {
 }
 
 void Observer::register_vehicle(Vehicle& vehicle) {
-    const VehicleType& type = types_.get(gateway::type_of(vehicle.id));
+    const VehicleType& type = types_.get(sumo_.type_of(vehicle.id));
     const gateway::TypeReading& dynamics = type.dynamics;
     const auto declared = declared_.find(vehicle.id);
     const bool is_declared = declared != declared_.end();
     vehicle.vehicle_class = is_declared ? traffic::VehicleClass::emergency : type.vehicle_class;
     vehicle.deceleration_mps2 = static_cast<float>(dynamics.deceleration_mps2);
     vehicle.emergency_deceleration_mps2 = static_cast<float>(dynamics.emergency_deceleration_mps2);
-    vehicle.route_id = gateway::route_id(vehicle.id);
+    vehicle.route_id = sumo_.route_id(vehicle.id);
     roster_.add({.key = vehicle.key,
                  .id = vehicle.id,
                  .vehicle_class = vehicle.vehicle_class,
@@ -136,15 +144,15 @@ void Observer::register_vehicle(Vehicle& vehicle) {
                  .maximum_speed_mps = static_cast<float>(dynamics.maximum_speed_mps),
                  .acceleration_mps2 = static_cast<float>(dynamics.acceleration_mps2),
                  .deceleration_mps2 = vehicle.deceleration_mps2,
-                 .speed_factor = static_cast<float>(gateway::speed_factor(vehicle.id)),
-                 .route = roster_.add_route(names_.edges(gateway::route_edges(vehicle.id)))});
+                 .speed_factor = static_cast<float>(sumo_.speed_factor(vehicle.id)),
+                 .route = roster_.add_route(names_.edges(sumo_.route_edges(vehicle.id)))});
 }
 
 void Observer::take_parked() {
     std::erase_if(parked_, [this](core::VehicleKey key) {
         Vehicle* vehicle = fleet_.find(key);
         if (vehicle == nullptr) return true;
-        if (gateway::read(vehicle->id, reading_) != gateway::Presence::on_road) return false;
+        if (sumo_.read(vehicle->id, reading_) != gateway::Presence::on_road) return false;
         fleet_.put_on_road(*vehicle);
         return true;
     });
@@ -160,7 +168,7 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         fleet_.number_rows();
         snapshot.resize(fleet_.rows().size());
         for (Vehicle* vehicle : fleet_.on_road()) {
-            const gateway::Presence presence = gateway::read(vehicle->id, reading_);
+            const gateway::Presence presence = sumo_.read(vehicle->id, reading_);
             if (presence == gateway::Presence::parked) parked_.insert(vehicle->key);
             if (presence != gateway::Presence::on_road) {
                 gone.push_back(vehicle);
@@ -178,7 +186,7 @@ void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
     if (reading_.lane != vehicle.lane_id) {
         vehicle.lane = names_.lane(reading_.lane);
         vehicle.lane_id = reading_.lane;
-        vehicle.route_edge = gateway::route_index(vehicle.id);
+        vehicle.route_edge = sumo_.route_index(vehicle.id);
     }
     vehicle.lane_position_m = static_cast<float>(reading_.lane_position_m);
     vehicle.speed_mps = static_cast<float>(reading_.speed_mps);
@@ -208,11 +216,11 @@ void Observer::note_braking(Vehicle& vehicle, truth::Events& events) const {
 }
 
 void Observer::follow_route(Vehicle& vehicle) {
-    std::string route = gateway::route_id(vehicle.id);
+    std::string route = sumo_.route_id(vehicle.id);
     if (route == vehicle.route_id) return;
     vehicle.route_id = std::move(route);
-    vehicle.route_edge = gateway::route_index(vehicle.id);
-    roster_.set_route(vehicle.key, roster_.add_route(names_.edges(gateway::route_edges(vehicle.id))));
+    vehicle.route_edge = sumo_.route_index(vehicle.id);
+    roster_.set_route(vehicle.key, roster_.add_route(names_.edges(sumo_.route_edges(vehicle.id))));
 }
 
 }  // namespace clearway::sumo::detail

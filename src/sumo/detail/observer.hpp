@@ -30,12 +30,14 @@ namespace clearway::sumo::detail {
 ///   a seventh to the cost of reading, for demand that hardly ever reroutes.
 class Observer {
   public:
-    /// `names` outlives the observer.
-    explicit Observer(const NameTable& names) : names_(names) {}
+    /// `sumo` and `names` outlive the observer.
+    Observer(gateway::Sumo& sumo, const NameTable& names) : sumo_(sumo), names_(names), types_(sumo) {}
 
     /// A vehicle of this id is an emergency vehicle of this kind, whatever its type says.
     void declare_emergency(const std::string& id, traffic::VehicleKind kind) { declared_.emplace(id, kind); }
 
+    /// Vehicles that are in the simulation already count as known, with no departure.
+    void take_present();
     /// Reads what the last step did.
     void observe(truth::Snapshot& snapshot, truth::Events& events);
     /// Signals and time alone, before the first step.
@@ -60,6 +62,7 @@ class Observer {
     void note_braking(Vehicle& vehicle, truth::Events& events) const;
     void follow_route(Vehicle& vehicle);
 
+    gateway::Sumo& sumo_;
     const NameTable& names_;
     Fleet fleet_;
     TypeTable types_;

@@ -15,15 +15,19 @@ void report(std::vector<core::Problem>& problems, const std::string& type, const
                         "'" + value + "' does not exist", allowed, ""});
 }
 
-VehicleType read(const std::string& type) {
-    VehicleType result{.dynamics = gateway::read_type(type)};
+}  // namespace
+
+VehicleType TypeTable::read(const std::string& type) const {
+    VehicleType result{.dynamics = sumo_.read_type(type)};
     std::vector<core::Problem> problems;
-    const std::string class_name = gateway::type_parameter(type, traffic::class_parameter);
+    const std::string class_name = sumo_.type_parameter(type, traffic::class_parameter);
     if (const auto vehicle_class = traffic::vehicle_class_from(class_name))
         result.vehicle_class = *vehicle_class;
     else if (!class_name.empty())
         report(problems, type, traffic::class_parameter, class_name, "human, automated, emergency");
-    const std::string kind_name = gateway::type_parameter(type, traffic::kind_parameter);
+    else if (sumo_.permission_class(type) == "emergency")
+        result.vehicle_class = traffic::VehicleClass::emergency;
+    const std::string kind_name = sumo_.type_parameter(type, traffic::kind_parameter);
     if (const auto kind = traffic::vehicle_kind_from(kind_name))
         result.kind = *kind;
     else if (!kind_name.empty())
@@ -32,8 +36,6 @@ VehicleType read(const std::string& type) {
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return result;
 }
-
-}  // namespace
 
 const VehicleType& TypeTable::get(const std::string& type) {
     const auto found = types_.find(type);

@@ -18,10 +18,16 @@ struct VehicleType {
 /// Vehicle types, each read from SUMO once.
 class TypeTable {
   public:
+    /// `sumo` outlives the table.
+    explicit TypeTable(gateway::Sumo& sumo) : sumo_(sumo) {}
+
     /// Throws core::InputError when a class or kind parameter has a value that does not exist.
     const VehicleType& get(const std::string& type);
 
   private:
+    VehicleType read(const std::string& type) const;
+
+    gateway::Sumo& sumo_;
     std::unordered_map<std::string, VehicleType> types_;
 };
 

@@ -1,0 +1,312 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <libsumo/libsumo.h>
+
+#include "core/error.hpp"
+#include "sumo/detail/gateway.hpp"
+
+// The gateway over libsumo, or over libtraci in a file that includes <libsumo/libtraci.h> first: both declare
+// the same functions, each in a namespace of its own, which LIBSUMO_NAMESPACE names. They cannot meet in one
+// file.
+
+namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE {
+
+namespace api = ::LIBSUMO_NAMESPACE;
+
+/// Calls SUMO; everything it throws derives from std::exception, but not from one family.
+template <class Call>
+auto call(Call&& to_sumo) {
+    try {
+        return to_sumo();
+    } catch (const std::exception& fault) {
+        throw core::SimulatorError(fault.what());
+    }
+}
+
+// SUMO's lane-change state (LCA_* of its TraCI constants, which its C++ headers leave out).
+inline constexpr int change_to_left = 1 << 1;
+inline constexpr int change_to_right = 1 << 2;
+inline constexpr int change_unknown = 1 << 30;
+inline constexpr int change_blocked =
+    (1 << 9) | (1 << 10) | (1 << 11) | (1 << 12) | (1 << 14) | (1 << 28);  // vehicles, space, speed
+inline constexpr int stopped_flag = 1;                                     // bit 0 of the stop state
+
+class ApiGateway : public Sumo {
+  public:
+    void load(const std::vector<std::string>& arguments) override {
+        call([&] { api::Simulation::load(arguments); });
+    }
+
+    void step() override {
+        call([] { api::Simulation::step(); });
+    }
+
+    void close() override {
+        call([] { api::Simulation::close(); });
+    }
+
+    double time_s() override {
+        return call([] { return api::Simulation::getTime(); });
+    }
+
+    double step_length_s() override {
+        return call([] { return api::Simulation::getDeltaT(); });
+    }
+
+    int expected_vehicles() override {
+        return call([] { return api::Simulation::getMinExpectedNumber(); });
+    }
+
+    std::string option(const std::string& name) override {
+        return call([&] { return api::Simulation::getOption(name); });
+    }
+
+    std::string version() override {
+        return call([] { return api::Simulation::getVersion().second; });
+    }
+
+    std::vector<std::string> departed() override {
+        return call([] { return api::Simulation::getDepartedIDList(); });
+    }
+
+    std::vector<std::string> arrived() override {
+        return call([] { return api::Simulation::getArrivedIDList(); });
+    }
+
+    std::vector<std::string> teleports_started() override {
+        return call([] { return api::Simulation::getStartingTeleportIDList(); });
+    }
+
+    std::vector<std::string> teleports_ended() override {
+        return call([] { return api::Simulation::getEndingTeleportIDList(); });
+    }
+
+    std::vector<CollisionReport> collisions() override {
+        return call([] {
+            std::vector<CollisionReport> reports;
+            for (const auto& collision : api::Simulation::getCollisions()) {
+                reports.push_back({collision.collider, collision.victim, collision.lane});
+            }
+            return reports;
+        });
+    }
+
+    std::vector<std::string> vehicle_ids() override {
+        return call([] { return api::Vehicle::getIDList(); });
+    }
+
+    Presence read(const std::string& vehicle, VehicleReading& reading) override {
+        return call([&] {
+            const auto position = api::Vehicle::getPosition(vehicle);
+            if (position.x == ::libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
+            reading.lane = api::Vehicle::getLaneID(vehicle);
+            if (reading.lane.empty()) return Presence::parked;
+            reading.x_m = position.x;
+            reading.y_m = position.y;
+            reading.angle_deg = api::Vehicle::getAngle(vehicle);
+            reading.speed_mps = api::Vehicle::getSpeed(vehicle);
+            reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
+            reading.lane_position_m = api::Vehicle::getLanePosition(vehicle);
+            return Presence::on_road;
+        });
+    }
+
+    std::uint32_t route_index(const std::string& vehicle) override {
+        return call(
+            [&] { return static_cast<std::uint32_t>(std::max(0, api::Vehicle::getRouteIndex(vehicle))); });
+    }
+
+    std::string route_id(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getRouteID(vehicle); });
+    }
+
+    std::vector<std::string> route_edges(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getRoute(vehicle); });
+    }
+
+    std::string type_of(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getTypeID(vehicle); });
+    }
+
+    double speed_factor(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getSpeedFactor(vehicle); });
+    }
+
+    std::string edge_of(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getRoadID(vehicle); });
+    }
+
+    int lane_number(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getLaneIndex(vehicle); });
+    }
+
+    double lane_position_m(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getLanePosition(vehicle); });
+    }
+
+    double speed_mps(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getSpeed(vehicle); });
+    }
+
+    double allowed_speed_mps(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getAllowedSpeed(vehicle); });
+    }
+
+    bool could_change_lane(const std::string& vehicle, int direction) override {
+        return call([&] {
+            const auto [own, commanded] = api::Vehicle::getLaneChangeState(vehicle, direction);
+            const int wanted = direction < 0 ? change_to_right : change_to_left;
+            // A vehicle that wanted to and could has just changed: its state is that of the former lane.
+            const bool has_changed = (commanded & change_blocked) == 0 && (commanded & wanted) != 0;
+            return own != change_unknown && !has_changed && (own & change_blocked) == 0;
+        });
+    }
+
+    std::vector<BestLane> best_lanes(const std::string& vehicle) override {
+        return call([&] {
+            std::vector<BestLane> lanes;
+            for (const auto& lane : api::Vehicle::getBestLanes(vehicle)) {
+                lanes.push_back({lane.laneID, lane.length, lane.bestLaneOffset});
+            }
+            return lanes;
+        });
+    }
+
+    std::vector<std::string> type_ids() override {
+        return call([] { return api::VehicleType::getIDList(); });
+    }
+
+    std::string permission_class(const std::string& type) override {
+        return call([&] { return api::VehicleType::getVehicleClass(type); });
+    }
+
+    TypeReading read_type(const std::string& type) override {
+        return call([&] {
+            return TypeReading{.length_m = api::VehicleType::getLength(type),
+                               .width_m = api::VehicleType::getWidth(type),
+                               .minimum_gap_m = api::VehicleType::getMinGap(type),
+                               .maximum_speed_mps = api::VehicleType::getMaxSpeed(type),
+                               .acceleration_mps2 = api::VehicleType::getAccel(type),
+                               .deceleration_mps2 = api::VehicleType::getDecel(type),
+                               .emergency_deceleration_mps2 = api::VehicleType::getEmergencyDecel(type)};
+        });
+    }
+
+    std::string type_parameter(const std::string& type, const std::string& parameter) override {
+        return call([&] { return api::VehicleType::getParameter(type, parameter); });
+    }
+
+    std::vector<std::string> signal_ids() override {
+        return call([] { return api::TrafficLight::getIDList(); });
+    }
+
+    int lane_count(const std::string& edge) override {
+        return call([&] { return api::Edge::getLaneNumber(edge); });
+    }
+
+    double lane_length_m(const std::string& lane) override {
+        return call([&] { return api::Lane::getLength(lane); });
+    }
+
+    void set_type_parameter(const std::string& type, const std::string& parameter,
+                            const std::string& value) override {
+        call([&] { api::VehicleType::setParameter(type, parameter, value); });
+    }
+
+    void add(const Insertion& insertion) override {
+        call([&] {
+            const std::string route = "clearway:" + insertion.vehicle;
+            api::Route::add(route, insertion.edges);
+            api::Vehicle::add(insertion.vehicle, route, insertion.type, insertion.depart,
+                              insertion.depart_lane, "base", insertion.depart_speed);
+        });
+    }
+
+    void set_speed(const std::string& vehicle, double speed_mps) override {
+        call([&] { api::Vehicle::setSpeed(vehicle, speed_mps); });
+    }
+
+    void set_speed_mode(const std::string& vehicle, int mode) override {
+        call([&] { api::Vehicle::setSpeedMode(vehicle, mode); });
+    }
+
+    void set_lane_change_mode(const std::string& vehicle, int mode) override {
+        call([&] { api::Vehicle::setLaneChangeMode(vehicle, mode); });
+    }
+
+    void change_lane(const std::string& vehicle, int lane_number, double duration_s) override {
+        call([&] { api::Vehicle::changeLane(vehicle, lane_number, duration_s); });
+    }
+
+    std::string lateral_alignment(const std::string& vehicle) override {
+        return call([&] { return api::Vehicle::getLateralAlignment(vehicle); });
+    }
+
+    void set_lateral_alignment(const std::string& vehicle, const std::string& alignment) override {
+        call([&] { api::Vehicle::setLateralAlignment(vehicle, alignment); });
+    }
+
+    void stop(const std::string& vehicle, const Stop& stop) override {
+        call([&] {
+            api::Vehicle::setStop(vehicle, stop.edge, stop.position_m, stop.lane_number, stop.duration_s);
+        });
+    }
+
+    bool is_stopped(const std::string& vehicle) override {
+        return call([&] { return (api::Vehicle::getStopState(vehicle) & stopped_flag) != 0; });
+    }
+
+    std::optional<std::pair<std::string, double>> next_stop(const std::string& vehicle) override {
+        return call([&]() -> std::optional<std::pair<std::string, double>> {
+            const auto stops = api::Vehicle::getStops(vehicle, 1);
+            if (stops.empty()) return std::nullopt;
+            return std::pair{stops.front().lane, stops.front().endPos};
+        });
+    }
+
+    void resume(const std::string& vehicle) override {
+        call([&] { api::Vehicle::resume(vehicle); });
+    }
+
+    void cancel_next_stop(const std::string& vehicle) override {
+        call([&] { api::Vehicle::replaceStop(vehicle, 0, ""); });
+    }
+
+    std::string signal_state(const std::string& signal) override {
+        return call([&] { return api::TrafficLight::getRedYellowGreenState(signal); });
+    }
+
+    std::string signal_program(const std::string& signal) override {
+        return call([&] { return api::TrafficLight::getProgram(signal); });
+    }
+
+    std::uint32_t phase_count(const std::string& signal, const std::string& program) override {
+        return call([&] {
+            for (const auto& logic : api::TrafficLight::getAllProgramLogics(signal)) {
+                if (logic.programID == program) return static_cast<std::uint32_t>(logic.phases.size());
+            }
+            return std::uint32_t{0};
+        });
+    }
+
+    void set_signal_state(const std::string& signal, const std::string& state) override {
+        call([&] { api::TrafficLight::setRedYellowGreenState(signal, state); });
+    }
+
+    void set_signal_program(const std::string& signal, const std::string& program) override {
+        call([&] { api::TrafficLight::setProgram(signal, program); });
+    }
+
+    void set_signal_phase(const std::string& signal, std::uint32_t phase) override {
+        call([&] { api::TrafficLight::setPhase(signal, static_cast<int>(phase)); });
+    }
+};
+
+}  // namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE
