@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/attach.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
 
@@ -55,6 +56,9 @@ constexpr std::array all_verbs = {
          "clearway import monaco.osm.pbf --name monaco", configure_import},
     Verb{"check", "Run a scenario briefly and tell whether it is fit for a study", "clearway check ./monaco",
          configure_check},
+    Verb{"attach", "Go on with a SUMO that was started elsewhere, under a policy of Clearway",
+         "clearway attach localhost:8813 --policy corridor --failure B10 --predictor graphsage",
+         configure_attach},
     Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
          "clearway trajectories runs/city-1a2b3c/city/corridor/0", configure_trajectories},
     Verb{"doctor", "Check that this machine has what Clearway needs", "clearway doctor", configure_doctor},

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/condition_options.hpp"
 #include "cli/run_plan.hpp"
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
@@ -109,21 +110,7 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
 void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "A condition of your own (names: clearway list)";
     results::ConditionSpec& own = arguments->own;
-    app.add_option("--policy", own.parts, "Policy parts, in this order; none: the car-following model alone")
-        ->option_text("PART ... [none]")
-        ->group(group);
-    app.add_option("--failure", own.failure, "How sensors fail")->option_text("NAME [perfect]")->group(group);
-    app.add_option("--predictor", own.predictor, "How the graph is repaired")
-        ->option_text("NAME [none]")
-        ->group(group);
-    static const std::map<std::string, traffic::SafetyChecks> checks = {{"on", traffic::SafetyChecks::on},
-                                                                        {"off", traffic::SafetyChecks::off}};
-    app.add_option_function<std::string>(
-           "--safety-checks", [&own](const std::string& name) { own.safety_checks = checks.at(name); },
-           "SUMO's own checks of commanded speeds and lane changes")
-        ->check(CLI::IsMember(checks))
-        ->option_text("on|off [on]")
-        ->group(group);
+    add_condition_options(app, own, group);
     static const std::map<std::string, traffic::BlueLight> lights = {{"on", traffic::BlueLight::on},
                                                                      {"off", traffic::BlueLight::off}};
     app.add_option_function<std::string>(

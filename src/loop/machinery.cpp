@@ -45,4 +45,31 @@ Machinery make_machinery(const results::ConditionSpec& condition, const Surround
     return machinery;
 }
 
+sumo::Names names_of(const roads::Network& network) {
+    sumo::Names names;
+    for (const roads::Lane& lane : network.lanes()) {
+        names.lanes.push_back(lane.id);
+    }
+    for (const roads::Edge& edge : network.edges()) {
+        names.edges.push_back(edge.id);
+    }
+    for (const roads::Signal& signal : network.signals()) {
+        names.signals.push_back(signal.id);
+    }
+    return names;
+}
+
+metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
+    metrics::LeaseTotals totals;
+    for (const auto& [part, counts] : actuator.counts()) {
+        totals.issued += counts.issued;
+        totals.renewed += counts.renewed;
+        totals.expired += counts.expired;
+        for (const auto& [reason, refused] : counts.refused) {
+            totals.refused += refused;
+        }
+    }
+    return totals;
+}
+
 }  // namespace clearway::loop

@@ -23,4 +23,10 @@ struct Surroundings {
 /// exist.
 Machinery make_machinery(const results::ConditionSpec& condition, const Surroundings& surroundings);
 
+/// The names that a session of this network speaks in indices of.
+sumo::Names names_of(const roads::Network& network);
+
+/// What became of the leases of a run.
+metrics::LeaseTotals totals_of(const actuation::Actuator& actuator);
+
 }  // namespace clearway::loop

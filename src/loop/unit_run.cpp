@@ -17,20 +17,6 @@ namespace {
 /// Width of a lane's lateral cells in the sublane model, m (facts: 0.5).
 constexpr const char* lateral_resolution_m = "0.5";
 
-sumo::Names names_of(const roads::Network& network) {
-    sumo::Names names;
-    for (const roads::Lane& lane : network.lanes()) {
-        names.lanes.push_back(lane.id);
-    }
-    for (const roads::Edge& edge : network.edges()) {
-        names.edges.push_back(edge.id);
-    }
-    for (const roads::Signal& signal : network.signals()) {
-        names.signals.push_back(signal.id);
-    }
-    return names;
-}
-
 sumo::SessionConfig session_config(const results::UnitSpec& unit, const scenario::Prepared& prepared,
                                    const roads::Network& network, const std::filesystem::path& folder) {
     sumo::SessionConfig config;
@@ -47,19 +33,6 @@ sumo::SessionConfig session_config(const results::UnitSpec& unit, const scenario
     }
     config.names = names_of(network);
     return config;
-}
-
-metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
-    metrics::LeaseTotals totals;
-    for (const auto& [part, counts] : actuator.counts()) {
-        totals.issued += counts.issued;
-        totals.renewed += counts.renewed;
-        totals.expired += counts.expired;
-        for (const auto& [reason, refused] : counts.refused) {
-            totals.refused += refused;
-        }
-    }
-    return totals;
 }
 
 long peak_kib() {
@@ -87,15 +60,18 @@ class FileRecording : public StepListener {
 
 }  // namespace
 
+std::unique_ptr<sumo::Session> in_this_process(sumo::SessionConfig config) {
+    return std::make_unique<sumo::Session>(std::move(config));
+}
+
 UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
-                 const std::filesystem::path& folder)
+                 const std::filesystem::path& folder, const StartSession& start)
     : unit_(unit),
       config_(scenario::load(unit.scenario_file.string())),
       network_(scenario::open_network(config_, unit.network_folder)),
       prepared_(scenario::prepare(config_, network_, core::StudySeed{unit.study_seed},
                                   core::Replication{unit.replication}, demand_folder)),
-      folder_(folder),
-      session_(std::make_unique<sumo::Session>(session_config(unit, prepared_, network_.network, folder))) {
+      session_(start(session_config(unit, prepared_, network_.network, folder))) {
     if (unit_.engine != results::Engine::solo) warm_up();
 }
 
@@ -119,7 +95,6 @@ void UnitRun::warm_up() {
 results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
                                       const results::ConditionSpec& condition, results::RunTiming& timing) {
     session_->continue_in(folder);
-    folder_ = folder;
     return finish_here(condition, timing);
 }
 
@@ -145,7 +120,7 @@ results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition,
     }
     end.time = session_->time();
     session_->close();
-    end.tripinfo_files = {folder_ / "tripinfo.xml"};
+    end.tripinfo_files = {session_->trip_file()};
     metrics::RunSummary summary = recorder_.finish(end);
 
     timing.simulator_s = spent.simulator_s;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,13 +19,17 @@ namespace clearway::loop {
 /// condition before it.
 inline constexpr core::Seconds lead_before_emergency{60.0};
 
+/// How a simulation comes to run.
+using StartSession = std::function<std::unique_ptr<sumo::Session>(sumo::SessionConfig)>;
+std::unique_ptr<sumo::Session> in_this_process(sumo::SessionConfig config);
+
 /// A scenario and replication, loaded and warmed up, from which conditions start.
 class UnitRun {
   public:
     /// Prepares the demand, loads SUMO and steps to `lead_before_emergency` before the first emergency
     /// vehicle. Outputs go to `folder`, the demand to `demand_folder`.
     UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
-            const std::filesystem::path& folder);
+            const std::filesystem::path& folder, const StartSession& start = in_this_process);
 
     /// Runs one condition to its end in this process, which was forked for it: outputs first move to
     /// `folder`.
@@ -57,7 +62,6 @@ class UnitRun {
     scenario::ScenarioConfig config_;
     scenario::BuiltNetwork network_;
     scenario::Prepared prepared_;
-    std::filesystem::path folder_;
     std::unique_ptr<sumo::Session> session_;
     metrics::Recorder recorder_;
 };

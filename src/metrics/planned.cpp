@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -80,6 +81,25 @@ std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> 
     for (const traffic::EmergencyDeparture& departure : emergency) {
         vehicles.push_back(
             {departure.id, traffic::VehicleClass::emergency, departure.kind, departure.depart.value});
+    }
+    return vehicles;
+}
+
+std::vector<PlannedVehicle> planned_in(const std::filesystem::path& tripinfo, const traffic::Roster& roster) {
+    std::vector<PlannedVehicle> vehicles;
+    try {
+        detail::for_each_element(tripinfo, [&](const detail::Element& element) {
+            if (element.name() != "tripinfo") return;
+            PlannedVehicle vehicle{.id = std::string(element.text("id"))};
+            if (const traffic::VehicleInfo* info = roster.find(core::vehicle_key(vehicle.id))) {
+                vehicle.vehicle_class = info->vehicle_class;
+                vehicle.kind = info->kind;
+            }
+            vehicle.depart_s = std::max(0.0, element.number("depart") - element.number("departDelay"));
+            vehicles.push_back(std::move(vehicle));
+        });
+    } catch (const std::runtime_error& error) {
+        throw core::SimulatorError(error.what());
     }
     return vehicles;
 }

@@ -34,6 +34,10 @@ struct PlannedVehicle {
 std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> type_and_route_files,
                                          std::span<const traffic::EmergencyDeparture> emergency);
 
+/// The vehicles of a simulation that nobody planned, from its table of trips: class and kind as the roster
+/// has them; those that it lacks, because they never entered, count as human. Throws core::SimulatorError.
+std::vector<PlannedVehicle> planned_in(const std::filesystem::path& tripinfo, const traffic::Roster& roster);
+
 struct RecorderConfig {
     /// A believed vehicle whose report is older than this was not heard at the newest round, s.
     float fresh_age_s = 0.01F;

@@ -17,7 +17,7 @@ using testing::Not;
 
 const std::vector<std::string> every_verb = {
     "reproduce", "run",     "study", "status", "submit", "merge",  "report", "compare", "results", "replay",
-    "verify",    "dataset", "train", "list",   "init",   "doctor", "links",  "import",  "check"};
+    "verify",    "dataset", "train", "list",   "init",   "doctor", "links",  "import",  "check",   "attach"};
 
 class HelpTest : public UserTest {};
 

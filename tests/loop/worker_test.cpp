@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include "core/process.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
+#include "sumo/waiting_sumo.hpp"
 
 namespace clearway {
 namespace {
@@ -178,6 +180,26 @@ TEST(Worker, EqualsARunWithoutForkInBologna) {
     shortened.density = 0.2;  // of the measured demand; the whole takes minutes
     shortened.horizon_s = 1200.0;
     expect_equal_without_fork("bologna", shortened);
+}
+
+TEST(Worker, EqualsARunInASumoThatWasStartedElsewhere) {
+    const ConditionSpec corridor = condition("corridor", "B10", "dead_reckoning", {"corridor"});
+    const test::StudyFolder local("intersection", {}, {baseline, corridor});
+    ASSERT_TRUE(run_worker(local, local.unit(0)).ok());
+    const test::StudyFolder remote("intersection", {}, {baseline, corridor});
+    std::optional<test::WaitingSumo> waiting;
+    loop::UnitRun run(remote.unit(0), remote.path() / "demand", remote.path() / "remote",
+                      [&](const sumo::SessionConfig& config) {
+                          waiting.emplace(sumo::command_line(config), remote.path() / "waiting.log");
+                          return std::make_unique<sumo::Session>(
+                              sumo::RemoteSumo("localhost", waiting->port()), remote.path() / "client",
+                              config.names);
+                      });
+    results::RunTiming timing;
+    remote.store().write(run.finish_here(corridor, timing), timing);
+    const results::RunKey key{"intersection", "corridor", 0};
+    EXPECT_GT(remote.store().read(key)->metrics.leases_issued, 0U);
+    EXPECT_EQ(stored_bytes(remote.store(), key), stored_bytes(local.store(), key));
 }
 
 TEST(Worker, RunsEmergencyVehiclesAloneForTheSoloTime) {
