@@ -24,8 +24,8 @@ struct CandidateScores {
     std::span<const float> probability;  ///< One a candidate of `scene->candidates`, in its order.
 };
 
-/// Repair: from what was reported to what is believed. Called at every step; the observation changes its
-/// content at report rounds and its ages between them. Deterministic; keeps state and buffers; one thread.
+/// Repair: from what was reported to what is believed. Called at decisions, in order of time; reports that a
+/// newer one overtook between two calls are not seen. Deterministic; keeps state and buffers; one thread.
 /// Never sees the truth.
 class Predictor {
   public:
