@@ -13,6 +13,7 @@
 #include "cli/attach.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
+#include "options/usage.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -89,23 +90,7 @@ std::vector<std::string> verb_names() {
     return names;
 }
 
-/// `--dens` -> `, did you mean --dense?`
-std::string hint(const std::string& word, const std::vector<std::string>& known) {
-    const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format(", did you mean {}?", near);
-}
-
-std::vector<std::string> option_names(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* const option : app.get_options()) {
-        for (const std::string& name : option->get_lnames()) {
-            names.push_back("--" + name);
-        }
-    }
-    return names;
-}
-
-/// The message of a command line that cannot be parsed, with the nearest name where one is unknown.
+/// The message of a command line that cannot be parsed, in the words of the verb that was called.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* deepest = &app;
     std::string name = "clearway";
@@ -113,14 +98,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
         deepest = deepest->get_subcommands().front();
         name += " " + deepest->get_name();
     }
-    const CLI::App& command = *deepest;
-    std::string text = fmt::format("{}: {}", name, error.what());
-    const std::vector<std::string> unknown = command.remaining();
-    if (!unknown.empty()) {
-        const std::string word = unknown.front().substr(0, unknown.front().find('='));
-        text = fmt::format("{}: {} is not known here{}", name, word, hint(word, option_names(command)));
-    }
-    return fmt::format("{}\n`{} --help` says more.\n", text, name);
+    return options::usage_message(*deepest, name, error);
 }
 
 /// What is wrong with the first word, when it is no verb.

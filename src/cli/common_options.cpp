@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/number_range.hpp"
+
 namespace clearway::cli {
 
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what) {
@@ -39,7 +41,7 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {
 
 void add_limit_options(CLI::App& app, results::RunLimits& limits) {
     app.add_option("--run-time-limit", limits.wall_s, "Wall time after which a run is ended, s")
-        ->check(CLI::Range(0.001, 1e7))
+        ->check(core::NumberRange{0.001, 1e7})
         ->option_text(fmt::format("SECONDS, 0.001 to 1e7 [{:g}]", limits.wall_s));
     app.add_option("--memory-limit", limits.memory_mib, "Memory above which a run is ended, MiB; 0: none")
         ->check(CLI::Range(0L, 100000000L))

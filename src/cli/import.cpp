@@ -14,6 +14,7 @@
 #include "cli/common_options.hpp"
 #include "cli/interruption.hpp"
 #include "cli/verb.hpp"
+#include "core/number_range.hpp"
 #include "core/progress.hpp"
 
 namespace clearway::cli {
@@ -95,7 +96,7 @@ Action configure_import(CLI::App& app) {
         ->option_text("auto|right|left [auto]");
     app.add_option("--av-share", request.automated_share,
                    "Share of the cars that is automated, by vehicle id")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(core::NumberRange{0.0, 1.0})
         ->option_text("SHARE, 0 to 1 [0.35]");
     static const std::map<std::string, scenario::CarFollowing> models = {
         {"own", scenario::CarFollowing::own}, {"idm", scenario::CarFollowing::idm}};

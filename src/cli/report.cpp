@@ -6,6 +6,7 @@
 
 #include "cli/run_plan.hpp"
 #include "cli/verb.hpp"
+#include "core/number_range.hpp"
 
 namespace clearway::cli {
 
@@ -21,7 +22,7 @@ Action configure_report(CLI::App& app) {
         ->option_text("DIR (required)");
     app.add_option("--least-difference", arguments->least_relevant_s,
                    "Least difference of an EV's time that counts as an effect, s; 0: any")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->least_relevant_s));
     add_json_option(app, arguments->printing, "the tables");
     return [arguments](const Invocation&) {

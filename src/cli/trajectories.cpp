@@ -9,6 +9,7 @@
 
 #include "cli/verb.hpp"
 #include "core/files.hpp"
+#include "core/number_range.hpp"
 #include "results/store.hpp"
 #include "scenario/sumo_files.hpp"
 
@@ -89,10 +90,10 @@ Action configure_trajectories(CLI::App& app) {
     app.add_option("--out", arguments->folder, "Folder to write into")
         ->option_text("DIR [trajectories-SCENARIO-CONDITION-N]");
     app.add_option("--every", arguments->every_s, "Time between two places of a vehicle, s")
-        ->check(CLI::Range(0.01, 3600.0))
+        ->check(core::NumberRange{0.01, 3600.0})
         ->option_text("SECONDS, 0.01 to 3600 [1]");
     app.add_option("--reach", arguments->reach_m, "Vehicles nearer than this to an EV are its neighbours, m")
-        ->check(CLI::Range(0.0, 10000.0))
+        ->check(core::NumberRange{0.0, 10000.0})
         ->option_text("METRES, 0 to 10000 [50]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }

@@ -1,8 +1,12 @@
 #include "core/atomic_file.hpp"
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,6 +15,11 @@
 #include "core/files.hpp"
 
 namespace clearway::core {
+namespace {
+
+constexpr const char* part_ending = ".part";
+
+}  // namespace
 
 EnvironmentError write_error(const std::filesystem::path& path, int reason) {
     const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
@@ -21,7 +30,7 @@ EnvironmentError write_error(const std::filesystem::path& path, int reason) {
 
 AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)),
-      aside_(file_.string() + fmt::format(".{}.part", ::getpid())),
+      aside_(file_.string() + fmt::format(".{}{}", ::getpid(), part_ending)),
       descriptor_(::open(aside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644)) {
     if (descriptor_ < 0) fail();
 }
@@ -50,6 +59,21 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail() {
     throw write_error(file_, errno);
+}
+
+void remove_abandoned_parts(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> abandoned;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::filesystem::path name = entry.path().filename();
+        if (name.extension() != part_ending) continue;
+        const std::string process = name.stem().extension().string();  // `.1234`
+        int id = 0;
+        const char* const end = process.data() + process.size();
+        if (process.empty() || std::from_chars(process.data() + 1, end, id).ptr != end || id <= 0) continue;
+        if (::kill(id, 0) != 0 && errno == ESRCH) abandoned.push_back(entry.path());
+    }
+    for (const std::filesystem::path& file : abandoned)
+        std::filesystem::remove(file);
 }
 
 }  // namespace clearway::core

@@ -32,4 +32,8 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
+/// Removes what an AtomicFile in `folder` left half written because its process was killed. Files of
+/// processes that are still there stay.
+void remove_abandoned_parts(const std::filesystem::path& folder);
+
 }  // namespace clearway::core

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/number_range.hpp"
 #include "core/units.hpp"
 
 namespace clearway::core {
@@ -46,6 +47,16 @@ TEST(Fields, ReachTheirMembers) {
     EXPECT_EQ(config.radius_m, 100.0);
     EXPECT_EQ(config.lanes, 4);
     EXPECT_EQ(config.name, "city!");
+}
+
+TEST(NumberRange, holds_its_ends_and_nothing_that_is_not_finite) {
+    const NumberRange range{0.5, 2.0};
+    for (const char* const inside : {"0.5", "1", "2.0", "2e0"})
+        EXPECT_EQ(range(inside), "") << inside;
+    for (const char* const outside : {"0.49", "2.1", "-1", "nan", "-nan", "inf", "-inf"})
+        EXPECT_EQ(range(outside), std::string(outside) + " is out of range (allowed: 0.5 to 2)");
+    for (const char* const word : {"", "one", "1 ", "1e999", "1,5"})
+        EXPECT_EQ(range(word), "\"" + std::string(word) + "\" is not a number (allowed: 0.5 to 2)");
 }
 
 TEST(Units, ConvertAndCompare) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -100,6 +101,17 @@ TEST(ContentHash, ChangesWithEveryByte) {
         EXPECT_NE(content_hash(other), hash);
     }
     EXPECT_EQ(content_hash(std::string(1000, 'x')), hash);
+}
+
+TEST_F(FilesTest, parts_of_killed_writers_go_and_those_of_others_stay) {
+    const auto gone = folder_.write("a.json.2147483647.part", "");
+    const auto own = folder_.write("a.json." + std::to_string(getpid()) + ".part", "");
+    const auto no_writer = folder_.write("a.json.part", "");
+    const auto no_process = folder_.write("a.12x.part", "");
+    remove_abandoned_parts(folder_.path());
+    EXPECT_FALSE(std::filesystem::exists(gone));
+    for (const auto& kept : {own, no_writer, no_process})
+        EXPECT_TRUE(std::filesystem::exists(kept)) << kept;
 }
 
 }  // namespace
