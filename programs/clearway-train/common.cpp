@@ -1,7 +1,12 @@
 #include "common.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "options/usage.hpp"
 
 namespace clearway::training {
 namespace {
@@ -28,20 +33,42 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
                figure(quality.f1), quality.threshold, figure(quality.log_loss), figure(quality.ece));
 }
 
-core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model) {
+TrainingHooks hooks_with_lines(Printing printing, std::uint32_t epochs) {
+    TrainingHooks hooks;
+    hooks.should_stop = stop_requested;
+    if (printing != Printing::epochs) return hooks;
+    const auto started = std::chrono::steady_clock::now();
+    hooks.on_epoch = [started, epochs](std::uint32_t epoch, const EpochLoss& loss) {
+        const double passed_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        fmt::print("epoch {} of {}: training loss {:.5f}, validation loss {:.5f} nat, {:.0f} s\n", epoch + 1,
+                   epochs, loss.train, loss.held_out, passed_s);
+        std::fflush(stdout);
+    };
+    return hooks;
+}
+
+void print_json(const nlohmann::ordered_json& summary) {
+    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t epochs,
+                             bool has_model) {
     if (outcome == Outcome::diverged) {
         fmt::print(stderr,
-                   "clearway-train: training diverged in epoch {}: a loss is not finite. {}. Try a smaller "
-                   "--learning-rate, or "
-                   "features of a smaller scale\n",
-                   losses.size() - 1,
+                   "clearway-train: training diverged after {} good epoch{}: a loss is not finite. {}. Try a "
+                   "smaller --learning-rate, or features of a smaller scale\n",
+                   epochs - 1, epochs == 2 ? "" : "s",
                    has_model ? "The parameters before it are kept"
                              : "No epoch had finite losses, so no model was written");
         return core::ExitCode::runs_failed;
     }
     if (outcome == Outcome::interrupted) {
-        fmt::print(stderr, "clearway-train: interrupted after {} epochs; {}\n", losses.size(),
-                   has_model ? "the model so far is written" : "no model was written");
+        const char* const kept = folder.is_whole() ? "the whole training that was there stays"
+                                 : has_model       ? "the model so far is written"
+                                                   : "no model was written";
+        fmt::print(stderr, "clearway-train: interrupted after {} epoch{}; {}\n", epochs,
+                   epochs == 1 ? "" : "s", kept);
         return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
     }
     return core::ExitCode::ok;
@@ -51,8 +78,11 @@ int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
                     const std::function<core::ExitCode()>& train) {
     try {
         app.parse(argument_count, argument_values);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(core::ExitCode::usage);
+        fmt::print(stderr, "{}", options::usage_message(app, app.get_name(), error, {graphsage_word}));
+        return static_cast<int>(core::ExitCode::usage);
     }
     std::signal(SIGINT, remember_signal);
     std::signal(SIGTERM, remember_signal);

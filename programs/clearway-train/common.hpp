@@ -13,7 +13,9 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/number_range.hpp"
 #include "metrics/link_quality.hpp"
+#include "training/output_folder.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -54,8 +56,7 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
                 app.add_option(name, member, field.doc)->option_text(fmt::format("true|false [{}]", member));
         } else {
             option = app.add_option(name, member, field.doc)
-                         ->check(CLI::Range(static_cast<Member>(field.minimum),
-                                            static_cast<Member>(field.maximum)))
+                         ->check(core::NumberRange{field.minimum, field.maximum})
                          ->option_text(
                              fmt::format("NUMBER, {:g} to {:g} [{}]", field.minimum, field.maximum, member));
         }
@@ -68,14 +69,21 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
 std::string figure(const std::optional<double>& value);
 void print_quality(const std::string& label, const metrics::LinkQuality& quality);
 
-/// The exit code of a training, after saying on standard error how it ended before its time.
-core::ExitCode exit_code_for(Outcome outcome, const std::vector<EpochLoss>& losses, bool has_model);
+/// Hooks that print a line about each of `epochs`, counted from 1, where `printing` says so.
+TrainingHooks hooks_with_lines(Printing printing, std::uint32_t epochs);
+
+void print_json(const nlohmann::ordered_json& summary);
+
+/// The exit code of a training, after saying on standard error how it ended before its time. `epochs`: how
+/// many it ran, with the one that diverged.
+core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t epochs, bool has_model);
 
 /// Parses the command line and trains; the program's exit code. Throws core::Error.
 int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
                     const std::function<core::ExitCode()>& train);
 
 /// `clearway train graphsage`.
+inline constexpr const char* graphsage_word = "graphsage";
 int run_graphsage(int argument_count, char** argument_values);
 
 }  // namespace clearway::training

@@ -1,18 +1,18 @@
 // clearway train graphsage: the improved net.
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "common.hpp"
 #include "core/files.hpp"
 #include "prediction/graph_sample.hpp"
 #include "prediction/repair_sample.hpp"
+#include "training/outputs.hpp"
 #include "training/repair.hpp"
 #include "training/repair_outputs.hpp"
 
@@ -42,28 +42,14 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "Print the summary as JSON, and nothing else");
     add_field_options(app, arguments.config, "Training (losses in nat)");
     app.footer(
-        "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and graphsage.weights (for "
-        "--predictor graphsage\n"
-        "--model FILE) unless an option makes a net that only serves to compare (ablation).\n\n"
+        "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and, unless an option makes a "
+        "net that\n"
+        "only serves to compare (ablation), graphsage.weights (for `clearway links evaluate --model "
+        "graphsage=FILE`).\n\n"
         "Example:\n"
-        "  clearway dataset city --dense --samples --net graphsage --failure A.5 B10 C.link --seeds 10 --out "
+        "  clearway dataset city --dense --samples --net graphsage --failure B10 C.link --seeds 10 --out "
         "data/graphsage\n"
         "  clearway train graphsage --data data/graphsage --out trained/graphsage");
-}
-
-TrainingHooks hooks_for(const Arguments& arguments) {
-    TrainingHooks hooks;
-    hooks.should_stop = stop_requested;
-    if (arguments.printing != Printing::epochs) return hooks;
-    const auto started = std::chrono::steady_clock::now();
-    hooks.on_epoch = [started, epochs = arguments.config.epochs](std::uint32_t epoch, const EpochLoss& loss) {
-        const double passed_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-        fmt::print("epoch {} of {}: training loss {:.5f}, validation loss {:.5f} nat, {:.0f} s\n", epoch + 1,
-                   epochs, loss.train, loss.held_out, passed_s);
-        std::fflush(stdout);
-    };
-    return hooks;
 }
 
 void print_closing(const RepairResult& result) {
@@ -81,22 +67,26 @@ void print_closing(const RepairResult& result) {
 core::ExitCode train(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = prediction::find_graph_samples(arguments.data);
     std::vector<prediction::RepairSampleFile> files;
-    std::string hashes;
+    std::vector<std::string> hashes;
     for (const std::filesystem::path& path : paths) {
         files.push_back(prediction::read_repair_samples(path));
-        hashes += files.back().content_hash;
+        hashes.push_back(files.back().content_hash);
     }
-    const Checkpoint checkpoint{arguments.out, core::content_hash(hashes)};
-    const RepairResult result = train_repair(files, arguments.config, checkpoint, hooks_for(arguments));
+    require_distinct(paths, hashes);
+    const Checkpoint checkpoint{arguments.out, core::content_hash(fmt::format("{}", fmt::join(hashes, "")))};
+    const OutputFolder folder(arguments.out, identity_of(arguments.config, checkpoint.data_hash));
+    const RepairResult result = train_repair(files, arguments.config, checkpoint,
+                                             hooks_with_lines(arguments.printing, arguments.config.epochs));
     const nlohmann::ordered_json summary =
         summary_of(result, arguments.config, arguments.data, checkpoint.data_hash);
-    write_outputs(arguments.out, result, arguments.config, summary);
+    if (!folder.keeps_earlier(result.outcome, result.losses.size()))
+        write_outputs(folder.path(), result, arguments.config, summary);
     if (arguments.printing == Printing::json) {
-        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        print_json(summary);
     } else if (!result.groups.empty()) {
         print_closing(result);
     }
-    return exit_code_for(result.outcome, result.losses, !result.state.empty());
+    return exit_code_for(folder, result.outcome, result.losses.size(), !result.state.empty());
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "common.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number_range.hpp"
 #include "prediction/dataset_files.hpp"
 #include "prediction/graph_sample.hpp"
 #include "prediction/pair_samples.hpp"
@@ -57,7 +58,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
                "Fit the logistic pair model on `clearway dataset --samples --net logistic`")
             ->excludes(corrected);
     app.add_option("--ridge", arguments.logistic.ridge, "Weight of the squared weights beside the mean loss")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("NUMBER, 0 to 1e6 [{:g}]", arguments.logistic.ridge))
         ->needs(logistic)
         ->group("Only with --logistic");
@@ -88,21 +89,21 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "`clearway train graphsage --help` explains how the improved net is trained.\n\n"
         "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
         "torch.load),\n"
-        "graphsage_*.weights (for --predictor), and predictions.csv or metrics.csv. With --logistic: "
-        "summary.json\nand logistic.weights.\n\n"
+        "graphsage_*.weights (for `clearway links evaluate --model graphsage_corrected=FILE`), and\n"
+        "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
         "Examples:\n  clearway dataset city --out data/city\n  clearway train --data data/city --out "
         "models/mine\n"
         "  clearway train --data data/city --pairs true-links --epochs 100 --seed 1 --out models/true_links "
         "--json");
 }
 
-TrainingHooks hooks_for(Printing printing) {
+/// The dissertation's three lines an epoch, counted from 0 as there.
+TrainingHooks hooks_as_published(Printing printing) {
     TrainingHooks hooks;
     hooks.should_stop = stop_requested;
     if (printing != Printing::epochs) return hooks;
     hooks.on_epoch = [](std::uint32_t epoch, const EpochLoss& loss) {
-        // The dissertation's three lines. float, as Python's item() is printed there with the digits of the
-        // float.
+        // float, as Python's item() is printed there with the digits of the float.
         fmt::print("epoch: {}\n=======\nloss: {} {}\n", epoch, loss.train, loss.held_out);
     };
     return hooks;
@@ -124,7 +125,7 @@ void print_closing(const AsPublishedResult& result) {
 
 void print_closing(const CorrectedResult& result) {
     if (result.state.empty()) return;
-    fmt::print("best epoch: {} of {}; seeds: {} training, {} validation, {} test\n", result.best_epoch,
+    fmt::print("best epoch {} of {}; seeds: {} training, {} validation, {} test\n", result.best_epoch + 1,
                result.losses.size(), result.seeds.train.size(), result.seeds.validation.size(),
                result.seeds.test.size());
     for (const GroupQuality& group : result.groups) {
@@ -138,14 +139,14 @@ void print_closing(const CorrectedResult& result) {
 }
 
 template <class Result>
-core::ExitCode conclude(const Arguments& arguments, const Result& result,
+core::ExitCode conclude(const Arguments& arguments, const OutputFolder& folder, const Result& result,
                         const nlohmann::ordered_json& summary) {
     if (arguments.printing == Printing::json) {
-        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        print_json(summary);
     } else {
         print_closing(result);
     }
-    return exit_code_for(result.outcome, result.losses, !result.state.empty());
+    return exit_code_for(folder, result.outcome, result.losses.size(), !result.state.empty());
 }
 
 core::ExitCode run_as_published(const Arguments& arguments) {
@@ -158,41 +159,56 @@ core::ExitCode run_as_published(const Arguments& arguments) {
     std::vector<prediction::PairDataset> unseen;
     for (const std::filesystem::path& folder : arguments.unseen)
         unseen.push_back(prediction::read_pair_dataset(folder));
-    AsPublishedResult result =
-        train_as_published(dataset, arguments.pairs, run.training, hooks_for(arguments.printing));
+    const OutputFolder folder(arguments.out, identity_of(arguments.pairs, run));
+    AsPublishedResult result = train_as_published(dataset, arguments.pairs, run.training,
+                                                  hooks_as_published(arguments.printing), arguments.data);
     for (std::size_t at = 0; at < unseen.size() && !result.state.empty(); ++at) {
         result.unseen.push_back(
             score_unseen(result.state, run.training, unseen[at], arguments.unseen[at].string()));
     }
     const auto summary = summary_of(result, arguments.pairs, run);
-    write_outputs(arguments.out, result, summary, run.training);
-    return conclude(arguments, result, summary);
+    if (!folder.keeps_earlier(result.outcome, result.losses.size()))
+        write_outputs(folder.path(), result, summary, run.training);
+    return conclude(arguments, folder, result, summary);
 }
 
 core::ExitCode run_corrected(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = prediction::find_graph_samples(arguments.data);
     std::vector<prediction::GraphSampleFile> files;
-    for (const std::filesystem::path& path : paths)
+    std::vector<std::string> hashes;
+    for (const std::filesystem::path& path : paths) {
         files.push_back(prediction::read_graph_samples(path));
+        hashes.push_back(files.back().content_hash);
+    }
+    require_distinct(paths, hashes);
     const RunDescription run{arguments.data, hash_of_files(paths), arguments.config.training};
-    const CorrectedResult result = train_corrected(files, arguments.config, hooks_for(arguments.printing));
+    const OutputFolder folder(arguments.out, identity_of(arguments.config, run));
+    const CorrectedResult result =
+        train_corrected(files, arguments.config, hooks_with_lines(arguments.printing, run.training.epochs));
     const auto summary = summary_of(result, arguments.config, run);
-    write_outputs(arguments.out, result, summary, run.training, files.front().origin.features);
-    return conclude(arguments, result, summary);
+    if (!folder.keeps_earlier(result.outcome, result.losses.size()))
+        write_outputs(folder.path(), result, summary, run.training, files.front().origin.features);
+    return conclude(arguments, folder, result, summary);
 }
 
 core::ExitCode run_logistic(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = prediction::find_pair_samples(arguments.data);
     std::vector<prediction::PairSampleFile> files;
-    for (const std::filesystem::path& path : paths)
+    std::vector<std::string> hashes;
+    for (const std::filesystem::path& path : paths) {
         files.push_back(prediction::read_pair_samples(path));
+        hashes.push_back(core::content_hash(core::read_file(path)));
+    }
+    require_distinct(paths, hashes);
     LogisticConfig config = arguments.logistic;
     config.seed = arguments.config.training.seed;
+    const std::string data_hash = hash_of_files(paths);
+    const OutputFolder folder(arguments.out, identity_of(config, data_hash));
     const LogisticResult result = train_logistic(files, config);
-    const auto summary = summary_of(result, config, arguments.data, hash_of_files(paths));
-    write_outputs(arguments.out, result, summary);
+    const auto summary = summary_of(result, config, arguments.data, data_hash);
+    write_outputs(folder.path(), result, summary);
     if (arguments.printing == Printing::json) {
-        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        print_json(summary);
         return core::ExitCode::ok;
     }
     fmt::print("{} Newton steps, {}; training log loss {:.4f} nat over {} pairs\n", result.iterations,
@@ -217,7 +233,7 @@ core::ExitCode train_as(const Arguments& arguments) {
 }
 
 int run(int argument_count, char** argument_values) {
-    if (argument_count > 1 && std::string_view(argument_values[1]) == "graphsage") {
+    if (argument_count > 1 && std::string_view(argument_values[1]) == graphsage_word) {
         return run_graphsage(argument_count - 1, argument_values + 1);
     }
     CLI::App app("Trains the dissertation's GraphSAGENet for link prediction, as published or corrected.");

@@ -100,14 +100,16 @@ void add_warnings(const GraphBatch& train, const GraphBatch& test, AsPublishedRe
 }  // namespace
 
 AsPublishedResult train_as_published(const prediction::PairDataset& dataset, PairChoice pairs,
-                                     const TrainingConfig& config, const TrainingHooks& hooks) {
+                                     const TrainingConfig& config, const TrainingHooks& hooks,
+                                     const std::filesystem::path& data) {
     AsPublishedResult result;
     result.dataset = chosen(dataset, pairs);
     const std::size_t count = result.dataset.pair_count();
     if (count < fewest_pairs) {
         throw core::InputError(
-            {prediction::target_file,
-             fmt::format("{} {}pairs", count, pairs == PairChoice::true_only ? "true " : ""),
+            {(data / prediction::target_file).string(),
+             fmt::format("{} {}pair{}", count, pairs == PairChoice::true_only ? "true " : "",
+                         count == 1 ? "" : "s"),
              fmt::format("{} or more", fewest_pairs),
              "With fewer the ordered split leaves no pair to test on"});
     }

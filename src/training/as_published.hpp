@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -49,9 +50,10 @@ struct AsPublishedResult {
 /// The dissertation's training (chapters 5.2 and 5.3), kept as it is: one snapshot; the list cut in its order
 /// after three quarters; messages along the very pairs whose links are predicted; one Adam step an epoch on
 /// all training pairs; both losses computed before the step. Throws core::InputError when fewer than 5 pairs
-/// are left (the test part would be empty). Deterministic.
+/// are left (the test part would be empty); `data` is the folder that it names. Deterministic.
 AsPublishedResult train_as_published(const prediction::PairDataset& dataset, PairChoice pairs,
-                                     const TrainingConfig& config, const TrainingHooks& hooks = {});
+                                     const TrainingConfig& config, const TrainingHooks& hooks = {},
+                                     const std::filesystem::path& data = {});
 
 /// Scores the net of `state` on `unseen`; `data` names it in messages. Throws core::InputError when its
 /// vehicles have another number of features than the net takes.

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/random.hpp"
 #include "prediction/features.hpp"
+#include "training/detail/sample_parts.hpp"
 
 namespace clearway::training {
 namespace {
@@ -20,10 +19,6 @@ using prediction::GraphSample;
 using prediction::GraphSampleFile;
 
 constexpr double reach_m = prediction::corrected_reach_m;
-
-DataSeed seed_of(const GraphSampleFile& file) {
-    return {file.origin.study_seed, file.origin.replication};
-}
 
 void check_origins(const std::vector<GraphSampleFile>& files) {
     if (files.empty())
@@ -50,7 +45,7 @@ std::vector<const GraphSample*> samples_of(const std::vector<GraphSampleFile>& f
                                            const std::vector<DataSeed>& seeds) {
     std::vector<const GraphSample*> samples;
     for (const GraphSampleFile& file : files) {
-        if (!std::ranges::binary_search(seeds, seed_of(file))) continue;
+        if (!detail::is_of(file, seeds)) continue;
         for (const GraphSample& sample : file.samples) {
             const bool useful = std::ranges::any_of(
                 sample.candidates, [](const auto& pair) { return pair.dead_reckoned_m < reach_m; });
@@ -58,6 +53,16 @@ std::vector<const GraphSample*> samples_of(const std::vector<GraphSampleFile>& f
         }
     }
     return samples;
+}
+
+detail::LabelCounts labels_of(const std::vector<const GraphSample*>& samples) {
+    detail::LabelCounts counts;
+    for (const GraphSample* const sample : samples) {
+        for (const prediction::CandidatePair& pair : sample->candidates) {
+            if (pair.dead_reckoned_m < reach_m) counts.add(pair.linked);
+        }
+    }
+    return counts;
 }
 
 std::vector<GraphBatch> batches_from(const std::vector<const GraphSample*>& samples, std::uint32_t width,
@@ -68,14 +73,6 @@ std::vector<GraphBatch> batches_from(const std::vector<const GraphSample*>& samp
         append_sample(*samples[at], width, reach_m, batches.back());
     }
     return batches;
-}
-
-/// A new order each epoch, the same for the same training seed.
-void shuffle(std::vector<const GraphSample*>& samples, std::uint64_t seed, std::uint32_t epoch) {
-    const core::KeyedRandom random(core::StudySeed{seed}, core::Replication{epoch});
-    for (std::size_t left = samples.size(); left > 1; --left) {
-        std::swap(samples[left - 1], samples[random.below(left, core::Purpose::training, left)]);
-    }
 }
 
 /// Mean loss over all pairs of the batches.
@@ -147,9 +144,8 @@ void measure(const TorchNet& net, const std::vector<GraphSampleFile>& files, Cor
     Scores validation, all;
     std::map<std::pair<std::string, std::string>, Scores> groups;
     for (const GraphSampleFile& file : files) {
-        if (std::ranges::binary_search(result.seeds.validation, seed_of(file)))
-            validation.append(scores_of(net, file));
-        if (!std::ranges::binary_search(result.seeds.test, seed_of(file))) continue;
+        if (detail::is_of(file, result.seeds.validation)) validation.append(scores_of(net, file));
+        if (!detail::is_of(file, result.seeds.test)) continue;
         const Scores scores = scores_of(net, file);
         groups[{file.origin.scenario, file.origin.failure}].append(scores);
         all.append(scores);
@@ -181,27 +177,20 @@ bool take_epoch(const TorchNet& net, const EpochLoss& loss, std::uint32_t patien
     return true;
 }
 
-void require_pairs(const std::vector<const GraphSample*>& samples, const char* part) {
-    if (!samples.empty()) return;
-    throw core::InputError({"--data", fmt::format("the {} seeds hold no candidate pair", part), "",
-                            "Record denser traffic, a sensor failure, or more seeds"});
-}
-
 }  // namespace
 
 CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const CorrectedConfig& config,
                                 const TrainingHooks& hooks) {
     check_origins(files);
     CorrectedResult result;
-    std::vector<DataSeed> seeds;
-    std::ranges::transform(files, std::back_inserter(seeds), seed_of);
-    result.seeds = split_seeds(seeds, {config.training.seed, config.validation_share, config.test_share});
+    result.seeds =
+        detail::split_files(files, {config.training.seed, config.validation_share, config.test_share});
 
     std::vector<const GraphSample*> train = samples_of(files, result.seeds.train);
     const std::vector<const GraphSample*> held_out = samples_of(files, result.seeds.validation);
-    require_pairs(train, "training");
-    require_pairs(held_out, "validation");
-    require_pairs(samples_of(files, result.seeds.test), "test");
+    detail::require_both_classes(labels_of(train), "training");
+    detail::require_both_classes(labels_of(held_out), "validation");
+    detail::require_both_classes(labels_of(samples_of(files, result.seeds.test)), "test");
     const std::uint32_t width = files.front().origin.features.width;
     const std::vector<GraphBatch> validation = batches_from(held_out, width, config.batch_snapshots);
 
@@ -212,7 +201,7 @@ CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const
             result.outcome = Outcome::interrupted;
             break;
         }
-        shuffle(train, training.seed, epoch);
+        detail::shuffle(train, training.seed, epoch);
         const std::vector<GraphBatch> batches = batches_from(train, width, config.batch_snapshots);
         const double train_loss = train_epoch(net, batches);
         const bool go_on = take_epoch(net, {train_loss, mean_loss(net, validation)}, config.patience, result);

@@ -61,7 +61,7 @@ struct CorrectedResult {
 /// prediction task; split by seed; the epoch chosen by the log loss of validation seeds; measured on test
 /// seeds. Candidates beyond `prediction::corrected_reach_m` count with probability 0, as in inference. Throws
 /// core::InputError when the files do not share one feature schema, hold fewer than three seeds, or a part
-/// holds no pair. Deterministic.
+/// lacks linked or unlinked pairs. Deterministic.
 CorrectedResult train_corrected(const std::vector<prediction::GraphSampleFile>& files,
                                 const CorrectedConfig& config, const TrainingHooks& hooks = {});
 

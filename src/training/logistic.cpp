@@ -13,10 +13,13 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "prediction/logistic.hpp"
+#include "training/detail/figures.hpp"
+#include "training/detail/sample_parts.hpp"
 
 namespace clearway::training {
 namespace {
 
+using detail::json_from;
 using prediction::pair_feature_count;
 using prediction::PairSampleFile;
 
@@ -24,10 +27,6 @@ using prediction::PairSampleFile;
 constexpr std::size_t parameter_count = pair_feature_count + 1;
 using Parameters = std::array<double, parameter_count>;
 using Curvature = std::array<Parameters, parameter_count>;
-
-DataSeed seed_of(const PairSampleFile& file) {
-    return {file.origin.study_seed, file.origin.replication};
-}
 
 Parameters inputs(const prediction::PairFeatures& features) {
     Parameters row{};
@@ -144,13 +143,13 @@ Parameters fit(const std::vector<const PairSampleFile*>& files, const LogisticCo
 std::vector<const PairSampleFile*> files_of(const std::vector<PairSampleFile>& files,
                                             const std::vector<DataSeed>& seeds, const char* part) {
     std::vector<const PairSampleFile*> chosen;
+    detail::LabelCounts counts;
     for (const PairSampleFile& file : files) {
-        if (!file.linked.empty() && std::ranges::binary_search(seeds, seed_of(file))) chosen.push_back(&file);
+        if (file.linked.empty() || !detail::is_of(file, seeds)) continue;
+        counts.add(file.linked);
+        chosen.push_back(&file);
     }
-    if (chosen.empty()) {
-        throw core::InputError({"--data", fmt::format("the {} seeds hold no candidate pair", part), "",
-                                "Record denser traffic, a sensor failure, or more seeds"});
-    }
+    detail::require_both_classes(counts, part);
     return chosen;
 }
 
@@ -163,18 +162,6 @@ void require_one_radius(const std::vector<PairSampleFile>& files) {
              fmt::format("links below {} m", file.origin.link_radius_m),
              fmt::format("{} m, as in the other files", files.front().origin.link_radius_m),
              "Record all files with one link radius"});
-    }
-}
-
-void require_both_classes(const std::vector<const PairSampleFile*>& files) {
-    for (const std::uint8_t label : {std::uint8_t{0}, std::uint8_t{1}}) {
-        const bool found = std::ranges::any_of(files, [&](const PairSampleFile* file) {
-            return std::ranges::find(file->linked, label) != file->linked.end();
-        });
-        if (found) continue;
-        throw core::InputError(
-            {"--data", fmt::format("no training pair is {}", label == 1 ? "linked" : "without a link"),
-             "pairs of both kinds", "Record denser traffic or more seeds"});
     }
 }
 
@@ -209,42 +196,15 @@ void measure(const Parameters& parameters, const std::vector<PairSampleFile>& fi
     }
 }
 
-template <class Struct>
-nlohmann::ordered_json json_from(const Struct& value) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    core::for_each_field<Struct>([&](const auto& field) {
-        const std::string unit = field.unit;
-        auto& slot = json[unit == "1" ? field.name : fmt::format("{}_{}", field.name, unit)];
-        const auto& member = value.*field.member;
-        if constexpr (requires { member.has_value(); }) {
-            if (member) slot = *member;
-        } else {
-            slot = member;
-        }
-    });
-    return json;
-}
-
-nlohmann::ordered_json json_from(const std::vector<DataSeed>& seeds) {
-    auto list = nlohmann::ordered_json::array();
-    for (const DataSeed& seed : seeds) {
-        list.push_back({{"study_seed", seed.study_seed}, {"replication", seed.replication}});
-    }
-    return list;
-}
-
 }  // namespace
 
 LogisticResult train_logistic(const std::vector<PairSampleFile>& files, const LogisticConfig& config) {
     require_one_radius(files);
     LogisticResult result;
-    std::vector<DataSeed> seeds;
-    std::ranges::transform(files, std::back_inserter(seeds), seed_of);
-    result.seeds = split_seeds(
-        seeds, {.seed = config.seed, .validation = config.validation_share, .test = config.test_share});
+    result.seeds = detail::split_files(
+        files, {.seed = config.seed, .validation = config.validation_share, .test = config.test_share});
 
     const std::vector<const PairSampleFile*> train = files_of(files, result.seeds.train, "training");
-    require_both_classes(train);
     for (const PairSampleFile* const file : train) {
         result.train_pairs += file->linked.size();
     }
@@ -256,19 +216,16 @@ LogisticResult train_logistic(const std::vector<PairSampleFile>& files, const Lo
     return result;
 }
 
+Identity identity_of(const LogisticConfig& config, const std::string& data_hash) {
+    return {{"mode", "logistic"}, {"data_hash", data_hash}, {"configuration", json_from(config)}};
+}
+
 nlohmann::ordered_json summary_of(const LogisticResult& result, const LogisticConfig& config,
                                   const std::filesystem::path& data, const std::string& data_hash) {
-    nlohmann::ordered_json summary;
-    summary["format"] = "clearway training summary 1";
-    summary["mode"] = "logistic";
-    summary["outcome"] = result.converged ? "finished" : "iterations_used_up";
-    summary["data"] = data.string();
-    summary["data_hash"] = data_hash;
-    summary["configuration"] = json_from(config);
+    nlohmann::ordered_json summary = detail::summary_start(
+        identity_of(config, data_hash), result.converged ? "finished" : "iterations_used_up", data);
     summary["iterations"] = result.iterations;
-    summary["seeds"] = {{"train", json_from(result.seeds.train)},
-                        {"validation", json_from(result.seeds.validation)},
-                        {"test", json_from(result.seeds.test)}};
+    summary["seeds"] = json_from(result.seeds);
     summary["train_pair_count"] = result.train_pairs;
     summary["final_train_loss_nat"] = result.train_loss;
     for (std::size_t i = 0; i < pair_feature_count; ++i) {

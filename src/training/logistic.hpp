@@ -6,11 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/fields.hpp"
 #include "metrics/link_quality.hpp"
 #include "prediction/pair_samples.hpp"
+#include "training/output_folder.hpp"
 #include "training/seeds.hpp"
 
 namespace clearway::training {
@@ -62,9 +61,12 @@ struct LogisticResult {
 /// Logistic regression on pair features by Newton's method (iteratively reweighted least squares; Hastie,
 /// Tibshirani, Friedman 2009, "The Elements of Statistical Learning", 4.4.1) with a small ridge. Split by
 /// seed as the net's training. Deterministic. Throws core::InputError: fewer than three seeds, files of
-/// different link radius, no pair in a part of the split, training pairs of one class only.
+/// different link radius, pairs of one class only in a part of the split.
 LogisticResult train_logistic(const std::vector<prediction::PairSampleFile>& files,
                               const LogisticConfig& config);
+
+/// What makes this training the one that it is.
+Identity identity_of(const LogisticConfig& config, const std::string& data_hash);
 
 /// The summary that `--json` prints and `summary.json` holds.
 nlohmann::ordered_json summary_of(const LogisticResult& result, const LogisticConfig& config,

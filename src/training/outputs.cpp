@@ -1,8 +1,12 @@
 #include "training/outputs.hpp"
 
+#include <map>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "training/detail/figures.hpp"
 #include "training/loss_curve.hpp"
@@ -13,24 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+using detail::csv_group;
 using detail::csv_value;
 using detail::field_name;
 using detail::json_from;
-using detail::json_from_seeds;
 using detail::json_value;
-
-Json base_summary(const char* mode, Outcome outcome, const RunDescription& run,
-                  const std::vector<EpochLoss>& losses) {
-    Json summary;
-    summary["format"] = "clearway training summary 1";
-    summary["mode"] = mode;
-    summary["outcome"] = name(outcome);
-    summary["data"] = run.data.string();
-    summary["data_hash"] = run.data_hash;
-    summary["configuration"] = json_from(run.training);
-    summary["epochs_run"] = losses.size();
-    return summary;
-}
 
 Json last_loss(const std::vector<EpochLoss>& losses, double EpochLoss::*member) {
     // Not finite becomes null, as JSON has no other word for it.
@@ -65,9 +56,22 @@ void write_common(const std::filesystem::path& folder, const std::vector<EpochLo
 
 }  // namespace
 
+Identity identity_of(PairChoice pairs, const RunDescription& run) {
+    return {{"mode", "as_published"},
+            {"data_hash", run.data_hash},
+            {"configuration", json_from(run.training)},
+            {"pairs", pairs == PairChoice::true_only ? "true-links" : "candidates"}};
+}
+
+Identity identity_of(const CorrectedConfig& config, const RunDescription& run) {
+    Json configuration = json_from(run.training);
+    configuration.update(json_from(config));
+    return {{"mode", "corrected"}, {"data_hash", run.data_hash}, {"configuration", configuration}};
+}
+
 Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
-    Json summary = base_summary("as_published", result.outcome, run, result.losses);
-    summary["pairs"] = pairs == PairChoice::true_only ? "true-links" : "candidates";
+    Json summary = detail::summary_start(identity_of(pairs, run), name(result.outcome), run.data);
+    summary["epochs_run"] = result.losses.size();
     summary["vehicle_count"] = result.dataset.vehicle_count();
     summary["feature_count"] = result.dataset.feature_count;
     summary["pair_count"] = result.dataset.pair_count();
@@ -91,11 +95,9 @@ Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDesc
 }
 
 Json summary_of(const CorrectedResult& result, const CorrectedConfig& config, const RunDescription& run) {
-    Json summary = base_summary("corrected", result.outcome, run, result.losses);
-    summary["configuration"].update(json_from(config));
-    summary["seeds"] = {{"train", json_from_seeds(result.seeds.train)},
-                        {"validation", json_from_seeds(result.seeds.validation)},
-                        {"test", json_from_seeds(result.seeds.test)}};
+    Json summary = detail::summary_start(identity_of(config, run), name(result.outcome), run.data);
+    summary["epochs_run"] = result.losses.size();
+    summary["seeds"] = json_from(result.seeds);
     summary["train_snapshot_count"] = result.train_snapshots;
     summary["train_pair_count"] = result.train_pairs;
     summary["final_train_loss_nat"] = last_loss(result.losses, &EpochLoss::train);
@@ -141,7 +143,7 @@ std::string metrics_csv(const CorrectedResult& result) {
         [&](const auto& field) { text += "," + field_name(field.name, field.unit); });
     text += ",dead_reckoning_auc,dead_reckoning_ap,dead_reckoning_f1\n";
     for (const GroupQuality& group : result.groups) {
-        text += group.scenario.empty() ? "all,all" : group.scenario + "," + group.failure;
+        text += csv_group(group.scenario) + "," + csv_group(group.failure);
         core::for_each_field<metrics::LinkQuality>(
             [&](const auto& field) { text += "," + csv_value(group.net.*field.member); });
         text += fmt::format(",{},{},{}\n", csv_value(group.dead_reckoning.auc),
@@ -172,6 +174,20 @@ std::string hash_of_files(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files)
         hashes += core::content_hash(core::read_file(file));
     return core::content_hash(hashes);
+}
+
+void require_distinct(const std::vector<std::filesystem::path>& files,
+                      const std::vector<std::string>& hashes) {
+    std::map<std::string, std::filesystem::path> first;
+    std::vector<core::Problem> problems;
+    for (std::size_t at = 0; at < files.size(); ++at) {
+        const auto [earlier, is_new] = first.emplace(hashes[at], files[at]);
+        if (is_new) continue;
+        problems.push_back({files[at].string(),
+                            fmt::format("holds the same as {}", earlier->second.filename().string()),
+                            "each recording once", "Remove one of them"});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
 }  // namespace clearway::training

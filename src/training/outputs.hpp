@@ -3,10 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "training/as_published.hpp"
 #include "training/corrected.hpp"
+#include "training/output_folder.hpp"
 
 namespace clearway::training {
 
@@ -16,6 +15,10 @@ struct RunDescription {
     std::string data_hash;  ///< Over all files read.
     TrainingConfig training;
 };
+
+/// What makes a training the one that it is.
+Identity identity_of(PairChoice pairs, const RunDescription& run);
+Identity identity_of(const CorrectedConfig& config, const RunDescription& run);
 
 /// The summary of a training: configuration, seeds, counts, final losses, quality. Numbers that are not
 /// defined are null. It is what `--json` prints and `summary.json` holds.
@@ -44,5 +47,9 @@ void write_outputs(const std::filesystem::path& folder, const CorrectedResult& r
 
 /// Hash over the content of files, for the summary. Throws core::InputError.
 std::string hash_of_files(const std::vector<std::filesystem::path>& files);
+
+/// Throws core::InputError naming files of one content, which would count twice. `hashes`: of their contents.
+void require_distinct(const std::vector<std::filesystem::path>& files,
+                      const std::vector<std::string>& hashes);
 
 }  // namespace clearway::training

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "training/detail/sample_parts.hpp"
 #include "training/repair_checkpoint.hpp"
 
 namespace clearway::training {
@@ -21,35 +20,21 @@ using prediction::RepairSample;
 using prediction::RepairSampleFile;
 using Samples = std::vector<const RepairSample*>;
 
-DataSeed seed_of(const RepairSampleFile& file) {
-    return {file.origin.study_seed, file.origin.replication};
-}
-
-bool is_of(const RepairSampleFile& file, const std::vector<DataSeed>& seeds) {
-    return std::ranges::binary_search(seeds, seed_of(file));
-}
-
 Samples samples_of(const std::vector<RepairSampleFile>& files, const std::vector<DataSeed>& seeds) {
     Samples samples;
     for (const RepairSampleFile& file : files) {
-        if (!is_of(file, seeds)) continue;
+        if (!detail::is_of(file, seeds)) continue;
         for (const RepairSample& sample : file.samples)
             samples.push_back(&sample);
     }
     return samples;
 }
 
-void require_both_classes(const Samples& samples, const char* part) {
-    std::set<std::uint8_t> labels;
+detail::LabelCounts labels_of(const Samples& samples) {
+    detail::LabelCounts counts;
     for (const RepairSample* const sample : samples)
-        labels.insert(sample->linked.begin(), sample->linked.end());
-    if (labels.size() == 2) return;
-    throw core::InputError({"--data",
-                            labels.empty() ? fmt::format("the {} seeds hold no candidate pair", part)
-                                           : fmt::format("the {} seeds hold only pairs that are {}linked",
-                                                         part, *labels.begin() == 1 ? "" : "not "),
-                            "linked and unlinked pairs in each part",
-                            "Record denser traffic, a sensor failure, or more seeds"});
+        counts.add(sample->linked);
+    return counts;
 }
 
 void check_radius(const std::vector<RepairSampleFile>& files) {
@@ -71,15 +56,6 @@ Samples thinned(const Samples& samples, std::size_t most) {
     for (std::size_t i = 0; i < most; ++i)
         kept.push_back(samples[i * samples.size() / most]);
     return kept;
-}
-
-/// A new order each epoch, the same for the same training seed.
-Samples shuffled(Samples samples, std::uint64_t seed, std::uint32_t epoch) {
-    const core::KeyedRandom random(core::StudySeed{seed}, core::Replication{epoch});
-    for (std::size_t left = samples.size(); left > 1; --left) {
-        std::swap(samples[left - 1], samples[random.below(left, core::Purpose::training, left)]);
-    }
-    return samples;
 }
 
 template <class Visit>
@@ -152,9 +128,11 @@ class Training {
         const double rate = config_.learning_rate * 0.5 * (1.0 + std::cos(std::numbers::pi * share));
         const PairSampling sampling{
             config_.easy_share, core::KeyedRandom(core::StudySeed{config_.seed}, core::Replication{epoch})};
+        Samples order = train_;
+        detail::shuffle(order, config_.seed, epoch);
         MeanLoss loss;
         bool finite = true;
-        for_each_batch(shuffled(train_, config_.seed, epoch), config_.batch_snapshots, [&](const auto& part) {
+        for_each_batch(order, config_.batch_snapshots, [&](const auto& part) {
             if (!finite) return;
             const RepairBatch batch = batch_of(part, config_.edges, sampling);
             if (batch.pair_count() == 0) return;
@@ -262,8 +240,8 @@ void measure(const TorchRepairNet& net, const std::vector<RepairSampleFile>& fil
     std::map<std::string, Scores> by_failure;
     std::map<std::pair<std::string, std::string>, Scores> by_both;
     for (const RepairSampleFile& file : files) {
-        if (is_of(file, result.seeds.validation)) validation.append(scores_of(net, config, file));
-        if (!is_of(file, result.seeds.test)) continue;
+        if (detail::is_of(file, result.seeds.validation)) validation.append(scores_of(net, config, file));
+        if (!detail::is_of(file, result.seeds.test)) continue;
         const Scores scores = scores_of(net, config, file);
         all.append(scores);
         by_failure[file.origin.failure].append(scores);
@@ -305,14 +283,13 @@ RepairResult train_repair(const std::vector<RepairSampleFile>& files, const Repa
     }
     check_radius(files);
     RepairResult result;
-    std::vector<DataSeed> seeds;
-    std::ranges::transform(files, std::back_inserter(seeds), seed_of);
-    result.seeds = split_seeds(seeds, {config.split_seed, config.validation_share, config.test_share});
+    result.seeds =
+        detail::split_files(files, {config.split_seed, config.validation_share, config.test_share});
     const Samples train = thinned(samples_of(files, result.seeds.train), config.most_snapshots);
     const Samples validation = samples_of(files, result.seeds.validation);
-    require_both_classes(train, "training");
-    require_both_classes(validation, "validation");
-    require_both_classes(samples_of(files, result.seeds.test), "test");
+    detail::require_both_classes(labels_of(train), "training");
+    detail::require_both_classes(labels_of(validation), "validation");
+    detail::require_both_classes(labels_of(samples_of(files, result.seeds.test)), "test");
     result.train_snapshots = train.size();
     for (const RepairSample* const sample : train)
         result.train_pairs += sample->linked.size();

@@ -1,12 +1,15 @@
 #include "training/repair_checkpoint.hpp"
 
-#include <type_traits>
+#include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "training/output_folder.hpp"
+#include "training/repair_outputs.hpp"
 #include "training/state_dict.hpp"
 
 namespace clearway::training {
@@ -14,21 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What must be the same for a training to go on: all of the configuration, the number of epochs included,
-/// because the learning rate's course depends on it.
-Json identity_of(const Checkpoint& checkpoint, const RepairConfig& config) {
-    Json json = {{"format", "clearway training checkpoint 1"}, {"data_hash", checkpoint.data_hash}};
-    core::for_each_field<RepairConfig>([&](const auto& field) {
-        const auto& value = config.*field.member;
-        using Value = std::remove_cvref_t<decltype(value)>;
-        if constexpr (std::is_enum_v<Value>) {
-            json[field.name] = static_cast<int>(value);
-        } else {
-            json[field.name] = value;
-        }
-    });
-    return json;
-}
+constexpr const char* format = "clearway training checkpoint 2";
 
 constexpr std::string_view net_prefix = "net.";
 constexpr std::string_view best_prefix = "best.";
@@ -54,20 +43,40 @@ StateDict part_of(const StateDict& all, std::string_view prefix) {
 std::filesystem::path tensors_of(const Checkpoint& checkpoint) {
     return checkpoint.folder / "checkpoint.pth";
 }
-std::filesystem::path identity_file_of(const Checkpoint& checkpoint) {
-    return checkpoint.folder / "checkpoint.json";
+std::filesystem::path head_of(const Checkpoint& checkpoint) {
+    return checkpoint.folder / checkpoint_file;
 }
 
-void require_same(const Json& found, const Json& wanted, const std::filesystem::path& file) {
-    std::vector<core::Problem> problems;
-    for (const auto& [key, value] : wanted.items()) {
-        const Json other = found.contains(key) ? found[key] : Json(nullptr);
-        if (other == value) continue;
-        problems.push_back({file.string(), fmt::format("was made with {} = {}", key, other.dump()),
-                            fmt::format("{} = {}, as this training has", key, value.dump()),
-                            "Train into another folder, or remove the checkpoint"});
+/// The hashes that the tensors may have: of the newest checkpoint, and of that before it, if there was one.
+std::vector<std::string> content_hashes(const Checkpoint& checkpoint, const RepairConfig& config) {
+    const std::filesystem::path file = head_of(checkpoint);
+    if (!std::filesystem::exists(file))
+        throw core::InputError({file.string(), "is missing beside checkpoint.pth", "", cure_anew});
+    try {
+        const Json head = Json::parse(core::read_file(file));
+        if (head.at("format") != format)
+            throw core::InputError({file.string(), head["format"].dump(), format, cure_anew});
+        require_same_training(head, identity_of(config, checkpoint.data_hash), file);
+        return head.at("content_hashes").get<std::vector<std::string>>();
+    } catch (const Json::exception& error) {
+        throw core::InputError({file.string(), error.what(), "a checkpoint of clearway train", cure_anew});
     }
-    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+/// Whether there is a checkpoint, whole and of this training.
+bool exists(const Checkpoint& checkpoint, const RepairConfig& config) {
+    const std::filesystem::path file = tensors_of(checkpoint);
+    const bool has_tensors = std::filesystem::exists(file);
+    if (!has_tensors && !std::filesystem::exists(head_of(checkpoint))) return false;
+    const std::vector<std::string> allowed = content_hashes(checkpoint, config);
+    if (!has_tensors && allowed.size() == 1) return false;  // Killed between the files of the very first.
+    if (!has_tensors)
+        throw core::InputError({file.string(), "is missing beside checkpoint.json", "", cure_anew});
+    const std::string found = core::content_hash(core::read_file(file));
+    if (std::ranges::find(allowed, found) != allowed.end()) return true;
+    throw core::InputError({file.string(), fmt::format("its content hashes to {}", found),
+                            fmt::format("{}, as checkpoint.json says", fmt::join(allowed, " or ")),
+                            "It was changed or damaged. " + std::string(cure_anew)});
 }
 
 }  // namespace
@@ -88,21 +97,18 @@ void write_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config,
     all.push_back(
         {"best_epoch", {2}, {static_cast<float>(progress.best_epoch), progress.stopped_early ? 1.0F : 0.0F}});
     core::make_folder(checkpoint.folder);
-    core::write_atomically(identity_file_of(checkpoint), identity_of(checkpoint, config).dump(2) + "\n");
-    write_pth(tensors_of(checkpoint), all);
+    const std::string tensors = format_pth(all, tensors_of(checkpoint).stem().string());
+    Json head = {{"format", format}, {"content_hashes", {core::content_hash(tensors)}}};
+    // Two files cannot be replaced at once: until the second is, the first fits the one before as well.
+    if (std::filesystem::exists(tensors_of(checkpoint)))
+        head["content_hashes"].push_back(core::content_hash(core::read_file(tensors_of(checkpoint))));
+    head.update(identity_of(config, checkpoint.data_hash));
+    core::write_atomically(head_of(checkpoint), head.dump(2) + "\n");
+    core::write_atomically(tensors_of(checkpoint), tensors);
 }
 
 bool read_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config, RepairProgress& progress) {
-    if (checkpoint.folder.empty() || !std::filesystem::exists(tensors_of(checkpoint))) return false;
-    const std::filesystem::path file = identity_file_of(checkpoint);
-    Json found;
-    try {
-        found = Json::parse(core::read_file(file));
-    } catch (const Json::exception& error) {
-        throw core::InputError({file.string(), error.what(), "a checkpoint of clearway train",
-                                "Remove checkpoint.json and checkpoint.pth to start anew"});
-    }
-    require_same(found, identity_of(checkpoint, config), file);
+    if (checkpoint.folder.empty() || !exists(checkpoint, config)) return false;
     const StateDict all = read_pth(tensors_of(checkpoint).string());
     progress.net = part_of(all, net_prefix);
     progress.best = part_of(all, best_prefix);
@@ -111,8 +117,7 @@ bool read_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config, R
     const StateDict best = part_of(all, "best_epoch");
     if (losses.size() != 1 || best.size() != 1 || best.front().values.size() != 2) {
         throw core::InputError({tensors_of(checkpoint).string(), "lacks its losses",
-                                "a checkpoint of clearway train",
-                                "Remove checkpoint.json and checkpoint.pth to start anew"});
+                                "a checkpoint of clearway train", cure_anew});
     }
     progress.losses.clear();
     for (std::size_t at = 0; at + 1 < losses.front().values.size(); at += 2) {

@@ -10,16 +10,23 @@
 namespace clearway::training {
 namespace {
 
+using detail::csv_group;
 using detail::csv_value;
 using detail::field_name;
 using detail::Json;
 using detail::json_from;
-using detail::json_from_seeds;
+
+/// An interrupted training ends without the measuring.
+bool is_measured(const RepairResult& result) {
+    return !result.groups.empty();
+}
 
 std::vector<std::string> notes_of(const RepairResult& result, const RepairConfig& config,
                                   const std::string& data_hash) {
     return {fmt::format("trained by clearway train graphsage, seed {}, data {}", config.seed, data_hash),
-            fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold)};
+            is_measured(result)
+                ? fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold)
+                : fmt::format("interrupted after epoch {}, not measured", result.losses.size())};
 }
 
 }  // namespace
@@ -36,21 +43,17 @@ prediction::Weights repair_weights(const StateDict& state, const prediction::Rep
     return weights;
 }
 
+Identity identity_of(const RepairConfig& config, const std::string& data_hash) {
+    return {{"mode", "graphsage"}, {"data_hash", data_hash}, {"configuration", json_from(config)}};
+}
+
 Json summary_of(const RepairResult& result, const RepairConfig& config, const std::filesystem::path& data,
                 const std::string& data_hash) {
-    Json summary;
-    summary["format"] = "clearway training summary 1";
-    summary["mode"] = "graphsage";
-    summary["outcome"] = name(result.outcome);
-    summary["data"] = data.string();
-    summary["data_hash"] = data_hash;
-    summary["configuration"] = json_from(config);
+    Json summary = detail::summary_start(identity_of(config, data_hash), name(result.outcome), data);
     summary["parameter_count"] = result.parameter_count;
     summary["epochs_run"] = result.losses.size();
     summary["best_epoch"] = result.state.empty() ? Json(nullptr) : Json(result.best_epoch);
-    summary["seeds"] = {{"train", json_from_seeds(result.seeds.train)},
-                        {"validation", json_from_seeds(result.seeds.validation)},
-                        {"test", json_from_seeds(result.seeds.test)}};
+    summary["seeds"] = json_from(result.seeds);
     summary["train_snapshot_count"] = result.train_snapshots;
     summary["train_pair_count"] = result.train_pairs;
     summary["final_train_loss_nat"] =
@@ -76,8 +79,7 @@ std::string metrics_csv(const RepairResult& result) {
     text += ",displacement_error_m\n";
     const auto row = [&](const RepairGroup& group, const char* predictor, const metrics::LinkQuality& quality,
                          double error_m) {
-        text += fmt::format("{},{},{}", group.scenario.empty() ? "all" : group.scenario,
-                            group.failure.empty() ? "all" : group.failure, predictor);
+        text += fmt::format("{},{},{}", csv_group(group.scenario), csv_group(group.failure), predictor);
         core::for_each_field<metrics::LinkQuality>(
             [&](const auto& field) { text += "," + csv_value(quality.*field.member); });
         text += fmt::format(",{}\n", csv_value(error_m));
@@ -97,7 +99,7 @@ void write_outputs(const std::filesystem::path& folder, const RepairResult& resu
     core::write_atomically(folder / "summary.json",
                            summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (result.state.empty()) return;
-    core::write_atomically(folder / "metrics.csv", metrics_csv(result));
+    if (is_measured(result)) core::write_atomically(folder / "metrics.csv", metrics_csv(result));
     if (!config.is_whole()) return;
     prediction::Weights weights = repair_weights(result.state, config.net().dimensions);
     weights.notes = notes_of(result, config, summary["data_hash"].get<std::string>());

@@ -27,8 +27,15 @@ SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares) {
         return std::max<std::size_t>(
             1, static_cast<std::size_t>(std::lround(share * static_cast<double>(seeds.size()))));
     };
-    const std::size_t test = std::min(part(shares.test), seeds.size() - 2);
-    const std::size_t validation = std::min(part(shares.validation), seeds.size() - test - 1);
+    const std::size_t test = part(shares.test);
+    const std::size_t validation = part(shares.validation);
+    if (test + validation >= seeds.size()) {
+        throw core::InputError({"--validation-share, --test-share",
+                                fmt::format("{} and {} take {} and {} of {} seeds", shares.validation,
+                                            shares.test, validation, test, seeds.size()),
+                                "shares that leave a seed to train on",
+                                "Give smaller shares, or record more replications"});
+    }
     const auto first_validation = seeds.begin() + static_cast<std::ptrdiff_t>(test);
     const auto first_train = first_validation + static_cast<std::ptrdiff_t>(validation);
     SeedSplit split{

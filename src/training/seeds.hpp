@@ -24,7 +24,7 @@ struct SplitShares {
 };
 
 /// Deals the seeds by a keyed draw: at least one to each part. Throws core::InputError for fewer than three
-/// seeds.
+/// seeds, and for shares that leave none to train on.
 SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares);
 
 }  // namespace clearway::training

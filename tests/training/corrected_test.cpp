@@ -119,7 +119,12 @@ TEST(SplitSeeds, no_part_is_empty) {
     SplitShares greedy;
     greedy.test = 0.8;
     greedy.validation = 0.8;
-    const SeedSplit split = split_seeds(seeds_upto(3), greedy);
+    EXPECT_THAT(message_of([&] { split_seeds(seeds_upto(10), greedy); }),
+                HasSubstr("0.8 and 0.8 take 8 and 8 of 10 seeds (allowed: shares that leave a seed"));
+    SplitShares sparing;
+    sparing.test = 0.01;
+    sparing.validation = 0.01;
+    const SeedSplit split = split_seeds(seeds_upto(3), sparing);
     EXPECT_EQ(split.train.size(), 1U);
     EXPECT_EQ(split.validation.size(), 1U);
     EXPECT_EQ(split.test.size(), 1U);
@@ -219,6 +224,23 @@ TEST(TrainCorrected, a_part_without_pairs_is_said) {
     }
     EXPECT_THAT(message_of([&] { train_corrected(files, {}); }),
                 HasSubstr("the training seeds hold no candidate pair"));
+}
+
+TEST(TrainCorrected, a_part_of_one_class_is_said) {
+    for (const std::uint8_t label : {std::uint8_t{0}, std::uint8_t{1}}) {
+        auto files = synthetic_files(3, 4);
+        const DataSeed of_test = train_corrected(files, {}, {{}, [] { return true; }}).seeds.test.front();
+        for (auto& file : files) {
+            if (file.origin.replication != of_test.replication) continue;
+            for (auto& sample : file.samples) {
+                for (auto& pair : sample.candidates)
+                    pair.linked = label;
+            }
+        }
+        EXPECT_THAT(message_of([&] { train_corrected(files, {}); }),
+                    HasSubstr(label == 1 ? "the test seeds hold only pairs that are linked"
+                                         : "the test seeds hold only pairs that are not linked"));
+    }
 }
 
 TEST(TrainCorrected, interruption_keeps_the_best_so_far) {

@@ -115,7 +115,7 @@ TEST(TrainLogistic, RefusesDataThatTeachNothing) {
     std::vector<prediction::PairSampleFile> one_class = drawn_files(4);
     for (prediction::PairSampleFile& file : one_class)
         std::ranges::fill(file.linked, std::uint8_t{1});
-    EXPECT_THAT(refusal(one_class), HasSubstr("no training pair is without a link"));
+    EXPECT_THAT(refusal(one_class), HasSubstr("the training seeds hold only pairs that are linked"));
     std::vector<prediction::PairSampleFile> empty = drawn_files(4);
     for (prediction::PairSampleFile& file : empty) {
         file.features.clear();

@@ -131,6 +131,89 @@ TEST(Outputs, the_folder_holds_a_model_that_inference_takes) {
     EXPECT_THAT(weights.notes, ElementsAre("trained by clearway train, as_published, seed 1, data abc"));
 }
 
+TEST(Outputs, files_of_one_content_are_named) {
+    EXPECT_NO_THROW(require_distinct({"a.samples", "b.samples"}, {"1", "2"}));
+    try {
+        require_distinct({"d/a.samples", "d/b.samples", "d/c.samples"}, {"1", "2", "1"});
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("d/c.samples: holds the same as a.samples"));
+    }
+}
+
+TEST(Outputs, too_few_pairs_are_told_with_their_file) {
+    const prediction::PairDataset one{2, {0, 0, 1, 0}, {0}, {1}, {1}};
+    try {
+        train_as_published(one, PairChoice::true_only, {}, {}, "data");
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("data/target_y.csv: 1 true pair (allowed: 5 or more)"));
+    }
+}
+
+class OutputFolderTest : public testing::Test {
+  protected:
+    static Identity identity(double learning_rate = 0.01) {
+        return {{"mode", "corrected"},
+                {"data_hash", "abc"},
+                {"configuration", {{"epochs", 3}, {"learning_rate", learning_rate}}}};
+    }
+    void write_summary(const Identity& of, const char* outcome) const {
+        Identity summary = of;
+        summary["outcome"] = outcome;
+        folder_.write("summary.json", summary.dump());
+    }
+    std::string refusal(const Identity& of) const {
+        try {
+            const OutputFolder folder(folder_.path(), of);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(OutputFolderTest, takes_the_same_training_again_and_refuses_another) {
+    EXPECT_EQ(refusal(identity()), "accepted");
+    write_summary(identity(), "finished");
+    EXPECT_EQ(refusal(identity()), "accepted");
+    EXPECT_THAT(refusal(identity(0.5)),
+                testing::AllOf(HasSubstr("summary.json: was made with learning_rate = 0.01"),
+                               HasSubstr("learning_rate = 0.5, as this training has"), HasSubstr("--out")));
+    Identity other_data = identity();
+    other_data["data_hash"] = "def";
+    EXPECT_THAT(refusal(other_data), HasSubstr("data_hash = \"abc\""));
+    const Identity other_mode = {{"mode", "logistic"}, {"data_hash", "abc"}, {"configuration", {}}};
+    EXPECT_THAT(refusal(other_mode), HasSubstr("mode = \"corrected\""));
+}
+
+TEST_F(OutputFolderTest, refuses_a_folder_whose_training_cannot_be_told) {
+    folder_.write("summary.json", "{");
+    EXPECT_THAT(refusal(identity()), HasSubstr("summary.json"));
+    folder_.write("summary.json", "[1]");
+    EXPECT_THAT(refusal(identity()), HasSubstr("mode = null"));
+}
+
+TEST_F(OutputFolderTest, refuses_the_checkpoint_of_another_training) {
+    Identity graphsage = identity();
+    graphsage["mode"] = "graphsage";
+    folder_.write("checkpoint.json", graphsage.dump());
+    EXPECT_EQ(refusal(graphsage), "accepted");
+    EXPECT_THAT(refusal(identity()), HasSubstr("checkpoint.json: was made with mode = \"graphsage\""));
+}
+
+TEST_F(OutputFolderTest, keeps_what_an_interruption_would_lose) {
+    EXPECT_TRUE(OutputFolder(folder_.path(), identity()).keeps_earlier(Outcome::interrupted, 0));
+    EXPECT_FALSE(OutputFolder(folder_.path(), identity()).keeps_earlier(Outcome::interrupted, 2));
+    write_summary(identity(), "interrupted");
+    EXPECT_FALSE(OutputFolder(folder_.path(), identity()).keeps_earlier(Outcome::interrupted, 2));
+    write_summary(identity(), "finished");
+    EXPECT_TRUE(OutputFolder(folder_.path(), identity()).keeps_earlier(Outcome::interrupted, 2));
+    EXPECT_FALSE(OutputFolder(folder_.path(), identity()).keeps_earlier(Outcome::finished, 3));
+}
+
 TEST(Outputs, without_good_parameters_there_is_no_model) {
     const support::TemporaryFolder folder;
     AsPublishedResult result = small_result();
@@ -148,10 +231,13 @@ TEST(Outputs, metrics_of_groups_have_a_column_for_every_figure) {
     group.net.pairs = 7;
     group.net.ap = 0.5;
     group.dead_reckoning.auc = 0.75;
-    result.groups = {group};
+    GroupQuality of_fields = group;
+    of_fields.failure = "B10,dark_share=0.5";
+    result.groups = {group, of_fields};
     EXPECT_EQ(metrics_csv(result),
               "scenario,failure,pairs,true_links,auc,ap,f1,log_loss_nat,ece,threshold,dead_reckoning_auc,"
-              "dead_reckoning_ap,dead_reckoning_f1\nmerge,B10,7,0,,0.5,,,,0.5,0.75,,\n");
+              "dead_reckoning_ap,dead_reckoning_f1\nmerge,B10,7,0,,0.5,,,,0.5,0.75,,\n"
+              "merge,\"B10,dark_share=0.5\",7,0,,0.5,,,,0.5,0.75,,\n");
 }
 
 }  // namespace

@@ -121,10 +121,46 @@ TEST_F(TrainProgramTest, wrong_usage_exits_with_2) {
     EXPECT_EQ(train({"--data", data(), "--out", out(), "--unknown"}).exit.code, 2);
 }
 
+TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
+    EXPECT_THAT(train({"graphsag", "--data", data(), "--out", out()}).output,
+                HasSubstr("clearway train: graphsag is not known here, did you mean graphsage?"));
+    EXPECT_THAT(train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
+                HasSubstr("clearway train graphsage: --epoch is not known here, did you mean --epochs?"));
+    EXPECT_THAT(train({"--data", data()}).output, HasSubstr("clearway train: --out is required"));
+}
+
+TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
+    const std::vector<std::vector<std::string>> calls = {{"--learning-rate"},
+                                                         {"--corrected", "--validation-share"},
+                                                         {"--logistic", "--ridge"},
+                                                         {"graphsage", "--easy-share"}};
+    for (std::vector<std::string> call : calls) {
+        const std::string option = call.back();
+        call.insert(call.end(), {"nan", "--data", data(), "--out", out()});
+        const Ended ended = train(call);
+        EXPECT_EQ(ended.exit.code, 2) << option;
+        EXPECT_THAT(ended.output, AllOf(HasSubstr(option), HasSubstr("nan is out of range (allowed: ")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(TrainProgramTest, a_folder_holds_one_training) {
+    ASSERT_EQ(train({"--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
+    const std::string model = core::read_file(out() + "/GraphSAGENet.pth");
+    const std::string stray = folder_.write("out/checkpoint.json.2147483647.part", "{");
+    const Ended other = train({"--data", data(), "--out", out(), "--quiet", "--epochs", "4"});
+    EXPECT_EQ(other.exit.code, 3);
+    EXPECT_THAT(other.output, AllOf(HasSubstr("out/summary.json: was made with epochs = 3"),
+                                    HasSubstr("epochs = 4, as this training has"), HasSubstr("--out")));
+    EXPECT_EQ(core::read_file(out() + "/GraphSAGENet.pth"), model);
+    EXPECT_FALSE(std::filesystem::exists(stray)) << "what a killed writer left";
+    EXPECT_EQ(train({"--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
+}
+
 TEST_F(TrainProgramTest, divergence_exits_with_1_says_so_and_keeps_a_model) {
     const Ended ended = train({"--data", data(), "--out", out(), "--quiet", "--learning-rate", "1e20"});
     EXPECT_EQ(ended.exit.code, 1);
-    EXPECT_THAT(ended.output, HasSubstr("training diverged in epoch 1"));
+    EXPECT_THAT(ended.output, HasSubstr("training diverged after 1 good epoch:"));
     EXPECT_TRUE(std::filesystem::exists(out() + "/GraphSAGENet.pth"));
     EXPECT_THAT(core::read_file(out() + "/summary.json"), HasSubstr("\"outcome\": \"diverged\""));
 }

@@ -100,8 +100,61 @@ TEST(TrainRepair, refuses_a_checkpoint_of_another_training) {
                     train_repair(files, config, {checkpoint.folder, "other data"});
                 }),
                 HasSubstr("data_hash"));
-    core::write_atomically(checkpoint.folder / "checkpoint.json", "{");
-    EXPECT_THAT(message_of([&] { train_repair(files, config, checkpoint); }), HasSubstr("checkpoint.json"));
+}
+
+TEST(TrainRepair, a_damaged_checkpoint_tells_how_to_start_anew) {
+    const support::TemporaryFolder folder;
+    const std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.epochs = 2;
+    const Checkpoint checkpoint{folder.path() / "training", "hash"};
+    train_repair(files, config, checkpoint);
+    const std::filesystem::path head = checkpoint.folder / "checkpoint.json";
+    const std::filesystem::path tensors = checkpoint.folder / "checkpoint.pth";
+    const std::string head_bytes = core::read_file(head);
+    const std::string bytes = core::read_file(tensors);
+    const auto expect_refusal = [&](const std::string& what) {
+        EXPECT_THAT(message_of([&] { train_repair(files, config, checkpoint); }),
+                    ::testing::AllOf(HasSubstr(what),
+                                     HasSubstr("Remove checkpoint.json and checkpoint.pth to start anew")));
+    };
+    core::write_atomically(tensors, bytes.substr(0, bytes.size() / 2));
+    expect_refusal("checkpoint.pth: its content hashes to");
+    std::string flipped = bytes;
+    flipped[bytes.size() / 2] ^= 1;
+    core::write_atomically(tensors, flipped);
+    expect_refusal("checkpoint.pth: its content hashes to");
+    std::filesystem::remove(tensors);
+    expect_refusal("checkpoint.pth: is missing");
+    core::write_atomically(tensors, bytes);
+    std::filesystem::remove(head);
+    expect_refusal("checkpoint.json: is missing");
+    core::write_atomically(head, "{");
+    expect_refusal("checkpoint.json");
+    core::write_atomically(head, "{\"format\": \"clearway training checkpoint 1\"}");
+    expect_refusal("clearway training checkpoint 1");
+    core::write_atomically(head, head_bytes);
+    EXPECT_EQ(message_of([&] { train_repair(files, config, checkpoint); }), "");
+}
+
+TEST(TrainRepair, goes_on_when_killed_between_the_files_of_a_checkpoint) {
+    const support::TemporaryFolder folder;
+    const std::vector<RepairSampleFile> files = runs(4, 4);
+    RepairConfig config = short_training();
+    config.epochs = 3;
+    const RepairResult whole = train_repair(files, config, {});
+    const Checkpoint checkpoint{folder.path() / "training", "hash"};
+    const std::filesystem::path tensors = checkpoint.folder / "checkpoint.pth";
+    std::string before;
+    TrainingHooks hooks;
+    hooks.on_epoch = [&](std::uint32_t epoch, const EpochLoss&) {
+        if (epoch == 0) before = core::read_file(tensors);
+    };
+    int asked = 0;
+    hooks.should_stop = [&] { return ++asked > 2; };
+    train_repair(files, config, checkpoint, hooks);
+    core::write_atomically(tensors, before);
+    EXPECT_TRUE(same_state(train_repair(files, config, checkpoint).state, whole.state));
 }
 
 TEST(TrainRepair, divergence_stops_and_keeps_the_last_good_checkpoint) {
@@ -192,9 +245,35 @@ TEST(RepairOutputs, the_folder_holds_a_model_unless_it_is_an_ablation) {
     EXPECT_NO_THROW(prediction::RepairNet{weights});
     EXPECT_THAT(weights.notes.front(), HasSubstr("hash"));
     EXPECT_THAT(core::read_file(folder.path() / "whole" / "metrics.csv"), HasSubstr("all,all,route_rule,"));
+    const auto configuration = summary_of(result, config, "data", "hash")["configuration"];
+    EXPECT_EQ(configuration["aggregation"], "gated");
+    EXPECT_EQ(configuration["edges"], "believed");
+    EXPECT_EQ(configuration["motion_head"], true);
     config.layers = 0;
     write_outputs(folder.path() / "ablation", result, config, summary_of(result, config, "data", "hash"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "ablation" / "graphsage.weights"));
+}
+
+TEST(RepairOutputs, every_row_of_the_metrics_has_as_many_cells_as_the_header) {
+    RepairResult result;
+    result.groups = {{"line", "B10,dark_share=0.5", {}, {}, 0.0, 0.0}};
+    const std::string csv = metrics_csv(result);
+    EXPECT_THAT(csv, HasSubstr("\nline,\"B10,dark_share=0.5\",graphsage,"));
+    const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
+    const std::string header = csv.substr(0, csv.find('\n'));
+    EXPECT_EQ(commas(csv), 3 * commas(header) + 2) << "two rows, each with one comma inside quotes";
+}
+
+TEST(RepairOutputs, an_interrupted_training_claims_nothing_measured) {
+    const support::TemporaryFolder folder;
+    const RepairConfig config = short_training();
+    int asked = 0;
+    const RepairResult result = train_repair(runs(4, 4), config, {}, {{}, [&] { return ++asked > 2; }});
+    write_outputs(folder.path(), result, config, summary_of(result, config, "data", "hash"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "metrics.csv"));
+    const prediction::Weights weights = prediction::read_weights(folder.path() / "graphsage.weights");
+    EXPECT_THAT(weights.notes,
+                ::testing::ElementsAre(HasSubstr("hash"), "interrupted after epoch 2, not measured"));
 }
 
 class RepairSampleFileTest : public ::testing::Test {
