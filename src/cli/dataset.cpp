@@ -14,6 +14,10 @@
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
+#include "core/number_range.hpp"
+#include "prediction/dataset_files.hpp"
+#include "prediction/graph_sample.hpp"
+#include "prediction/pair_samples.hpp"
 #include "results/dataset_order.hpp"
 #include "scenario/network.hpp"
 
@@ -35,28 +39,69 @@ void check_failures(const std::vector<std::string>& failures) {
     std::vector<core::Problem> problems;
     for (const std::string& failure : failures) {
         check_failure("--failure", failure, problems);
+        if (failure.find("exits") == std::string::npos) continue;
+        // Files are named, and their samples labelled, by --exits.
+        problems.push_back({fmt::format("--failure `{}`", failure), "sets `exits`, which has its own option",
+                            "", "Give --exits known or --exits unknown"});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
-/// One order per replication, on a scenario and network stored below `origin/` of the data set.
-std::vector<results::DatasetOrder> make_orders(const Arguments& arguments) {
-    const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
+/// One order per replication, on a scenario and network below `origin/` of the data set.
+std::vector<results::DatasetOrder> make_orders(const Arguments& arguments, const std::string& scenario) {
     results::DatasetOrder order = arguments.order;
-    order.scenario = config.name;
+    order.scenario = scenario;
     order.output = arguments.folder;
-    const std::filesystem::path origin = order.output / "origin" / config.name;
-    core::make_folder(origin);
-    scenario::store(config, origin);
+    const std::filesystem::path origin = order.output / "origin" / scenario;
     order.scenario_file = origin / "scenario.toml";
     order.network_folder = origin / "network";
-    scenario::build_network(config, order.network_folder);
     std::vector<results::DatasetOrder> orders;
     for (std::uint32_t i = 0; i < arguments.seeds; ++i) {
         order.replication = arguments.first_seed + i;
         orders.push_back(order);
     }
     return orders;
+}
+
+/// What an order will write.
+std::vector<std::filesystem::path> files_of(const results::DatasetOrder& order) {
+    if (order.kind == results::DatasetKind::published) {
+        return {order.output / prediction::edge_list_file, order.output / prediction::vehicle_features_file,
+                order.output / prediction::target_file};
+    }
+    const char* const ending = order.kind == results::DatasetKind::pair_samples
+                                   ? prediction::pair_sample_ending
+                                   : prediction::graph_sample_extension;
+    std::vector<std::filesystem::path> files;
+    for (const std::string& failure : order.failures)
+        files.push_back(results::sample_file(order, failure, ending));
+    return files;
+}
+
+bool holds(const std::filesystem::path& file, const std::string& text) {
+    return std::filesystem::exists(file) && core::read_file(file) == text;
+}
+
+/// Refuses a folder in which recordings of others would be lost. The same command may be given again.
+void check_folder(const std::vector<results::DatasetOrder>& orders, const std::string& scenario) {
+    const char* const cure = "Record into another --out, or remove what is there";
+    const std::filesystem::path& scenario_file = orders.front().scenario_file;
+    if (std::filesystem::exists(scenario_file) && !holds(scenario_file, scenario)) {
+        throw core::InputError(
+            {scenario_file.string(),
+             fmt::format("another configuration of {} was recorded here", orders.front().scenario),
+             "one for each scenario of a data set", cure});
+    }
+    std::vector<std::string> taken;
+    for (const results::DatasetOrder& order : orders) {
+        if (holds(order_file(order), results::to_json(order))) continue;
+        for (const std::filesystem::path& file : files_of(order)) {
+            if (std::filesystem::exists(file)) taken.push_back(file.string());
+        }
+    }
+    if (taken.empty()) return;
+    const std::string more = taken.size() == 1 ? "" : fmt::format(", and {} more", taken.size() - 1);
+    throw core::InputError({taken.front(), "is there already, of another recording" + more, "", cure});
 }
 
 void print_files(const std::vector<std::string>& lines, Printing printing) {
@@ -83,7 +128,12 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.order.failures);
-    const WorkerResult result = record_orders(make_orders(arguments), arguments.jobs);
+    const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
+    const std::vector<results::DatasetOrder> orders = make_orders(arguments, config.name);
+    check_folder(orders, scenario::to_toml(config));
+    scenario::store(config, orders.front().scenario_file.parent_path());
+    scenario::build_network(config, orders.front().network_folder);
+    const WorkerResult result = record_orders(orders, arguments.jobs);
     print_files(result.lines, arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,
@@ -112,7 +162,7 @@ void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Opt
 }
 
 CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
-    const char* const group = "Many snapshots (for train the other trainings)";
+    const char* const group = "Many snapshots (for the other trainings)";
     results::DatasetOrder& order = arguments.order;
     CLI::Option* const samples =
         app.add_flag_callback(
@@ -140,7 +190,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
         ->needs(samples)
         ->group(group);
     app.add_option("--interval", order.interval_s, "Simulation time between two snapshots, s")
-        ->check(CLI::Range(0.1, 3600.0))
+        ->check(core::NumberRange{0.1, 3600.0})
         ->option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", order.interval_s))
         ->needs(samples)
         ->group(group);

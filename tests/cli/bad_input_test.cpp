@@ -101,6 +101,15 @@ TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
     EXPECT_THAT(data.err, AllOf(HasSubstr("--failure `loss_rate=2`"), HasSubstr("2 is out of range")));
 }
 
+TEST_F(BadInputTest, a_data_set_says_once_whether_exits_are_known) {
+    write_line_scenario();
+    const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure",
+                                  "B10,exits=unknown", "--exits", "known"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--failure `B10,exits=unknown`"), HasSubstr("--exits unknown")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
+}
+
 TEST_F(BadInputTest, unknown_failure_predictor_and_policy_are_told_before_anything_runs) {
     write_line_scenario();
     const Ended ended = clearway({"run", "line", "--out", "out", "--failure", "B11", "--predictor",

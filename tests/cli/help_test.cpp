@@ -131,6 +131,23 @@ TEST_F(HelpTest, negative_and_fractional_counts_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
 }
 
+TEST_F(HelpTest, numbers_that_are_not_finite_are_refused) {
+    const std::vector<std::vector<std::string>> calls = {
+        {"dataset", "merge", "--out", "data", "--samples", "--interval"},
+        {"run", "merge", "--out", "out", "--run-time-limit"},
+        {"report", "out", "--least-difference"}};
+    for (const std::vector<std::string>& call : calls) {
+        for (const char* const number : {"nan", "inf", "-inf"}) {
+            std::vector<std::string> words = call;
+            words.emplace_back(number);
+            const Ended ended = clearway(words);
+            EXPECT_EQ(ended.code, 2) << call.back();
+            EXPECT_THAT(ended.err, AllOf(HasSubstr(call.back()), HasSubstr(number), HasSubstr("allowed: 0")));
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
+}
+
 TEST_F(HelpTest, quick_excludes_a_number_of_seeds) {
     const Ended ended = clearway({"reproduce", "--quick", "--seeds", "3"});
     EXPECT_EQ(ended.code, 2);

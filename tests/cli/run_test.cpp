@@ -267,6 +267,35 @@ TEST_F(RunTest, dataset_records_samples_of_each_failure_and_replication) {
     EXPECT_THAT(ended.err, HasSubstr("2/2"));
 }
 
+TEST_F(RunTest, dataset_overwrites_no_other_recording) {
+    const std::vector<std::string> first = {"dataset",   "line",       "--out", "data",
+                                            "--samples", "--failure",  "B10",   "--seed",
+                                            "7",         "--interval", "5"};
+    ASSERT_EQ(clearway(first).code, 0);
+    const std::string samples = read("data/line-B10-0000.samples");
+    const auto changed = [&](std::size_t at, const std::string& word) {
+        std::vector<std::string> words = first;
+        words[at] = word;
+        return words;
+    };
+    const auto expect_refusal = [&](const std::vector<std::string>& words, const std::string& file) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3);
+        EXPECT_THAT(ended.err, AllOf(HasSubstr(file), HasSubstr("--out")));
+        EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
+    };
+    expect_refusal(changed(8, "8"), "data/line-B10-0000.samples: is there already");
+    std::vector<std::string> denser = changed(6, "A.5");
+    denser.insert(denser.end(), {"--density", "2"});
+    expect_refusal(denser, "data/origin/line/scenario.toml: another configuration of line");
+    std::vector<std::string> of_graphsage = first;
+    of_graphsage.insert(of_graphsage.end(), {"--net", "graphsage"});
+    expect_refusal(of_graphsage, "data/line-B10-0000.samples: is there already");
+    EXPECT_EQ(clearway(first).code, 0) << "the same again";
+    EXPECT_EQ(clearway(changed(6, "A.5")).code, 0) << "another failure beside it";
+    EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
+}
+
 TEST_F(RunTest, train_takes_what_dataset_wrote) {
     ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
     const Ended ended = clearway({"train", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
