@@ -270,10 +270,10 @@ core::ExitCode replay_file(const Arguments& arguments) {
 
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
-    const char* const group = "Export for people, in place of a replay";
-    CLI::Option* const csv = app.add_option("--csv", arguments->table, "CSV: " + joined(table_names()))
+    const char* const group = "Export as CSV, in place of a replay";
+    CLI::Option* const csv = app.add_option("--csv", arguments->table, joined(table_names()))
                                  ->check(CLI::IsMember(table_names()))
-                                 ->option_text("TABLE [none: replay]")
+                                 ->option_text("TABLE [replay]")
                                  ->group(group);
     for (CLI::Option* const other : others)
         csv->excludes(other);

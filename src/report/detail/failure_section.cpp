@@ -17,6 +17,7 @@ constexpr double right_edge = 388.0;
 constexpr double height = 250.0;
 constexpr double label_space = 44.0;
 constexpr double percent = 100.0;
+constexpr double line_offset = 1.2;  ///< Between neighbouring lines, percent, so that no bar hides another.
 
 using Member = std::optional<analysis::Estimate> FailurePoint::*;
 
@@ -34,7 +35,9 @@ std::string drawing(const FailureCurve& curve, Member member, const std::string&
     if (member == &FailurePoint::time_loss) values.include(0.0);
     for (const FailureLine& line : curve.lines) {
         for (const FailurePoint& point : line.points) {
-            shares.include(percent * point.dark_share);
+            const double reach = line_offset * static_cast<double>(curve.lines.size()) / 2.0;
+            shares.include(percent * point.dark_share - reach);
+            shares.include(percent * point.dark_share + reach);
             if (point.*member) include(*(point.*member), values);
         }
     }
@@ -46,14 +49,16 @@ std::string drawing(const FailureCurve& curve, Member member, const std::string&
     plot.grid_y();
     if (member == &FailurePoint::time_loss) plot.horizontal(0.0);
     for (std::size_t series = 0; series < curve.lines.size(); ++series) {
+        const double offset = line_offset * (static_cast<double>(series) -
+                                             (static_cast<double>(curve.lines.size()) - 1.0) / 2.0);
         std::vector<std::pair<double, double>> means;
         for (const FailurePoint& point : curve.lines[series].points) {
             if (!(point.*member)) continue;
             const analysis::Estimate& estimate = *(point.*member);
-            means.emplace_back(percent * point.dark_share, estimate.mean);
+            const double at = percent * point.dark_share + offset;
+            means.emplace_back(at, estimate.mean);
             if (estimate.interval)
-                plot.whisker(percent * point.dark_share, {estimate.interval->low, estimate.interval->high},
-                             series);
+                plot.whisker(at, {estimate.interval->low, estimate.interval->high}, series);
         }
         plot.line(means, series);
     }
@@ -125,7 +130,8 @@ std::string failure_section(const StudyFacts& study) {
         "their "
         "links were believed meanwhile (F1 end to end: links of vehicles never seen count as missed). Below "
         "0 "
-        "EVs lose less time than without the policy. The bars are 95 % intervals of the paired differences. "
+        "EVs lose less time than without the policy. The bars are 95 % intervals of the paired differences; "
+        "lines stand a little beside each other so that none hides another. "
         "Break-even is the first share at which the interval reaches 0.</p>\n<div class=\"figures\">\n";
     for (const FailureCurve& curve : study.failure_curves) {
         html += figure_of(curve);
