@@ -271,7 +271,7 @@ core::ExitCode replay_file(const Arguments& arguments) {
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
     const char* const group = "Export as CSV, in place of a replay";
-    CLI::Option* const csv = app.add_option("--csv", arguments->table, joined(table_names()))
+    CLI::Option* const csv = app.add_option("--csv", arguments->table, "Table to print, see below")
                                  ->check(CLI::IsMember(table_names()))
                                  ->option_text("TABLE [replay]")
                                  ->group(group);
@@ -290,7 +290,7 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
 Action configure_replay(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway replay FILE --csv belief --from 60 --to 90 > belief.csv\n\n" +
-               open_loop);
+               "Tables: " + joined(table_names()) + "\n\n" + open_loop);
     app.add_option("file", arguments->file,
                    "A file recordings/SCENARIO/CONDITION/REPLICATION.recording of a run folder")
         ->required()

@@ -127,7 +127,7 @@ TEST(LearnedPredictors, RefuseDamagedNumbersWhenTheyOverflow) {
     const std::string file = (folder.path() / "damaged.weights").string();
     Weights damaged = shipped_model("graphsage");
     for (Tensor& tensor : damaged.tensors)
-        tensor.values.front() = 1e38F;
+        std::ranges::fill(tensor.values, 1e38F);
     write_weights(file, damaged);
     support::Scene scene(platoon);
     const auto predictor = make_predictor("graphsage", {scene.network(), {}, file, {}});
