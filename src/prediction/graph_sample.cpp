@@ -131,9 +131,11 @@ std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::pat
         if (entry.path().extension() == graph_sample_extension) files.push_back(entry.path());
     }
     if (error || files.empty()) {
-        throw core::InputError({folder.string(), error ? error.message() : "holds no file of graph samples",
-                                fmt::format("a folder with *{} files", graph_sample_extension),
-                                "Record them with `clearway dataset SCENARIO --samples --out DIR`"});
+        throw core::InputError(
+            {folder.string(), error ? error.message() : "holds no file of graph samples",
+             fmt::format("a folder with *{} files", graph_sample_extension),
+             "Record them with `clearway dataset SCENARIO --samples --out DIR`, for `train "
+             "graphsage` with `--net graphsage`"});
     }
     std::ranges::sort(files);
     return files;

@@ -79,6 +79,7 @@ void read_sample_bytes(const std::filesystem::path& file, std::string_view first
 void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
 
 inline constexpr const char* cure_remake =
-    "Record the samples again with `clearway dataset SCENARIO --samples`";
+    "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` with "
+    "`--net graphsage`";
 
 }  // namespace clearway::prediction::detail
