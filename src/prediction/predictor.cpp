@@ -18,10 +18,10 @@ namespace clearway::prediction {
 namespace {
 
 struct Registration {
-    const char* name;
-    const char* summary;
-    void (*check)(const PredictorSettings&, const std::string& where, std::vector<core::Problem>&);
-    std::unique_ptr<Predictor> (*make)(PredictorContext, const PredictorSettings&);
+    const char* name = nullptr;
+    const char* summary = nullptr;
+    void (*check)(const PredictorSettings&, const std::string& where, std::vector<core::Problem>&) = nullptr;
+    std::unique_ptr<Predictor> (*make)(PredictorContext, const PredictorSettings&) = nullptr;
     void (*check_model)(const Weights&) = nullptr;  ///< Of learned predictors.
 };
 
