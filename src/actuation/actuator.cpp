@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "actuation/detail/lease_queue.hpp"
@@ -71,21 +72,30 @@ struct Actuator::State {
         const double stop_m = speed_mps * speed_mps / (2.0 * info->deceleration_mps2);
         return left_m > stop_m && left_m < stop_m + reaction_s * speed_mps + stop_line_gap_m;
     }
+    detail::Lanes pressed_lanes(const truth::Snapshot& snapshot, const traffic::Roster& roster) const {
+        detail::Lanes lanes;
+        for (std::size_t row = 0; row < snapshot.size(); ++row) {
+            const core::LaneIndex lane = snapshot.lane[row];
+            if (lane.exists() && !network.edge(network.lane(lane).edge).internal &&
+                could_just_stop(snapshot, row, roster))
+                lanes.push_back(lane);
+        }
+        std::ranges::sort(lanes);
+        return lanes;
+    }
     void step_signals(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                       std::vector<traffic::Command>& commands) {
         if (signals.empty()) return;
         detail::Lanes occupied;
-        detail::Lanes pressed;
-        for (std::size_t row = 0; row < snapshot.size(); ++row) {
-            const core::LaneIndex lane = snapshot.lane[row];
-            if (!lane.exists()) continue;
-            if (network.edge(network.lane(lane).edge).internal)
-                occupied.push_back(lane);
-            else if (could_just_stop(snapshot, row, roster))
-                pressed.push_back(lane);
+        for (const core::LaneIndex lane : snapshot.lane) {
+            if (lane.exists() && network.edge(network.lane(lane).edge).internal) occupied.push_back(lane);
         }
         std::ranges::sort(occupied);
-        std::ranges::sort(pressed);
+        std::optional<detail::Lanes> pressed;
+        const std::function<const detail::Lanes&()> look = [&]() -> const detail::Lanes& {
+            if (!pressed) pressed = pressed_lanes(snapshot, roster);
+            return *pressed;
+        };
         const detail::SignalTiming timing{config.yellow_s,     config.all_red_s,  config.clearing_s,
                                           config.gap_wait_s,   config.hold_cap_s, config.cool_down_s,
                                           config.least_green_s};
@@ -93,7 +103,7 @@ struct Actuator::State {
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
-            signal.step({snapshot.time, shown, timing, occupied, pressed}, ledger, commands);
+            signal.step({snapshot.time, shown, timing, occupied, look}, ledger, commands);
         }
     }
     void take(const traffic::Lease& lease) {

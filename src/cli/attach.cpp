@@ -1,5 +1,3 @@
-#include "cli/attach.hpp"
-
 #include <charconv>
 #include <memory>
 #include <string>
@@ -12,6 +10,7 @@
 #include "cli/condition_options.hpp"
 #include "cli/names.hpp"
 #include "cli/run_plan.hpp"
+#include "cli/verb.hpp"
 #include "cli/worker_orders.hpp"
 #include "results/attach_order.hpp"
 #include "results/store.hpp"

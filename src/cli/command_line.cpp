@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/attach.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
 #include "options/usage.hpp"

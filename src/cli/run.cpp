@@ -111,12 +111,8 @@ void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& 
     const char* const group = "A condition of your own (names: clearway list)";
     results::ConditionSpec& own = arguments->own;
     add_condition_options(app, own, group);
-    static const std::map<std::string, traffic::BlueLight> lights = {{"on", traffic::BlueLight::on},
-                                                                     {"off", traffic::BlueLight::off}};
-    app.add_option_function<std::string>(
-           "--bluelight", [&own](const std::string& name) { own.bluelight = lights.at(name); },
-           "SUMO's device.bluelight on every emergency vehicle: an opponent")
-        ->check(CLI::IsMember(lights))
+    add_switch(app, "--bluelight", own.bluelight,
+               "SUMO's device.bluelight on every emergency vehicle: an opponent")
         ->option_text("on|off [off]")
         ->group(group);
     static const std::map<std::string, results::Engine> engines = {{"standard", results::Engine::standard},

@@ -67,15 +67,17 @@ TEST(FailureText, ChangesFieldsOfAPresetOrOfReportsThatNeverFail) {
     EXPECT_EQ(failure_from("connected_share=0.3"), partly);
 }
 
+/// The message with which a failure is refused.
+std::string refusal(const char* text) {
+    try {
+        failure_from(text);
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
 TEST(FailureText, IsRefusedWithAllThatIsWrong) {
-    const auto refusal = [](const char* text) -> std::string {
-        try {
-            failure_from(text);
-        } catch (const core::InputError& error) {
-            return error.what();
-        }
-        return "accepted";
-    };
     EXPECT_THAT(refusal("B10,dark_shore=0.5"), HasSubstr("did you mean dark_share?"));
     EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: 'half'"));
     EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
@@ -91,14 +93,6 @@ TEST(FailureText, IsRefusedWithAllThatIsWrong) {
 }
 
 TEST(FailureConfig, RefusesPartsOfAnErrorThatIsNotThere) {
-    const auto refusal = [](const char* text) -> std::string {
-        try {
-            failure_from(text);
-        } catch (const core::InputError& error) {
-            return error.what();
-        }
-        return "accepted";
-    };
     EXPECT_THAT(refusal("B10,position_correlation_s=5"), HasSubstr("give position_sigma_m"));
     EXPECT_THAT(refusal("B10,speed_correlation_s=5"), HasSubstr("give speed_sigma_mps"));
     EXPECT_THAT(refusal("C.link,range_sigma_m=1"), HasSubstr("give detection=range"));

@@ -88,7 +88,7 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroun
     const bool is_pressed = std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
         return link < signal_.links.size() &&
                std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
-                   return std::ranges::binary_search(around.pressed, way.from);
+                   return std::ranges::binary_search(around.pressed(), way.from);
                });
     });
     if (!gap_awaited_) gap_awaited_ = around.now;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,9 @@ struct SignalSurroundings {
     const std::string& state;  ///< What it shows now; empty when there is no such signal any more.
     const SignalTiming& timing;
     const Lanes& occupied;  ///< Internal lanes with a vehicle on them.
-    /// Lanes with a vehicle that could stop before their end, but not comfortably.
-    const Lanes& pressed;
+    /// Lanes with a vehicle that could stop before their end, but not comfortably. Looked for when the first
+    /// signal of a step asks: few end a green.
+    const std::function<const Lanes&()>& pressed;
 };
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.

@@ -11,7 +11,7 @@
 // FatalTraCIError, or an undeclared ProcessError) into core::SimulatorError with SUMO's text; the caller adds
 // time and log. Nothing here checks what SUMO would swallow: that is for the callers.
 //
-// api_gateway.hpp is the only file that includes SUMO's own headers. libsumo and libtraci declare the same
+// api_gateway.hpp and remote_gateway.cpp alone include SUMO's own headers. libsumo and libtraci declare the same
 // functions in two namespaces, so it is compiled once for each (docs/decisions/0004-two-gateways.md).
 
 namespace clearway::sumo::detail::gateway {
