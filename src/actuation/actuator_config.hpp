@@ -11,8 +11,8 @@ enum class LateralModel : std::uint8_t { lane, sublane };
 
 /// How an Actuator acts; the same in every condition of a study.
 struct ActuatorConfig {
-    double yellow_s = 3.0;   ///< [0, 10]. facts: 3 s.
-    double all_red_s = 1.5;  ///< [0, 10]. facts: 1.5 s.
+    double yellow_s = 3.0;   ///< [0, 10]. 3 s: usual in towns.
+    double all_red_s = 1.5;  ///< [0, 10]. 1.5 s: as the prototype.
     /// All red lasts up to this much longer while a vehicle that loses green is still inside the junction;
     /// [0, 30]. Assumed: a left-turner that stands there needs 4 s to leave.
     double clearing_s = 6.0;
@@ -21,7 +21,7 @@ struct ActuatorConfig {
     /// s 3.9.
     double gap_wait_s = 2.0;
     /// Longest time away from the own program, counted anew when the hold passes on to links that conflict
-    /// with those held before; [1, 600]. facts: 60 s.
+    /// with those held before; [1, 600]. 60 s: as the prototype.
     double hold_cap_s = 60.0;
     double cool_down_s = 10.0;    ///< Own program runs at least this long between holds; [0, 600]. Assumed.
     double least_green_s = 10.0;  ///< A favour ends no green of the program earlier; [1, 120]. Assumed.

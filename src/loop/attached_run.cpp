@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,18 @@ std::filesystem::path file_of(const sumo::RemoteSumo& sumo, const std::string& o
     throw core::InputError({fmt::format("--{} of that SUMO", option),
                             fmt::format("names {}, which is no file here", file.string()),
                             "a file that this machine sees, by its whole path", cure});
+}
+
+/// Signal programs stand in them. A signal whose program is in none of them is known by its state, and given
+/// back to it by way of all red.
+std::vector<std::filesystem::path> additional_files_of(const sumo::RemoteSumo& sumo) {
+    std::vector<std::filesystem::path> files;
+    const std::string names = sumo.option("additional-files");
+    for (const auto name : names | std::views::split(',')) {
+        const std::filesystem::path file(std::string(name.begin(), name.end()));
+        if (std::filesystem::is_regular_file(file)) files.push_back(file);
+    }
+    return files;
 }
 
 core::Seconds end_of(const sumo::RemoteSumo& sumo) {
@@ -68,6 +81,7 @@ results::Manifest manifest_of(const results::AttachOrder& order, const std::file
 /// The files of a simulation, found before anything in it is touched.
 struct Ground {
     std::filesystem::path network_file;
+    std::vector<std::filesystem::path> additional_files;  ///< That this machine sees.
     std::filesystem::path trip_file;
     core::Seconds end;
 };
@@ -76,6 +90,7 @@ Ground ground_of(const sumo::RemoteSumo& sumo, const results::AttachOrder& order
     Ground ground;
     ground.network_file =
         order.network.empty() ? file_of(sumo, "net-file", "Give the file with --network") : order.network;
+    ground.additional_files = additional_files_of(sumo);
     ground.trip_file = file_of(sumo, "tripinfo-output",
                                "Start SUMO with --tripinfo-output FILE: times and losses come from it");
     ground.end = end_of(sumo);
@@ -94,7 +109,7 @@ core::ExitCode run_attached(const std::filesystem::path& order_file) {
     for (const std::string& type : order.emergency)
         sumo.declare(type, traffic::VehicleClass::emergency);
     if (has_sublanes(sumo)) order.condition.engine = results::Engine::sublane;
-    const roads::Network network = roads::Network::read(ground.network_file);
+    const roads::Network network = roads::Network::read(ground.network_file, ground.additional_files);
     const results::Store store =
         results::Store::create(order.output, manifest_of(order, ground.network_file));
 

@@ -7,7 +7,7 @@ namespace clearway::policy {
 /// Numbers of ClearLane.
 struct ClearLaneConfig {
     /// Lanes are cleared this far ahead; (0, 1000]. 150 m: in the merge scenario 300 m helped less and cost
-    /// others 2 to 7 % of time loss, 150 m nothing (facts: 150 to 300 m is the better trade).
+    /// others 2 to 7 % of time loss, 150 m nothing.
     double horizon_m = 150.0;
     double beside_m = 20.0;    ///< An automated vehicle at most this far behind the emergency vehicle's front
                                ///< opens a gap; assumed: a gap of two cars.
@@ -16,8 +16,7 @@ struct ClearLaneConfig {
     /// Stretch over which lanes are compared, (0, 5000]. 800 m: in the sparse merge scenario 200 m cut the
     /// time loss of emergency vehicles by 3 %, 600 m by 9 %, 800 to 1000 m by 12 to 13 %.
     double choice_m = 800.0;
-    double halted_delay_s =
-        2.0;  ///< A standing vehicle ahead costs this much; saturation headway, facts: 2 s.
+    double halted_delay_s = 2.0;  ///< A standing vehicle ahead costs this much; saturation headway.
     double automated_weight =
         0.5;  ///< Delay by vehicles that will leave the lane counts only this much, [0, 1]; assumed.
     double worth_s = 1.0;  ///< A lane must be this much faster for a change; assumed: what a change costs.

@@ -9,10 +9,10 @@ namespace clearway::policy {
 
 /// Numbers of PreemptSignals.
 struct PreemptSignalsConfig {
-    double lead_s = 8.0;  ///< Asked for this long before arrival; [0, 60]. facts: 8 s; 20 s buys 2 % and
-                          ///< costs others 20 % waiting.
+    double lead_s = 8.0;  ///< Asked for this long before arrival; [0, 60]. 8 s: 20 s buy 2 % and
+                          ///< cost others 20 % waiting (prototype).
     double lead_per_halted_s =
-        2.0;  ///< And this much more for each vehicle that stands ahead; [0, 10]. facts: 2 s.
+        2.0;  ///< And this much more for each vehicle that stands ahead; [0, 10]. Saturation headway.
     double longest_lead_s = 40.0;  ///< [0, 60]. Assumed: leaves 20 s of the longest hold for driving through.
     double slowest_share = 0.5;    ///< Arrival is reckoned with at least this share of the allowed speed, (0,
                                    ///< 1]: a queue that stands will move once it has green.

@@ -42,9 +42,14 @@ ShapePlace place_on_shape(const Lane& lane, core::Metres position) {
 
 }  // namespace
 
-Network Network::read(const std::filesystem::path& file) {
+Network Network::read(const std::filesystem::path& file,
+                      const std::vector<std::filesystem::path>& additional_files) {
     NetworkBuilder builder(file);
     stream_xml(file, builder);
+    for (const std::filesystem::path& additional : additional_files) {
+        builder.begin_additional(additional);
+        stream_xml(additional, builder);
+    }
     return builder.finish();
 }
 

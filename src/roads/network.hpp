@@ -74,7 +74,7 @@ struct SignalLink {
     core::LaneIndex via;
 };
 
-/// A traffic signal and the program that it starts with: of several programs the last in the file, as SUMO
+/// A traffic signal and the program that it starts with: of several programs the last that is read, as SUMO
 /// does. Signals and crossings of railways are left out: they have no program, and nothing may pre-empt them.
 struct Signal {
     std::string id;
@@ -82,6 +82,8 @@ struct Signal {
     /// Crossings for pedestrians are links too.
     std::vector<std::vector<SignalLink>> links;
     std::vector<Phase> program;
+    double offset_s = 0.0;    ///< The program starts anew whenever time - offset is a multiple of its cycle.
+    bool fixed_time = false;  ///< It never waits for vehicles, so it keeps in step with its neighbours.
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.
     /// Symmetric, false on the diagonal and between links of different junctions.
     std::vector<std::vector<bool>> foes;
@@ -99,9 +101,11 @@ struct Location {
 /// by threads.
 class Network {
   public:
-    /// Reads `.net.xml` or `.net.xml.gz`, streaming. Throws core::InputError naming file and line for a file
-    /// that is missing, not XML, not a network, or inconsistent.
-    static Network read(const std::filesystem::path& file);
+    /// Reads `.net.xml` or `.net.xml.gz`, streaming, then the signal programs of SUMO's additional files in
+    /// their order. Throws core::InputError naming file and line for a file that is missing, not XML, not a
+    /// network, or inconsistent.
+    static Network read(const std::filesystem::path& file,
+                        const std::vector<std::filesystem::path>& additional_files = {});
 
     std::span<const Lane> lanes() const { return lanes_; }
     std::span<const Edge> edges() const { return edges_; }

@@ -182,4 +182,12 @@ std::filesystem::path resolve(const ScenarioConfig& config, const std::string& p
     return home + path.substr(prefix.size());
 }
 
+std::vector<std::filesystem::path> additional_files(const ScenarioConfig& config) {
+    std::vector<std::filesystem::path> files;
+    if (!config.measured) return files;
+    for (const std::string& path : config.measured->additional)
+        files.push_back(resolve(config, path));
+    return files;
+}
+
 }  // namespace clearway::scenario

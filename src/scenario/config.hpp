@@ -442,4 +442,7 @@ void init(const std::filesystem::path& folder, const std::string& from);
 /// Throws core::EnvironmentError when SUMO_HOME is needed and not set.
 std::filesystem::path resolve(const ScenarioConfig& config, const std::string& path);
 
+/// SUMO's additional files that the measured demand refers to, resolved: stops, signal programs.
+std::vector<std::filesystem::path> additional_files(const ScenarioConfig& config);
+
 }  // namespace clearway::scenario

@@ -144,7 +144,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
 
 BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / network_name;
-    return {file, roads::Network::read(file), hash_of_inputs(config)};
+    return {file, roads::Network::read(file, additional_files(config)), hash_of_inputs(config)};
 }
 
 std::vector<WideEdge> wide_edges(const roads::Network& network, int lanes) {

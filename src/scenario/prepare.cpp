@@ -70,10 +70,8 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     Prepared prepared;
     prepared.network_file = network.file;
     prepared.route_files = {folder / "traffic.rou.xml"};
-    prepared.additional_files = {folder / "vehicle_types.add.xml"};
-    if (config.measured)
-        for (const std::string& path : config.measured->additional)
-            prepared.additional_files.push_back(resolve(config, path));
+    prepared.additional_files = additional_files(config);
+    prepared.additional_files.insert(prepared.additional_files.begin(), folder / "vehicle_types.add.xml");
     prepared.human = count(demand.vehicles, traffic::VehicleClass::human);
     prepared.automated = count(demand.vehicles, traffic::VehicleClass::automated);
     prepared.emergency = std::move(demand.emergency);

@@ -71,10 +71,12 @@ struct SetSignalState {
     core::SignalIndex signal;
     std::string state;
 };
-/// Back to the signal's own program: where it would be now, or at the start of phase `phase`.
+/// Back to the signal's own program: where it would be now, or at the start of phase `phase`, which then
+/// lasts `lasting`, or as long as the program says.
 struct RestoreProgram {
     core::SignalIndex signal;
     std::optional<std::uint32_t> phase = std::nullopt;
+    std::optional<core::Seconds> lasting = std::nullopt;
 };
 
 using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks,

@@ -46,8 +46,8 @@ TEST_P(SignalLease, clears_with_yellow_and_all_red_holds_and_comes_back_the_same
     ASSERT_EQ(history.size(), 7U);
     EXPECT_EQ(history[1].state, "Gyyyrrrryyyyrrrr") << "the right turn from the north crosses nobody";
     EXPECT_EQ(history[2].state, "Grrrrrrrrrrrrrrr");
-    EXPECT_EQ(history[3].state, "GrrrrrrrrrrrGGGG");
-    EXPECT_EQ(history[4].state, "yrrrrrrrrrrryyyy");
+    EXPECT_EQ(history[3].state, "GrrrGrrrrrrrGGGG");
+    EXPECT_EQ(history[4].state, "yrrryrrrrrrryyyy");
     EXPECT_EQ(history[5].state, "rrrrrrrrrrrrrrrr");
     EXPECT_EQ(history[6].state, history[0].state);
     const auto lasted = [&](int row) { return history[row + 1].from_s - history[row].from_s; };
@@ -92,22 +92,35 @@ TEST(SignalHold, that_lapses_during_the_yellow_still_clears_before_the_program_r
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
-TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_the_cool_down) {
+TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_a_cycle) {
     ActuationBench bench;
-    const auto history = watch(bench, 90.0, hold_until(west, 1000.0));
+    const auto history = watch(bench, 180.0, hold_until(west, 1000.0));
     double left_s = 0.0;
     double returned_s = 0.0;
     double again_s = 0.0;
     for (const Shown& shown : history) {
-        if (left_s == 0.0 && shown.state == "yrrrrrrrrrrryyyy") left_s = shown.from_s;
+        if (left_s == 0.0 && shown.state == "yrrryrrrrrrryyyy") left_s = shown.from_s;
         if (left_s > 0.0 && returned_s == 0.0 && shown.state == history[0].state) returned_s = shown.from_s;
         if (returned_s > 0.0 && again_s == 0.0 && shown.from_s > returned_s) again_s = shown.from_s;
     }
     EXPECT_NEAR(left_s, 60.25, 0.3);
     EXPECT_NEAR(returned_s, left_s + 4.5, 0.3);
-    EXPECT_NEAR(again_s, returned_s + 10.0, 0.3);
+    EXPECT_NEAR(again_s, returned_s + 90.0, 0.3) << "41 + 4 + 41 + 4 s: everybody has had green";
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("hold_cap"), 1U);
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("cool_down"), 1U);
+}
+
+TEST(SignalHold, that_ended_by_itself_may_start_again_after_the_cool_down) {
+    ActuationBench bench;
+    double returned_s = 0.0;
+    double again_s = 0.0;
+    watch(bench, 40.0, [&](ActuationBench& b) {
+        const bool in_program = b.shown[0] == two_crossings().signals()[0].program[0].state;
+        if (b.now.value > 10.0 && in_program && returned_s == 0.0) returned_s = b.now.value;
+        if (returned_s > 0.0 && !in_program && again_s == 0.0) again_s = b.now.value;
+        if (b.now.value < 5.0 || returned_s > 0.0) b.offer(signal_a, traffic::HoldGreen{west}, 2.0);
+    });
+    EXPECT_NEAR(again_s, returned_s + 10.0, 0.3);
 }
 
 TEST(SignalHold, has_a_cap_of_its_own_when_it_takes_over_from_one_that_conflicts) {
@@ -121,8 +134,7 @@ TEST(SignalHold, has_a_cap_of_its_own_when_it_takes_over_from_one_that_conflicts
     double taken_over_s = 0.0;
     double ended_s = 0.0;
     for (const Shown& shown : history) {
-        if (shown.state == "GrrrrrrrrrrrGyyy" || shown.state == "Grrrrrrrrrrryyyy")
-            taken_over_s = shown.from_s;
+        if (shown.state == "GrrrGrrrrrrryyyy") taken_over_s = shown.from_s;
         const bool ends = shown.state.substr(0, 4).find('y') != std::string::npos;
         if (taken_over_s > 0.0 && ended_s == 0.0 && ends) ended_s = shown.from_s;
     }
@@ -158,12 +170,12 @@ TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_ot
     });
     std::vector<std::string> greens;
     for (const Shown& shown : history) {
-        if (shown.state == "GrrrrrrrrrrrGGGG" || shown.state == "GGGGrrrrrrrrrrrr")
+        if (shown.state == "GrrrGrrrrrrrGGGG" || shown.state == "GGGGGrrrGrrrrrrr")
             greens.push_back(shown.state);
     }
     ASSERT_EQ(greens.size(), 2U);
-    EXPECT_EQ(greens[0], "GrrrrrrrrrrrGGGG");
-    EXPECT_EQ(greens[1], "GGGGrrrrrrrrrrrr");
+    EXPECT_EQ(greens[0], "GrrrGrrrrrrrGGGG");
+    EXPECT_EQ(greens[1], "GGGGGrrrGrrrrrrr");
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
 }
 
@@ -230,7 +242,7 @@ TEST(SignalHold, waits_for_a_left_turner_inside_the_junction_but_not_for_ever) {
             if (b.now.value >= leaves_s) b.on_road.erase(turner);
         });
         ASSERT_EQ(history.size(), 4U);
-        EXPECT_EQ(history[3].state, "GrrrrrrrrrrrGGGG");
+        EXPECT_EQ(history[3].state, "GrrrGrrrrrrrGGGG");
         const double expected_s = leaves_s < 50.0 ? leaves_s + 0.25 : 0.25 + 3.0 + 1.5 + 6.0;
         EXPECT_NEAR(history[3].from_s, expected_s, 0.3);
     }
@@ -248,6 +260,21 @@ TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
     }
     ASSERT_EQ(restored.size(), 1U);
     EXPECT_EQ(restored[0].phase, 2U);
+}
+
+TEST(Favour, starts_no_phase_of_a_program_that_another_has_replaced) {
+    ActuationBench bench;
+    bench.shown[0] = "GGGGrrrrrrrrrrrr";
+    bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+    std::vector<traffic::RestoreProgram> restored;
+    for (int step = 0; step < 80; ++step) {
+        if (step < 30) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
+        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
+            restored.push_back(restore);
+    }
+    ASSERT_EQ(restored.size(), 1U);
+    EXPECT_FALSE(restored[0].phase.has_value());
+    EXPECT_EQ(bench.counts("part/favour_links").refused.at("unknown_program"), 1U);
 }
 
 TEST(Favour, of_what_is_green_needs_no_all_red_on_the_way_back) {

@@ -28,19 +28,37 @@ roads::Signal small_signal() {
 }
 
 TEST(HoldState, is_green_for_the_request_and_red_for_what_crosses_it) {
-    EXPECT_EQ(hold_state(small_signal(), "GrrG", {1}), "rGrr");
+    EXPECT_EQ(hold_state(small_signal(), "rGgr", {0}), "Grrr") << "crossings for pedestrians, too";
 }
 
 TEST(HoldState, leaves_green_what_does_not_conflict) {
-    EXPECT_EQ(hold_state(small_signal(), "rGgr", {1}), "rGgr");
-    EXPECT_EQ(hold_state(small_signal(), "rGgr", {2}), "rGGr");
+    roads::Signal signal = small_signal();
+    signal.program.clear();
+    EXPECT_EQ(hold_state(signal, "rGgr", {1}), "rGgr");
+    EXPECT_EQ(hold_state(signal, "rGgr", {2}), "rGGr");
 }
 
 TEST(HoldState, of_an_approach_at_the_crossing_is_protected) {
     const roads::Signal& signal = two_crossings().signal(two_crossings().find_signal("A").value());
-    EXPECT_EQ(hold_state(signal, signal.program[0].state, {12, 13, 14, 15}), "GrrrrrrrrrrrGGGG");
-    EXPECT_EQ(hold_state(signal, signal.program[2].state, {12, 13, 14, 15}), "rrrrGrrrrrrrGGGG")
-        << "right turns that cross nobody go on";
+    EXPECT_EQ(hold_state(signal, signal.program[0].state, {12, 13, 14, 15}), "GrrrGrrrrrrrGGGG")
+        << "right turns that cross nobody have or keep green, the left turn has no oncoming traffic";
+    EXPECT_EQ(hold_state(signal, signal.program[2].state, {12, 13, 14, 15}), "rrrrGrrrrrrrGGGG");
+}
+
+TEST(HoldState, gives_green_to_all_whom_the_best_phase_serves_beside_the_request) {
+    // Links 1 and 2 go together in a phase, 0 crosses both, 4 crosses 2 alone.
+    roads::Signal signal = small_signal();
+    signal.links.push_back({{}});
+    for (auto& row : signal.foes)
+        row.push_back(false);
+    signal.foes.emplace_back(5, false);
+    signal.foes[2][4] = signal.foes[4][2] = true;
+    signal.program = {{30.0, "GrrrG"}, {30.0, "rGGrr"}};
+    EXPECT_EQ(hold_state(signal, "GrrrG", {1}), "rGGrr")
+        << "2 has its green; 4, green until now, would cross it";
+    EXPECT_EQ(hold_state(signal, "GrrrG", {1, 4}), "rGrrG") << "2 would cross what is asked for";
+    signal.program.clear();
+    EXPECT_EQ(hold_state(signal, "GrrrG", {1}), "rGrrG") << "no program is known: what is green stays";
 }
 
 TEST(HoldState, takes_letters_of_conflicting_requests_from_the_phase_that_serves_them_all) {

@@ -154,6 +154,50 @@ std::string foes_of(const Signal& signal) {
     return rows;
 }
 
+TEST_F(NetworkTest, ProgramsOfAdditionalFilesReplaceThoseOfTheNetwork) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    EXPECT_TRUE(Network::read(file).signals()[0].fixed_time);
+    const auto programs = folder_.write("tls.add.xml", R"(<additional>
+    <busStop id="stop" lane="west_0"/>
+    <tlLogic id="elsewhere" type="static" programID="0"><phase duration="5" state="G"/></tlLogic>
+    <tlLogic id="J" type="static" programID="measured" offset="7">
+        <phase duration="20" state="GGrr"/>
+        <phase duration="3" state="yyrr"/>
+        <phase duration="30" state="rrGG"/>
+    </tlLogic>
+</additional>)");
+    const Network network = Network::read(file, {programs});
+    ASSERT_EQ(network.signals().size(), 1U);
+    const Signal& signal = network.signals()[0];
+    ASSERT_EQ(signal.program.size(), 3U);
+    EXPECT_EQ(signal.program[2].state, "rrGG");
+    EXPECT_DOUBLE_EQ(signal.offset_s, 7.0);
+    EXPECT_EQ(foes_of(signal), foes_of(crossing().signals()[0])) << "ways are those of the network";
+
+    const auto later = folder_.write("later.add.xml", R"(<additional>
+    <tlLogic id="J" type="actuated" programID="measured" offset="9"/>
+</additional>)");
+    const Network moved = Network::read(file, {programs, later});
+    EXPECT_EQ(moved.signals()[0].program.size(), 3U) << "another offset, the same phases";
+    EXPECT_DOUBLE_EQ(moved.signals()[0].offset_s, 9.0);
+    EXPECT_FALSE(moved.signals()[0].fixed_time);
+}
+
+TEST_F(NetworkTest, RefusesAProgramOfAnotherNetwork) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto programs = folder_.write("tls.add.xml", R"(<additional>
+    <tlLogic id="J" type="static" programID="p"><phase duration="20" state="GGG"/></tlLogic>
+</additional>)");
+    try {
+        Network::read(file, {programs});
+        FAIL() << "three letters for four links";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("tls.add.xml:2: a program of signal \"J\" with 3 letters"));
+        EXPECT_THAT(error.what(), HasSubstr("4, as in the network"));
+    }
+    EXPECT_THROW(Network::read(file, {folder_.path() / "missing.add.xml"}), core::InputError);
+}
+
 TEST_F(NetworkTest, MapsRightOfWayToSignalLinks) {
     // 0 and 1 run side by side; 2 merges with 0; 3 crosses both; 2 and 3 share a stop line.
     EXPECT_EQ(foes_of(crossing().signals()[0]), "0011 0001 1000 1100 ");

@@ -313,6 +313,14 @@ TEST(Commands, SignalRestartsAtAPhaseWhenAsked) {
     } while (session.snapshot().signals.state.at(0) == first && green_s < 200.0);
     EXPECT_GT(green_s, 20.0) << "the phase starts at its beginning";
     EXPECT_LT(green_s, 60.0) << "and ends by itself";
+
+    step_until(session, 300.0);
+    apply(session, traffic::RestoreProgram{core::SignalIndex{0}, 0, core::Seconds(7.0)});
+    for (green_s = 0.0; green_s < 200.0; green_s += 0.25) {
+        session.step();
+        if (session.snapshot().signals.state.at(0) != first) break;
+    }
+    EXPECT_NEAR(green_s, 7.0, 0.3) << "or as long as it is told";
 }
 
 }  // namespace

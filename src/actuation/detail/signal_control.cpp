@@ -7,7 +7,7 @@
 namespace clearway::actuation::detail {
 
 SignalControl::SignalControl(core::SignalIndex index, const roads::Network& network)
-    : index_(index), signal_(network.signal(index)), inner_lanes_(signal_.links.size()) {
+    : index_(index), signal_(network.signal(index)), inner_lanes_(signal_.links.size()), own_(signal_) {
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
         for (const roads::SignalLink& way : signal_.links[link]) {
             core::LaneIndex lane = way.via;
@@ -68,7 +68,8 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
     }
     const Links links = allowed_now(around.now, around.timing, ledger);
     const bool in_program = stage_ == Stage::own_program;
-    if (in_program && links.empty()) return shorten(around, commands);
+    if (in_program) own_.watch(around.state, around.now);
+    if (in_program && links.empty()) return run_own_program(around, commands);
     if (in_program) shown_ = around.state;
     if (in_program || links != way_.links) {
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
@@ -98,32 +99,36 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroun
     return waits;
 }
 
-/// The phase after a green that a favour wants to end; the program itself goes on from there.
-void SignalControl::shorten(const SignalSurroundings& around, std::vector<traffic::Command>& commands) {
-    if (around.state != program_state_) {
-        program_state_ = around.state;
-        program_state_since_ = around.now;
-    }
+void SignalControl::run_own_program(const SignalSurroundings& around,
+                                    std::vector<traffic::Command>& commands) {
+    const core::Seconds least_green(around.timing.least_green_s);
     HeldLease* const favour = favours_.best();
-    if (favour == nullptr ||
-        (around.now - program_state_since_).value < around.timing.least_green_s - time_tolerance_s)
+    if (favour == nullptr) {
+        if (const auto back = own_.step_back(least_green, around.now))
+            commands.push_back(traffic::RestoreProgram{index_, back->phase, back->lasting});
         return;
-    const Links& links = std::get<traffic::FavourLinks>(favour->lease.action).links;
-    const auto next = phase_after_green(signal_, around.state);
-    if (!next || serves_any(around.state, links)) return;
+    }
+    const auto next = own_.next_after(least_green, around.now);
+    if (!next || serves_any(around.state, std::get<traffic::FavourLinks>(favour->lease.action).links)) return;
     if (waits_for_gap(signal_.program[*next].state, around)) return;
     commands.push_back(traffic::RestoreProgram{index_, next});
+    own_.disturb();
 }
 
 SignalControl::Way SignalControl::plan_hold(const Links& links) const {
-    return {links, hold_state(signal_, shown_, links), links, std::nullopt};
+    std::string target = hold_state(signal_, shown_, links);
+    Links gaining = green_links(target);
+    return {links, std::move(target), std::move(gaining), std::nullopt};
 }
 
 SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
     Way way;
     if (HeldLease* favour = favours_.best()) {
-        way.return_phase = best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
-        if (!way.return_phase) LeaseQueue::refuse(*favour, "no_phase_serves", ledger);
+        if (own_.is_known())
+            way.return_phase =
+                best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
+        if (!way.return_phase)
+            LeaseQueue::refuse(*favour, own_.is_known() ? "no_phase_serves" : "unknown_program", ledger);
     }
     way.target.assign(shown_.size(), 'r');
     if (way.return_phase) {
@@ -149,6 +154,7 @@ void SignalControl::begin(Way way, core::Seconds now, std::vector<traffic::Comma
 
 void SignalControl::enter(Stage stage, const std::string& state, core::Seconds now,
                           std::vector<traffic::Command>& commands) {
+    if (stage_ == Stage::own_program) own_.leave();
     if (stage_ == Stage::own_program || state != shown_)
         commands.push_back(traffic::SetSignalState{index_, state});
     stage_ = stage;
@@ -188,10 +194,11 @@ void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffi
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase});
-    program_state_.clear();
+    if (way_.return_phase) own_.disturb();
     stage_ = Stage::own_program;
+    cool_until_ =
+        now + core::Seconds(capped_ ? std::max(timing.cool_down_s, own_.cycle_s()) : timing.cool_down_s);
     capped_ = false;
-    cool_until_ = now + core::Seconds(timing.cool_down_s);
 }
 
 void SignalControl::restore(std::vector<traffic::Command>& commands) {

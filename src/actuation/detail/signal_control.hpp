@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "actuation/detail/lease_queue.hpp"
+#include "actuation/detail/own_program.hpp"
 #include "actuation/detail/signal_states.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
@@ -49,7 +50,11 @@ struct SignalSurroundings {
 /// all the same.
 ///
 /// In its own program a favour ends a green that serves none of its links, once that has lasted its least
-/// time: the program goes on with its next phase, so with its own yellow.
+/// time: the program goes on with its next phase, so with its own yellow. Afterwards a program of fixed times
+/// is brought back into step, green by green: its neighbours count on it.
+///
+/// A hold that had to end at its cap comes again after a whole cycle of the own program, so that nobody is
+/// left without green for an emergency vehicle that is stuck.
 class SignalControl {
   public:
     /// The network outlives the object.
@@ -78,7 +83,7 @@ class SignalControl {
     Way plan_hold(const Links& links) const;
     Way plan_return(Ledger& ledger);
     void begin(Way way, core::Seconds now, std::vector<traffic::Command>& commands);
-    void shorten(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
+    void run_own_program(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     bool is_clear(const Lanes& occupied) const;
     bool waits_for_gap(const std::string& target, const SignalSurroundings& around);
@@ -102,8 +107,7 @@ class SignalControl {
     Way way_;
     Links last_held_;                           ///< Links of the last way that was none back.
     std::optional<core::Seconds> gap_awaited_;  ///< Since when a green is kept for want of a gap.
-    std::string program_state_;                 ///< What the own program showed at the step before.
-    core::Seconds program_state_since_;
+    OwnProgram own_;
 };
 
 }  // namespace clearway::actuation::detail

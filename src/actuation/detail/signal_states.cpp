@@ -33,11 +33,18 @@ const roads::Phase* phase_serving_all(const roads::Signal& signal, const Links& 
 
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links) {
     std::string state(shown.size(), 'r');
-    for (std::size_t link = 0; link < shown.size(); ++link) {
-        const bool known = link < signal.links.size() && !signal.links[link].empty();
-        if (known && traffic::is_green(shown[link]) && !is_foe_of_any(signal, link, links))
-            state[link] = shown[link];
-    }
+    const auto add_green = [&](const std::string& from, const Links& kept) {
+        for (std::size_t link = 0; link < from.size() && link < signal.links.size(); ++link) {
+            const bool is_known = !signal.links[link].empty();
+            if (is_known && traffic::is_green(from[link]) && !is_foe_of_any(signal, link, kept))
+                state[link] = from[link];
+        }
+    };
+    const auto best = best_phase(signal, links);
+    if (best) add_green(signal.program[*best].state, links);
+    Links granted = green_links(state);
+    granted.insert(granted.end(), links.begin(), links.end());
+    add_green(shown, granted);
     const roads::Phase* phase = phase_serving_all(signal, links);
     Links earlier;
     for (const std::uint16_t link : links) {
@@ -106,14 +113,13 @@ bool serves_any(const std::string& state, const Links& links) {
         links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
 }
 
-std::optional<std::uint32_t> phase_after_green(const roads::Signal& signal, const std::string& state) {
+std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state) {
     const bool is_green_phase =
         std::ranges::any_of(state, traffic::is_green) && std::ranges::none_of(state, is_yellow);
     if (!is_green_phase || std::ranges::count(signal.program, state, &roads::Phase::state) != 1)
         return std::nullopt;
     const auto shown = std::ranges::find(signal.program, state, &roads::Phase::state);
-    const auto row = static_cast<std::uint32_t>(shown - signal.program.begin());
-    return (row + 1) % static_cast<std::uint32_t>(signal.program.size());
+    return static_cast<std::uint32_t>(shown - signal.program.begin());
 }
 
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right) {

@@ -12,11 +12,12 @@ namespace clearway::actuation::detail {
 /// Link numbers of one signal, ascending, without repetition.
 using Links = std::vector<std::uint16_t>;
 
-/// Letters to show for a hold of `links` when the signal shows `shown` now: green for them, red for what
-/// conflicts and for links whose ways are unknown (pedestrian crossings), and for the rest green where it is
-/// green already, so that nobody else loses green without need. Where two of `links` conflict with each other
-/// (joined junctions), their letters come from a phase of the program that serves them all, or else the later
-/// one yields.
+/// Letters to show for a hold of `links` when the signal shows `shown` now: green for them; of what does not
+/// conflict with them, green for what has it in the phase of the program that serves most of them, and then
+/// for what shows it already and does not conflict with those either. So nobody else loses green without
+/// need, and the rest of a joined junction goes on. Red for all else and for links whose ways are unknown
+/// (pedestrian crossings). Where two of `links` conflict with each other (joined junctions), their letters
+/// come from a phase that serves them all, or else the later one yields.
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links);
 
 /// Yellow for the links that are green in `shown` and not in `target`, and for those that are yellow now.
@@ -35,9 +36,8 @@ Links green_links(const std::string& state);
 Links losing_links(const std::string& shown, const std::string& target);
 /// Whether any of `links` is green in a state.
 bool serves_any(const std::string& state, const Links& links);
-/// The phase after the one that shows `state`, if that is one phase alone and lets anybody pass without
-/// yellow.
-std::optional<std::uint32_t> phase_after_green(const roads::Signal& signal, const std::string& state);
+/// The phase that shows `state`, if that is one phase alone and lets anybody pass without yellow.
+std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state);
 
 /// Whether a link of `left` conflicts with one of `right`.
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right);

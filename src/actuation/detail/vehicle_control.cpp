@@ -10,12 +10,12 @@ namespace {
 constexpr double speed_tolerance_mps = 0.01;
 /// Speeds nearer to each other than this are not sent again, m/s.
 constexpr double speed_resolution_mps = 1e-3;
-/// A lane other than a best one must be drivable for longer than this (facts: 300 m).
+/// A lane other than a best one must be drivable for longer than this (300 m: measured on the prototype).
 constexpr float least_drivable_m = 300.0F;
 /// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
 constexpr double stop_line_gap_m = 1.0;
 /// Longest single lane request: a request that outlives its lease by a fault binds the vehicle no longer
-/// (facts: 3 s).
+/// (3 s: measured on the prototype).
 constexpr double longest_lane_request_s = 3.0;
 /// A lane request is prolonged when it has less than this left: longer than the longest step (1 s).
 constexpr double prolong_lane_request_s = 1.5;

@@ -18,7 +18,7 @@ namespace clearway::policy::detail {
 inline constexpr float link_exists = 0.5F;
 /// Below this speed a vehicle counts as standing in a queue, m/s (walking pace is 1.4).
 inline constexpr float halted_mps = 0.5F;
-/// How long a lease of these parts lives unless renewed, s: facts section 3.
+/// How long a lease of these parts lives unless renewed, s: as the prototype.
 inline constexpr double usual_lease_s = 2.0;
 
 /// A vehicle believed ahead of another on its route.

@@ -34,11 +34,21 @@ std::vector<std::string> words_of(std::string_view text) {
 
 }  // namespace
 
+void NetworkBuilder::begin_additional(const std::filesystem::path& file) {
+    file_ = file.string();
+    in_additional_ = true;
+}
+
+/// Signals of railways are not among the known ones.
+bool NetworkBuilder::is_known_program(std::string_view element, const XmlAttributes& attributes) const {
+    return element == "tlLogic" && network_.find_signal(attributes.find("id").value_or(""));
+}
+
 void NetworkBuilder::start(std::string_view element, const XmlAttributes& attributes, unsigned long line) {
     line_ = line;
     ++depth_;
     if (depth_ == 1) {
-        if (element != "net") {
+        if (!in_additional_ && element != "net") {
             throw core::InputError(
                 {fmt::format("{}:{}", file_, line),
                  fmt::format("is not a SUMO network: its outermost element is <{}>", element), "<net>",
@@ -47,11 +57,12 @@ void NetworkBuilder::start(std::string_view element, const XmlAttributes& attrib
         return;
     }
     if (depth_ == 2) {
+        in_program_ = in_additional_ ? is_known_program(element, attributes) : element == "tlLogic";
+        if (in_program_) read_program(attributes);
+        if (in_additional_) return;
         in_edge_ = element == "edge";
-        in_program_ = element == "tlLogic";
         in_junction_ = element == "junction";
         if (in_edge_) read_edge(attributes);
-        if (in_program_) read_program(attributes);
         if (in_junction_) read_junction(attributes);
         if (element == "location") read_location(attributes);
         if (element == "connection") read_connection(attributes);
@@ -196,6 +207,8 @@ void NetworkBuilder::read_program(const XmlAttributes& attributes) {
         network_.signals_.back().id = id;
     }
     program_signal_ = &network_.signals_[entry->second];
+    program_signal_->offset_s = number_or(attributes, "offset", -any, any, 0.0);
+    program_signal_->fixed_time = attributes.find("type").value_or("static") == "static";
     phases_.clear();
 }
 
@@ -210,11 +223,18 @@ void NetworkBuilder::read_phase(const XmlAttributes& attributes) {
 
 void NetworkBuilder::end_program() {
     in_program_ = false;
+    if (in_additional_ && phases_.empty()) return;  // SUMO takes it for another offset of the program
     if (phases_.empty()) {
         add_problem(fmt::format("signal \"{}\" has a program without phases", program_signal_->id));
         return;
     }
-    program_signal_->links.resize(phases_.front().state.size());
+    const std::size_t letters = phases_.front().state.size();
+    if (in_additional_ && letters != program_signal_->links.size()) {
+        add_problem(fmt::format("a program of signal \"{}\" with {} letters", program_signal_->id, letters),
+                    fmt::format("{}, as in the network", program_signal_->links.size()));
+        return;
+    }
+    program_signal_->links.resize(letters);
     program_signal_->program = std::move(phases_);
 }
 

@@ -13,12 +13,15 @@
 
 namespace clearway::roads {
 
-/// Turns the elements of a network file into a Network. Elements must come in SUMO's order: edges, signal
-/// programs, junctions, connections. Problems are collected (at most 20) and thrown at the end.
+/// Turns the elements of a network file, and the signal programs of additional files after it, into a
+/// Network. Elements must come in SUMO's order: edges, signal programs, junctions, connections. Problems are
+/// collected (at most 20) and thrown at the end.
 class NetworkBuilder : public XmlHandler {
   public:
     explicit NetworkBuilder(const std::filesystem::path& file) : file_(file.string()) {}
 
+    /// What is read from now on comes from an additional file; only its programs of known signals count.
+    void begin_additional(const std::filesystem::path& file);
     void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) override;
     void end(std::string_view element) override;
     /// Everything that needs the whole file. Throws core::InputError with all problems met.
@@ -37,6 +40,7 @@ class NetworkBuilder : public XmlHandler {
         std::uint16_t link = 0;
     };
 
+    bool is_known_program(std::string_view element, const XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
     /// A required number; reports a missing, malformed or out-of-range one and answers 0.
     double number(const XmlAttributes& attributes, const char* name, double minimum, double maximum);
@@ -72,6 +76,7 @@ class NetworkBuilder : public XmlHandler {
     std::vector<core::Problem> problems_;
     unsigned long line_ = 0;
     int depth_ = 0;
+    bool in_additional_ = false;
     bool in_edge_ = false;
     bool in_program_ = false;
     bool in_junction_ = false;

@@ -307,6 +307,10 @@ class ApiGateway : public Sumo {
     void set_signal_phase(const std::string& signal, std::uint32_t phase) override {
         call([&] { api::TrafficLight::setPhase(signal, static_cast<int>(phase)); });
     }
+
+    void set_signal_phase_duration(const std::string& signal, double duration_s) override {
+        call([&] { api::TrafficLight::setPhaseDuration(signal, duration_s); });
+    }
 };
 
 }  // namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE

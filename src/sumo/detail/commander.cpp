@@ -205,7 +205,9 @@ void Commander::run(const traffic::RestoreProgram& command) {
     }
     if (own != own_programs_.end()) sumo_.set_signal_program(signal, program);
     own_programs_.erase(signal);
-    if (command.phase) sumo_.set_signal_phase(signal, *command.phase);
+    if (!command.phase) return;
+    sumo_.set_signal_phase(signal, *command.phase);
+    if (command.lasting) sumo_.set_signal_phase_duration(signal, command.lasting->value);
 }
 
 }  // namespace clearway::sumo::detail

@@ -11,8 +11,8 @@
 // FatalTraCIError, or an undeclared ProcessError) into core::SimulatorError with SUMO's text; the caller adds
 // time and log. Nothing here checks what SUMO would swallow: that is for the callers.
 //
-// api_gateway.hpp and remote_gateway.cpp alone include SUMO's own headers. libsumo and libtraci declare the same
-// functions in two namespaces, so it is compiled once for each (docs/decisions/0004-two-gateways.md).
+// api_gateway.hpp and remote_gateway.cpp alone include SUMO's own headers. libsumo and libtraci declare the
+// same functions in two namespaces, so it is compiled once for each (docs/decisions/0004-two-gateways.md).
 
 namespace clearway::sumo::detail::gateway {
 
@@ -150,6 +150,8 @@ class Sumo {
     virtual void set_signal_state(const std::string& signal, const std::string& state) = 0;
     virtual void set_signal_program(const std::string& signal, const std::string& program) = 0;
     virtual void set_signal_phase(const std::string& signal, std::uint32_t phase) = 0;
+    /// From now on, of the phase that runs.
+    virtual void set_signal_phase_duration(const std::string& signal, double duration_s) = 0;
 };
 
 /// libsumo: SUMO in this process, to be loaded.

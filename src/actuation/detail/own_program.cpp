@@ -1,0 +1,59 @@
+#include "actuation/detail/own_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actuation/detail/lease_queue.hpp"
+#include "actuation/detail/signal_states.hpp"
+
+namespace clearway::actuation::detail {
+namespace {
+
+/// A green is prolonged by at most this share of itself on the way back into step: others wait for it.
+constexpr double most_stretch = 0.5;
+/// Nearer than this is in step, s: a state is seen a simulated step after it began.
+constexpr double in_step_s = 1.0;
+
+}  // namespace
+
+OwnProgram::OwnProgram(const roads::Signal& signal) : signal_(signal) {
+    for (const roads::Phase& phase : signal.program)
+        cycle_s_ += phase.duration_s;
+}
+
+void OwnProgram::watch(const std::string& state, core::Seconds now) {
+    just_changed_ = state != state_;
+    if (!just_changed_) return;
+    state_ = state;
+    since_ = now;
+    known_ = std::ranges::find(signal_.program, state, &roads::Phase::state) != signal_.program.end();
+}
+
+std::optional<std::uint32_t> OwnProgram::next_after(core::Seconds least_green, core::Seconds now) const {
+    if ((now - since_).value < least_green.value - time_tolerance_s) return std::nullopt;
+    const auto phase = green_phase(signal_, state_);
+    if (!phase) return std::nullopt;
+    return (*phase + 1) % static_cast<std::uint32_t>(signal_.program.size());
+}
+
+std::optional<PhaseChange> OwnProgram::step_back(core::Seconds least_green, core::Seconds now) {
+    if (in_step_ || !just_changed_) return std::nullopt;
+    const auto phase = green_phase(signal_, state_);
+    if (!phase) return std::nullopt;
+    const double lag_s = this->lag_s(*phase, now);
+    in_step_ = std::abs(lag_s) <= in_step_s;
+    if (in_step_) return std::nullopt;
+    const double own_s = signal_.program[*phase].duration_s;
+    const double lasting_s =
+        std::clamp(own_s + lag_s, std::min(own_s, least_green.value), own_s * (1.0 + most_stretch));
+    return PhaseChange{*phase, core::Seconds(lasting_s)};
+}
+
+double OwnProgram::lag_s(std::uint32_t phase, core::Seconds now) const {
+    double starts_s = signal_.offset_s;
+    for (std::uint32_t row = 0; row < phase; ++row)
+        starts_s += signal_.program[row].duration_s;
+    return std::remainder(starts_s - now.value, cycle_s_);
+}
+
+}  // namespace clearway::actuation::detail

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/units.hpp"
+#include "roads/network.hpp"
+
+namespace clearway::actuation::detail {
+
+/// A phase to go on with, and for how long.
+struct PhaseChange {
+    std::uint32_t phase = 0;
+    core::Seconds lasting;
+};
+
+/// What a signal's own program does while nothing is held: which phase it is in, since when, and what would
+/// bring it back into step with its neighbours after it was started at a phase of ours.
+///
+/// A program is known while the signal shows one of its states; another one may have been switched on.
+class OwnProgram {
+  public:
+    /// The signal outlives the object.
+    explicit OwnProgram(const roads::Signal& signal);
+
+    /// What the signal shows while its own program runs.
+    void watch(const std::string& state, core::Seconds now);
+    /// It was started at a phase, out of turn.
+    void disturb() { in_step_ = !signal_.fixed_time; }
+    /// It no longer runs.
+    void leave() { state_.clear(); }
+
+    bool is_known() const { return known_; }
+    /// Time of one cycle, s; 0 without a program.
+    double cycle_s() const { return cycle_s_; }
+    /// The phase after a green that has lasted `least_green_s`; nothing otherwise.
+    std::optional<std::uint32_t> next_after(core::Seconds least_green, core::Seconds now) const;
+    /// At the start of a green of a fixed-time program that is out of step: how long the green lasts on the
+    /// shorter way back into step: not under `least_green`, nor more than half as long again.
+    std::optional<PhaseChange> step_back(core::Seconds least_green, core::Seconds now);
+
+  private:
+    /// How much later than on its own the phase would end in step, in half a cycle either way, s.
+    double lag_s(std::uint32_t phase, core::Seconds now) const;
+
+    const roads::Signal& signal_;
+    double cycle_s_ = 0.0;
+    std::string state_;  ///< Empty while another than the own program runs.
+    core::Seconds since_;
+    bool known_ = true;
+    bool in_step_ = true;
+    bool just_changed_ = false;
+};
+
+}  // namespace clearway::actuation::detail

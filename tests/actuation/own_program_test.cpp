@@ -1,0 +1,111 @@
+#include "actuation/detail/own_program.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+namespace clearway::testing {
+namespace {
+
+using actuation::detail::OwnProgram;
+using actuation::detail::PhaseChange;
+
+/// A cycle of 100 s that begins at 20, 120, 220 s.
+roads::Signal clockwork() {
+    roads::Signal signal;
+    signal.id = "clockwork";
+    signal.program = {{56.0, "Gr"}, {4.0, "yr"}, {36.0, "rG"}, {4.0, "ry"}};
+    signal.offset_s = 20.0;
+    signal.fixed_time = true;
+    return signal;
+}
+
+constexpr core::Seconds least_green{10.0};
+
+/// Runs the program from phase `phase` at `start_s`, obeying the way back, until its first phase begins for
+/// the `cycles`th time; answers when that is, s.
+double start_of_cycle(const roads::Signal& signal, std::size_t phase, double start_s, int cycles) {
+    OwnProgram own(signal);
+    own.disturb();
+    double now_s = start_s;
+    for (int seen = 0;; phase = (phase + 1) % signal.program.size()) {
+        if (phase == 0 && ++seen == cycles) return now_s;
+        double lasting_s = signal.program[phase].duration_s;
+        own.watch(signal.program[phase].state, core::Seconds(now_s));
+        const auto change = own.step_back(least_green, core::Seconds(now_s));
+        if (change) {
+            EXPECT_EQ(change->phase, phase);
+            EXPECT_GE(change->lasting.value, 10.0);
+            EXPECT_LE(change->lasting.value, 1.5 * lasting_s);
+            lasting_s = change->lasting.value;
+        }
+        own.watch(signal.program[phase].state, core::Seconds(now_s + 0.25));
+        EXPECT_FALSE(own.step_back(least_green, core::Seconds(now_s + 0.25))) << "asked once for each green";
+        now_s += lasting_s;
+    }
+}
+
+class OwnProgramStart : public ::testing::TestWithParam<double> {};
+
+TEST_P(OwnProgramStart, comes_back_into_step_within_two_cycles) {
+    const double third_s = start_of_cycle(clockwork(), 2, GetParam(), 3);
+    EXPECT_NEAR(std::remainder(third_s - 20.0, 100.0), 0.0, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lags, OwnProgramStart,
+                         ::testing::Values(5.0, 79.0, 80.0, 81.0, 90.0, 110.0, 129.0, 131.0, 160.0));
+
+TEST(OwnProgram, in_step_is_left_alone) {
+    const roads::Signal signal = clockwork();
+    OwnProgram own(signal);
+    own.watch("Gr", core::Seconds(50.0));
+    EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0))) << "nobody disturbed it";
+}
+
+TEST(OwnProgram, that_waits_for_vehicles_has_no_step_to_keep) {
+    roads::Signal signal = clockwork();
+    signal.fixed_time = false;
+    OwnProgram own(signal);
+    own.disturb();
+    own.watch("Gr", core::Seconds(50.0));
+    EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0)));
+}
+
+TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
+    roads::Signal signal = clockwork();
+    signal.program[2].duration_s = 6.0;
+    OwnProgram own(signal);
+    own.disturb();
+    own.watch("rG", core::Seconds(100.0));
+    const auto change = own.step_back(least_green, core::Seconds(100.0));
+    ASSERT_TRUE(change.has_value());
+    EXPECT_DOUBLE_EQ(change->lasting.value, 6.0) << "20 s late";
+}
+
+TEST(OwnProgram, is_known_while_it_shows_one_of_its_states) {
+    const roads::Signal signal = clockwork();
+    OwnProgram own(signal);
+    own.watch("Gr", core::Seconds(0.0));
+    EXPECT_TRUE(own.is_known());
+    own.watch("GG", core::Seconds(1.0));
+    EXPECT_FALSE(own.is_known());
+    own.watch("ry", core::Seconds(2.0));
+    EXPECT_TRUE(own.is_known());
+}
+
+TEST(OwnProgram, goes_on_after_a_green_that_has_lasted) {
+    const roads::Signal signal = clockwork();
+    OwnProgram own(signal);
+    own.watch("rG", core::Seconds(100.0));
+    own.watch("rG", core::Seconds(109.0));
+    EXPECT_FALSE(own.next_after(least_green, core::Seconds(109.0)));
+    own.watch("rG", core::Seconds(110.0));
+    EXPECT_EQ(own.next_after(least_green, core::Seconds(110.0)), 3U);
+    own.leave();
+    own.watch("rG", core::Seconds(111.0));
+    EXPECT_FALSE(own.next_after(least_green, core::Seconds(111.0))) << "it starts anew";
+}
+
+}  // namespace
+}  // namespace clearway::testing
