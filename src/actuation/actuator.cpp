@@ -84,7 +84,7 @@ struct Actuator::State {
         return lanes;
     }
     void step_signals(const truth::Snapshot& snapshot, const traffic::Roster& roster,
-                      std::vector<traffic::Command>& commands) {
+                      const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
         if (signals.empty()) return;
         detail::Lanes occupied;
         for (const core::LaneIndex lane : snapshot.lane) {
@@ -96,14 +96,14 @@ struct Actuator::State {
             if (!pressed) pressed = pressed_lanes(snapshot, roster);
             return *pressed;
         };
-        const detail::SignalTiming timing{config.yellow_s,     config.all_red_s,  config.clearing_s,
-                                          config.gap_wait_s,   config.hold_cap_s, config.cool_down_s,
-                                          config.least_green_s};
+        const detail::SignalTiming timing{config.yellow_s,    config.all_red_s,    config.clearing_s,
+                                          config.walking_s,   config.gap_wait_s,   config.hold_cap_s,
+                                          config.cool_down_s, config.least_green_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
-            signal.step({snapshot.time, shown, timing, occupied, look}, ledger, commands);
+            signal.step({snapshot.time, shown, timing, occupied, look, self}, ledger, commands);
         }
     }
     void take(const traffic::Lease& lease) {
@@ -149,7 +149,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);
-    state.step_signals(snapshot, roster, commands);
+    state.step_signals(snapshot, roster, self, commands);
     std::erase_if(state.vehicles, [&](const auto& entry) { return entry.second.is_idle(now); });
     std::erase_if(state.signals, [&](const auto& entry) { return entry.second.is_idle(now); });
 }

@@ -16,6 +16,10 @@ struct ActuatorConfig {
     /// All red lasts up to this much longer while a vehicle that loses green is still inside the junction;
     /// [0, 30]. Assumed: a left-turner that stands there needs 4 s to leave.
     double clearing_s = 6.0;
+    /// Likewise while a pedestrian is still on a crossing that those who get green will cross, or a vehicle
+    /// on the way of pedestrians who get green; [0, 120], 0 where nobody walks. Assumed: 20 m at 0.5 m/s, so
+    /// it ends when the crossing is empty, unless somebody is stuck there. As detectors see them.
+    double walking_s = 40.0;
     /// A green is prolonged by up to this while somebody who would lose it could just stop, but not
     /// comfortably; [0, 10]. 2 s: with 0 s 5.5 emergency brakings a run at the dense intersection, with 2
     /// s 3.9.

@@ -15,6 +15,7 @@
 #include "city/detail/synthetic_demand.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "roads/crossings.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/picture.hpp"
 
@@ -151,6 +152,24 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
     return network;
 }
 
+void add_pedestrians(Import& import, const roads::Network& network, scenario::ScenarioConfig& config) {
+    const double per_hour = import.request.pedestrians_per_hour;
+    if (per_hour <= 0.0) return;
+    const std::vector<roads::Crossing> crossings = roads::crossings(network);
+    if (crossings.empty())
+        throw core::InputError(core::Problem{"--pedestrians", "the network has no crossing for pedestrians",
+                                             "a map, or a network with sidewalks and crossings",
+                                             "leave it out, or let netconvert guess crossings"});
+    const auto signalled = std::ranges::count_if(crossings, &roads::Crossing::has_signal);
+    config.pedestrians.per_hour = per_hour;
+    if (signalled == 0) config.pedestrians.crossings = scenario::Crossings::all;
+    import.findings.changes.push_back(
+        fmt::format("{:g} pedestrians an hour at each of {} crossings{}", per_hour,
+                    signalled == 0 ? crossings.size() : static_cast<std::size_t>(signalled),
+                    signalled == 0 ? ", none of which has a signal"
+                                   : fmt::format(" with a signal, of {} in all", crossings.size())));
+}
+
 DrivingSide side_of(Import& import, const detail::MapContents& map) {
     if (import.request.side != DrivingSide::by_country) return import.request.side;
     if (!map.driving_side.empty()) return map.driving_side == "left" ? DrivingSide::left : DrivingSide::right;
@@ -170,10 +189,13 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                                              "an OpenStreetMap extract with ways tagged highway",
                                              "choose another extract, or a larger one"});
     import.on_progress("building the network", 0.0);
-    const std::filesystem::path built =
-        detail::build_roads(maps.front(), extract, side_of(import, map), import.work, import.on_progress);
+    const auto footways =
+        import.request.pedestrians_per_hour > 0.0 ? detail::Footways::build : detail::Footways::none;
+    const std::filesystem::path built = detail::build_roads(
+        maps.front(), extract, {side_of(import, map), footways}, import.work, import.on_progress);
     const roads::Network network = take_network(import, built);
     std::filesystem::remove(built);
+    add_pedestrians(import, network, config);
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
     config.emergency_sites =
         detail::place_sites(map.sites, network, config.trips.minimum_edge_m, import.left_out);
@@ -186,6 +208,7 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
 void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
     import.on_progress("reading the network", 0.0);
     const roads::Network network = take_network(import, *sources.network);
+    add_pedestrians(import, network, config);
     config.network.attribution = fmt::format("from {}", sources.network->filename().string());
     const bool has_files = !sources.demand.routes.empty() || !sources.demand.additional.empty();
     import.on_progress("reading the demand", 0.0);

@@ -27,6 +27,9 @@ struct ImportRequest {
     BadVehicles bad_vehicles = BadVehicles::refuse;
     double automated_share = 0.35;                                       ///< 0 to 1.
     scenario::CarFollowing car_following = scenario::CarFollowing::own;  ///< Of vehicles with own types.
+    /// At each crossing; 0 to 2000. Above 0 the roads of a map get sidewalks and crossings; networks keep
+    /// those that they have.
+    double pedestrians_per_hour = 0.0;
     std::optional<double> begin_s;  ///< Time of the route files at which the scenario begins.
 };
 

@@ -98,6 +98,10 @@ Action configure_import(CLI::App& app) {
                    "Share of the cars that is automated, by vehicle id")
         ->check(core::NumberRange{0.0, 1.0})
         ->option_text("SHARE, 0 to 1 [0.35]");
+    app.add_option("--pedestrians", request.pedestrians_per_hour,
+                   "Pedestrians an hour at each crossing with signals; a map's roads get sidewalks")
+        ->check(core::NumberRange{0.0, 2000.0})
+        ->option_text("NUMBER, 0 to 2000 [0]");
     static const std::map<std::string, scenario::CarFollowing> models = {
         {"own", scenario::CarFollowing::own}, {"idm", scenario::CarFollowing::idm}};
     app.add_option_function<std::string>(

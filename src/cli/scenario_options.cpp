@@ -58,6 +58,9 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
     app.add_option("--friction", options.friction, "Share of a dry road's grip: accelerating and braking")
         ->option_text("SHARE, 0.1 to 1 [by scenario: 1]")
         ->group(group);
+    app.add_option("--pedestrians", options.pedestrians, "Pedestrians an hour at each crossing with signals")
+        ->option_text("NUMBER, 0 to 2000 [by scenario: 0]")
+        ->group(group);
     static const std::map<std::string, scenario::IdmPreset> presets = {
         {"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}};
     app.add_option_function<std::string>(

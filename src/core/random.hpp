@@ -21,6 +21,7 @@ enum class Purpose : std::uint32_t {
     vehicle_class = 3,
     emergency = 4,
     simulator = 5,
+    pedestrian = 6,
     report_loss = 16,
     outage = 17,
     link_detection = 18,

@@ -35,6 +35,7 @@ Machinery make_machinery(const results::ConditionSpec& condition, const Surround
                                         .link_radius_m = surroundings.loop.link_radius_m});
     actuation::ActuatorConfig actuation;
     actuation.yellow_s = yellow_s(surroundings.friction);
+    if (!surroundings.has_pedestrians) actuation.walking_s = 0.0;
     actuation.safety_checks = condition.safety_checks;
     actuation.lateral_model = condition.engine == results::Engine::sublane ? actuation::LateralModel::sublane
                                                                            : actuation::LateralModel::lane;

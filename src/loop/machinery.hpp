@@ -16,7 +16,8 @@ struct Surroundings {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
     drivers::SirenConfig siren;
-    double friction = 1.0;  ///< Of scenario::RoadCondition.
+    double friction = 1.0;        ///< Of scenario::RoadCondition.
+    bool has_pedestrians = true;  ///< Whether there may be any.
 };
 
 /// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not

@@ -152,7 +152,8 @@ LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepL
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
         .loop = loop_config_of(condition),
         .siren = config_.siren,
-        .friction = config_.road.friction};
+        .friction = config_.road.friction,
+        .has_pedestrians = config_.pedestrians.walk()};
     ClosedLoop loop(*session_, make_machinery(condition, surroundings), surroundings.loop, recorder_,
                     listener);
     loop.run(core::Seconds(prepared_.time.horizon_s));

@@ -21,6 +21,39 @@ namespace {
 
 using traffic::VehicleClass;
 
+struct Mean {
+    double sum = 0.0;
+    std::uint64_t count = 0;
+
+    void add(const std::optional<double>& value) {
+        if (!value) return;
+        sum += *value;
+        ++count;
+    }
+    std::optional<double> value() const {
+        if (count == 0) return std::nullopt;
+        return sum / static_cast<double>(count);
+    }
+};
+
+/// The walks of pedestrians in the tripinfo files.
+class Walks {
+  public:
+    void take(const detail::Element& walk) {
+        ++count_;
+        if (walk.number("arrival") >= 0.0) time_loss_s_.add(walk.number("timeLoss"));
+    }
+    void describe(RunMetrics& metrics) const {
+        metrics.pedestrian_count = count_;
+        metrics.pedestrians_unfinished = count_ - time_loss_s_.count;
+        metrics.pedestrian_time_loss_s = time_loss_s_.value();
+    }
+
+  private:
+    std::uint64_t count_ = 0;
+    Mean time_loss_s_;
+};
+
 /// Rows of a run while the tripinfo files are read.
 class RowTable {
   public:
@@ -45,6 +78,7 @@ class RowTable {
         try {
             detail::for_each_element(tripinfo, [this](const detail::Element& element) {
                 if (element.name() == "tripinfo") take(element);
+                if (element.name() == "walk") walks_.take(element);
             });
         } catch (const std::runtime_error& error) {
             throw core::SimulatorError(error.what());
@@ -60,6 +94,8 @@ class RowTable {
             rows_[found->second].outcome = VehicleOutcome::teleported;
         }
     }
+
+    const Walks& walks() const { return walks_; }
 
     std::vector<VehicleRow> take_rows() {
         std::ranges::sort(rows_, {},
@@ -97,21 +133,7 @@ class RowTable {
 
     std::vector<VehicleRow> rows_;
     std::unordered_map<core::VehicleKey, std::size_t> row_of_;
-};
-
-struct Mean {
-    double sum = 0.0;
-    std::uint64_t count = 0;
-
-    void add(const std::optional<double>& value) {
-        if (!value) return;
-        sum += *value;
-        ++count;
-    }
-    std::optional<double> value() const {
-        if (count == 0) return std::nullopt;
-        return sum / static_cast<double>(count);
-    }
+    Walks walks_;
 };
 
 void count_outcomes(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
@@ -166,6 +188,20 @@ void average(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
     metrics.others_travel_time_s = others.travel_time_s.value();
     metrics.others_time_loss_s = others.time_loss_s.value();
     metrics.others_waiting_time_s = others.waiting_time_s.value();
+}
+
+void count_collision(const truth::Collision& collision, const traffic::Roster& roster, RunMetrics& counted) {
+    if (roster.find(collision.victim) == nullptr) {
+        ++counted.pedestrian_collisions;
+        if (collision.with_emergency_vehicle) ++counted.emergency_pedestrian_collisions;
+        return;
+    }
+    const bool at_junction = collision.place == truth::CollisionPlace::junction;
+    ++counted.collisions;
+    if (at_junction) ++counted.junction_collisions;
+    if (!collision.with_emergency_vehicle) return;
+    ++counted.emergency_collisions;
+    if (at_junction) ++counted.emergency_junction_collisions;
 }
 
 void describe_flow(const detail::FlowWatch& flow, RunMetrics& metrics) {
@@ -260,13 +296,8 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     counted.vehicle_steps += snapshot.size();
     counted.teleports += events.teleported.size();
     counted.emergency_brakings += events.emergency_brakings.size();
-    counted.collisions += events.collisions.size();
-    for (const truth::Collision& collision : events.collisions) {
-        if (collision.place == truth::CollisionPlace::junction) ++counted.junction_collisions;
-        if (!collision.with_emergency_vehicle) continue;
-        ++counted.emergency_collisions;
-        if (collision.place == truth::CollisionPlace::junction) ++counted.emergency_junction_collisions;
-    }
+    for (const truth::Collision& collision : events.collisions)
+        count_collision(collision, roster, counted);
     for (const core::VehicleKey vehicle : events.teleported)
         ++state_->teleports[vehicle];
 }
@@ -293,6 +324,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
         describe_conflicts(*state_->conflicts, metrics);
         metrics.worst_approach_delay_s = worst_delay_s(summary.traffic.approaches);
     }
+    table.walks().describe(metrics);
     metrics.vehicle_km = driven_km(summary.vehicles);
     count_outcomes(summary.vehicles, metrics);
     average(summary.vehicles, metrics);

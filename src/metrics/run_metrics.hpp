@@ -64,6 +64,11 @@ struct RunMetrics {
     std::uint64_t emergency_collisions = 0;
     std::uint64_t emergency_junction_collisions = 0;
     std::uint64_t emergency_brakings = 0;
+    std::uint64_t pedestrian_count = 0;
+    std::uint64_t pedestrians_unfinished = 0;
+    std::optional<double> pedestrian_time_loss_s;
+    std::uint64_t pedestrian_collisions = 0;
+    std::uint64_t emergency_pedestrian_collisions = 0;
 
     // From the moment on at which conditions part.
     std::optional<double> emergency_least_ttc_s;
@@ -180,6 +185,22 @@ struct RunMetrics {
             Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
                   "tripinfo routeLength"});
     }
+    static constexpr auto pedestrian_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
+            Field{"pedestrian_count", "1", &M::pedestrian_count, 0.0, 1e9, "Walks of pedestrians",
+                  "tripinfo"},
+            Field{"pedestrians_unfinished", "1", &M::pedestrians_unfinished, 0.0, 1e9,
+                  "Walks that had not ended", "tripinfo"},
+            Field{"pedestrian_time_loss_s", "s", &M::pedestrian_time_loss_s, 0.0, 1e9,
+                  "Time lost on a walk, waiting at crossings included, mean of those that ended",
+                  "tripinfo timeLoss"},
+            Field{"pedestrian_collisions", "1", &M::pedestrian_collisions, 0.0, 1e9,
+                  "Collisions of vehicles with pedestrians, not among the collisions", "events"},
+            Field{"emergency_pedestrian_collisions", "1", &M::emergency_pedestrian_collisions, 0.0, 1e9,
+                  "Collisions of EVs with pedestrians", "events"});
+    }
     static constexpr auto decision_fields() {
         using M = RunMetrics;
         using core::Field;
@@ -214,7 +235,7 @@ struct RunMetrics {
 
   public:
     static constexpr auto fields() {
-        return std::tuple_cat(travel_fields(), safety_fields(), decision_fields());
+        return std::tuple_cat(travel_fields(), safety_fields(), pedestrian_fields(), decision_fields());
     }
 };
 

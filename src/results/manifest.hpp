@@ -35,7 +35,7 @@ struct PrecisionTarget {
 
 /// What a study is: with it and the same versions, every run can be made again.
 struct Manifest {
-    int format = 3;  ///< Of the run folder. Other formats are refused.
+    int format = 4;  ///< Of the run folder. Other formats are refused.
     std::string study;
     std::string clearway_version;
     std::string sumo_version;

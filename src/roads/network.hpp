@@ -47,6 +47,7 @@ struct Edge {
     std::uint32_t lane_count = 0;
     float length_m = 0.0F;
     bool internal = false;
+    bool crossing = false;  ///< For pedestrians; such an edge is internal.
     int priority = 0;
 };
 
@@ -81,6 +82,7 @@ struct Signal {
     /// By link number, as many as the letters of a phase; several connections may share one, some have none.
     /// Crossings for pedestrians are links too.
     std::vector<std::vector<SignalLink>> links;
+    std::vector<bool> crossings;  ///< By link number: whether it is a crossing.
     std::vector<Phase> program;
     double offset_s = 0.0;    ///< The program starts anew whenever time - offset is a multiple of its cycle.
     bool fixed_time = false;  ///< It never waits for vehicles, so it keeps in step with its neighbours.

@@ -101,6 +101,7 @@ void read_root(const toml::table& table, Reading& reading, ScenarioConfig& confi
     read_subtable(root, "drivers", reading, config.drivers);
     read_subtable(root, "siren", reading, config.siren);
     read_road(root, reading, config.road);
+    read_subtable(root, "pedestrians", reading, config.pedestrians);
     read_kinds(root, reading, config);
     read_subtable(root, "trips", reading, config.trips);
     read_list(root, "flow", reading, config.flows);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
 #include "traffic/siren.hpp"
 
@@ -48,6 +49,10 @@ constexpr auto spellings(Access) {
 constexpr auto spellings(CarFollowing) {
     return std::array{Spelling<CarFollowing>{CarFollowing::own, "own"},
                       Spelling<CarFollowing>{CarFollowing::idm, "idm"}};
+}
+constexpr auto spellings(Crossings) {
+    return std::array{Spelling<Crossings>{Crossings::signals, "signals"},
+                      Spelling<Crossings>{Crossings::all, "all"}};
 }
 constexpr auto spellings(SiteKind) {
     return std::array{Spelling<SiteKind>{SiteKind::hospital, "hospital"},
@@ -376,6 +381,7 @@ struct ScenarioConfig {
     Drivers drivers;
     traffic::SirenConfig siren;  ///< Table `[siren]`, optional: without it nobody yields.
     RoadCondition road;
+    Pedestrians pedestrians;
     TrafficKinds traffic_kinds;
     EmergencyKinds emergency_kinds;
     Trips trips;
@@ -407,6 +413,7 @@ struct Options {
     std::optional<double> siren_compliance;    ///< --siren, 0 to 1
     std::optional<double> road_speed_factor;   ///< --road-speed, 0.05 to 1
     std::optional<double> friction;            ///< --friction, 0.1 to 1
+    std::optional<double> pedestrians;         ///< --pedestrians, 0 to 2000 an hour at each crossing
     std::string traffic_kinds;    ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
     std::string emergency_kinds;  ///< --emergency-kinds, `ambulance=1,police_car=1`
     /// Keys of scenario.toml that replace the file's before it is read, `demand.human` -> `40` as TOML writes

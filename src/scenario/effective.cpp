@@ -126,10 +126,11 @@ std::string to_toml(const ScenarioConfig& config) {
     if (config.dense) text += "\n[dense]\n" + members(*config.dense);
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
-    // A siren that nobody heeds is none, and so is a dry road: so configurations from before them keep their
-    // hash.
+    // A siren that nobody heeds is none, and so are a dry road and crossings that nobody uses: so
+    // configurations from before them keep their hash.
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
     if (!config.road.is_dry()) text += road_text(config.road);
+    if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);
     text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);
     text += "\n[kinds.emergency]\n" + members(config.emergency_kinds);
     text += "\n[trips]\n" + members(config.trips);

@@ -46,6 +46,11 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
 std::vector<std::string> plain_arguments(const ScenarioConfig& config) {
     const NetworkSource& source = config.network;
     std::vector<std::string> arguments = {"--no-turnarounds", "true"};
+    // Sidewalks at roads of any speed: crossings at signals want them. Netconvert builds none across fast
+    // roads where there is no signal, and gives the programs their phases for pedestrians.
+    if (config.pedestrians.walk())
+        arguments.insert(arguments.end(), {"--sidewalks.guess", "true", "--sidewalks.guess.max-speed", "1000",
+                                           "--crossings.guess", "true"});
     for (const auto& [option, file] :
          {std::pair{"--node-files", &source.nodes}, std::pair{"--edge-files", &source.edges},
           std::pair{"--connection-files", &source.connections},
@@ -113,6 +118,7 @@ std::string hash_of_inputs(const ScenarioConfig& config) {
         for (const Stretch& stretch : config.road.stretches)
             bytes += fmt::format("{} {}\n", stretch.speed_factor, fmt::join(stretch.edges, " "));
     }
+    if (config.pedestrians.walk()) bytes += "pedestrians\n";
     for (const std::string& file :
          {source.nodes, source.edges, source.connections, source.signals, source.file})
         if (!file.empty()) bytes += core::read_file(resolve(config, file)) + "\n";

@@ -18,10 +18,11 @@ struct BuiltNetwork {
 
 /// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file, cut
 /// down to its largest car-connected component where the scenario says so and with faster roads limited to
-/// `limits.road_kmh` and then slowed as `[road]` says. The result holds no time stamp and no path, so equal
-/// inputs give equal bytes. Throws core::InputError naming file and cure for what netconvert refuses, for a
-/// network without edges open to cars and for a stretch of road that is not in it, core::EnvironmentError
-/// when netconvert is missing.
+/// `limits.road_kmh` and then slowed as `[road]` says. Plain XML gets sidewalks and crossings where
+/// pedestrians walk; network files keep those that they have. The result holds no time stamp and no path, so
+/// equal inputs give equal bytes. Throws core::InputError naming file and cure for what netconvert refuses,
+/// for a network without edges open to cars and for a stretch of road that is not in it,
+/// core::EnvironmentError when netconvert is missing.
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 
 /// Opens what `build_network` made in `folder`, for example in another process.

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/pedestrians.hpp"
 #include "scenario/vehicle_types.hpp"
 
 namespace clearway::scenario {
@@ -62,6 +63,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     const std::string types = vehicle_types_xml(config);
     const std::string routes = routes_xml(demand.vehicles);
     const std::string emergency = emergency_csv(demand.emergency);
+    const std::string pedestrians = config.pedestrians.walk() ? detail::pedestrians_xml(context) : "";
     core::make_folder(folder);
     core::write_atomically(folder / "vehicle_types.add.xml", types);
     core::write_atomically(folder / "traffic.rou.xml", routes);
@@ -70,6 +72,10 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     Prepared prepared;
     prepared.network_file = network.file;
     prepared.route_files = {folder / "traffic.rou.xml"};
+    if (!pedestrians.empty()) {
+        prepared.route_files.push_back(folder / "pedestrians.rou.xml");
+        core::write_atomically(prepared.route_files.back(), pedestrians);
+    }
     prepared.additional_files = additional_files(config);
     prepared.additional_files.insert(prepared.additional_files.begin(), folder / "vehicle_types.add.xml");
     prepared.human = count(demand.vehicles, traffic::VehicleClass::human);
@@ -77,7 +83,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     prepared.emergency = std::move(demand.emergency);
     prepared.time = config.time;
     prepared.simulator_seed = simulator_seed(context.random);
-    prepared.demand_hash = core::content_hash(types + routes + emergency);
+    prepared.demand_hash = core::content_hash(types + routes + emergency + pedestrians);
     return prepared;
 }
 

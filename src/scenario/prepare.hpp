@@ -15,7 +15,8 @@ namespace clearway::scenario {
 /// What SUMO needs for one replication.
 struct Prepared {
     std::filesystem::path network_file;
-    std::vector<std::filesystem::path> route_files;  ///< Human and automated vehicles, by departure.
+    /// Human and automated vehicles, by departure; then pedestrians, where there are any.
+    std::vector<std::filesystem::path> route_files;
     std::vector<std::filesystem::path>
         additional_files;  ///< Vehicle types first, then what the demand refers to.
     /// By departure. The run adds them after the warm-up; they stand in no route file. Also in
@@ -25,14 +26,15 @@ struct Prepared {
     std::uint64_t simulator_seed = 1;  ///< For SUMO's own generator, 31 bits, not 0.
     int human = 0;
     int automated = 0;
-    std::string demand_hash;  ///< Content of vehicle types, routes and emergency departures.
+    std::string demand_hash;  ///< Content of all files that it writes.
 };
 
-/// Writes vehicle types, routes and emergency departures of one replication into `folder` and tells where
-/// they are. A pure function of configuration, network, seed and replication: equal arguments give equal
-/// bytes, whatever else was prepared, and a vehicle keeps its departure, route and driver when others are
-/// added. Throws core::InputError with every unknown edge, unreachable destination and unknown measured type;
-/// core::EnvironmentError when `folder` cannot be written.
+/// Writes vehicle types, routes, emergency departures and pedestrians of one replication into `folder` and
+/// tells where they are. A pure function of configuration, network, seed and replication: equal arguments
+/// give equal bytes, whatever else was prepared, and a vehicle keeps its departure, route and driver when
+/// others are added. Throws core::InputError with every unknown edge, unreachable destination and unknown
+/// measured type, and for pedestrians in a network without crossings; core::EnvironmentError when `folder`
+/// cannot be written.
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder);
 

@@ -39,7 +39,8 @@ const std::vector<std::string> override_keys = {"variant",
                                                 "emergency_kinds",
                                                 "siren_compliance",
                                                 "road_speed_factor",
-                                                "friction"};
+                                                "friction",
+                                                "pedestrians_per_hour"};
 
 scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
@@ -59,6 +60,7 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     reader.number("siren_compliance", options.siren_compliance);
     reader.number("road_speed_factor", options.road_speed_factor);
     reader.number("friction", options.friction);
+    reader.number("pedestrians_per_hour", options.pedestrians);
     reader.text("traffic_kinds", options.traffic_kinds);
     reader.text("emergency_kinds", options.emergency_kinds);
     reader.finish();

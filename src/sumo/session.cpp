@@ -329,6 +329,12 @@ std::optional<core::MetresPerSecond> Session::allowed_speed(core::VehicleKey veh
                            [&] { return core::MetresPerSecond(state_->sumo->allowed_speed_mps(found->id)); });
 }
 
+bool Session::has_pedestrian(core::LaneIndex crossing) const {
+    const std::string& lane = state_->names.names().lanes.at(crossing.value);
+    return state_->guarded("SUMO cannot tell who walks on a crossing",
+                           [&] { return state_->sumo->has_person(lane.substr(0, lane.rfind('_'))); });
+}
+
 const std::filesystem::path& Session::trip_file() const {
     return state_->trip_file;
 }

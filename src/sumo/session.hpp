@@ -120,6 +120,7 @@ class Session : public truth::SelfKnowledge {
                                           truth::Neighbour direction) const override;
     std::optional<std::vector<truth::LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const override;
     std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const override;
+    bool has_pedestrian(core::LaneIndex crossing) const override;
 
   private:
     struct State;

@@ -12,7 +12,7 @@ enum class CollisionPlace : unsigned char { lane, junction };
 
 struct Collision {
     core::VehicleKey collider;
-    core::VehicleKey victim;
+    core::VehicleKey victim;  ///< A pedestrian, if the roster does not know it.
     CollisionPlace place = CollisionPlace::lane;
     core::LaneIndex lane;
     bool with_emergency_vehicle = false;

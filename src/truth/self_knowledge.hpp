@@ -20,7 +20,7 @@ struct LaneOutlook {
 };
 
 /// Questions that a vehicle can answer about itself, for `actuation` alone: what it could do now. Answers are
-/// nothing when the vehicle is not on the road.
+/// nothing when the vehicle is not on the road. And what the detector of a crossing knows.
 class SelfKnowledge {
   public:
     SelfKnowledge() = default;
@@ -35,6 +35,8 @@ class SelfKnowledge {
     virtual std::optional<std::vector<LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const = 0;
     /// Highest speed the vehicle may and can drive here: min(road limit times its factor, own maximum).
     virtual std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const = 0;
+    /// Whether a pedestrian is on a crossing.
+    virtual bool has_pedestrian(core::LaneIndex crossing) const = 0;
 };
 
 }  // namespace clearway::truth

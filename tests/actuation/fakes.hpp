@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,19 +32,30 @@ class FakeSelfKnowledge : public truth::SelfKnowledge {
         return core::MetresPerSecond(allowed_mps);
     }
 
+    bool has_pedestrian(core::LaneIndex crossing) const override { return walked_on.contains(crossing); }
+
     bool room_beside = true;
+    std::set<core::LaneIndex> walked_on;
     double allowed_mps = 16.67;
     /// Two lanes that both continue.
     std::vector<truth::LaneOutlook> outlook = std::vector<truth::LaneOutlook>(2);
 };
 
-/// An actuator with the two crossings, a clock and a record of every command.
+/// A road with sidewalks and a signal `J` where a crossing leads over it; see data/footway.net.xml.
+inline const roads::Network& footway() {
+    static const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml");
+    return network;
+}
+
+/// An actuator with the two crossings, or another network, a clock and a record of every command.
 class ActuationBench {
   public:
-    explicit ActuationBench(double step_s = 0.25, actuation::Actuator::Config config = {})
-        : step_s_(step_s), actuator(two_crossings(), config) {
+    explicit ActuationBench(double step_s = 0.25, actuation::Actuator::Config config = {},
+                            const roads::Network& network = two_crossings())
+        : step_s_(step_s), network_(network), actuator(network, config) {
         now = core::Seconds(0.0);
-        for (const roads::Signal& signal : two_crossings().signals()) {
+        for (const roads::Signal& signal : network.signals()) {
             shown.push_back(signal.program.front().state);
         }
     }
@@ -114,11 +126,12 @@ class ActuationBench {
             shown[set.signal.value] = set.state;
         for (const auto& restore : only<traffic::RestoreProgram>(commands)) {
             shown[restore.signal.value] =
-                two_crossings().signal(restore.signal).program[restore.phase.value_or(0)].state;
+                network_.signal(restore.signal).program[restore.phase.value_or(0)].state;
         }
     }
 
     double step_s_;
+    const roads::Network& network_;
     int steps_ = 0;
 
   public:

@@ -14,7 +14,7 @@ using actuation::detail::needs_all_red;
 using actuation::detail::needs_yellow;
 using actuation::detail::yellow_state;
 
-/// Link 0 crosses 1 and 2; 1 and 2 go together; link 3 is a pedestrian crossing.
+/// Link 0 crosses 1 and 2; 1 and 2 go together; link 3 has no way in the network.
 roads::Signal small_signal() {
     roads::Signal signal;
     signal.id = "small";
@@ -23,6 +23,7 @@ roads::Signal small_signal() {
                    {true, false, false, false},
                    {true, false, false, false},
                    {false, false, false, false}};
+    signal.crossings.assign(4, false);
     signal.program = {{30.0, "GrrG"}, {3.0, "yrrr"}, {30.0, "rGgr"}, {3.0, "ryyr"}};
     return signal;
 }
@@ -70,8 +71,8 @@ TEST(HoldState, takes_letters_of_conflicting_requests_from_the_phase_that_serves
 }
 
 TEST(Transition, shows_yellow_to_those_who_lose_green_and_keeps_the_others) {
-    EXPECT_EQ(yellow_state("GGrr", "rGGr"), "yGrr");
-    EXPECT_EQ(yellow_state("yrrr", "rGrr"), "yrrr");
+    EXPECT_EQ(yellow_state(small_signal(), "GGrr", "rGGr"), "yGrr");
+    EXPECT_EQ(yellow_state(small_signal(), "yrrr", "rGrr"), "yrrr");
     EXPECT_EQ(all_red_state("GGrr", "rGGr"), "rGrr");
 }
 

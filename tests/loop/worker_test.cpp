@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "core/process.hpp"
+#include "loop/closed_loop.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "sumo/waiting_sumo.hpp"
@@ -110,6 +111,85 @@ TEST(Worker, DrivesInRainAndOnIceInEveryConditionAndAlone) {
         EXPECT_GT(icy.at(name), dry.at(name) * 1.05) << name << "; alone they meet no one to brake for";
 }
 
+const ConditionSpec clearing = condition("corridor", "perfect", "none", {"corridor"});
+
+TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {
+    scenario::Options walked;
+    walked.variant = scenario::Variant::dense;
+    walked.road_limit_kmh = 70.0;
+    walked.pedestrians = 300.0;
+    walked.step_length_s = 0.1;
+    const test::StudyFolder folder("intersection", walked, {baseline, clearing, solo});
+    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
+    ASSERT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+    const metrics::RunMetrics before = record_of(folder, "intersection", "baseline").metrics;
+    const metrics::RunMetrics after = record_of(folder, "intersection", "corridor").metrics;
+    EXPECT_EQ(before.pedestrian_count, 133U) << "300 an hour at 4 crossings, for 400 s";
+    EXPECT_EQ(after.pedestrian_count, before.pedestrian_count);
+    EXPECT_GT(before.pedestrian_time_loss_s.value_or(0.0), 5.0);
+    for (const metrics::RunMetrics& run : {before, after}) {
+        EXPECT_EQ(run.pedestrians_unfinished, 0U);
+        EXPECT_EQ(run.emergency_pedestrian_collisions, 0U);
+        EXPECT_EQ(run.emergency_arrived, 6U);
+    }
+    EXPECT_LE(after.pedestrian_collisions, before.pedestrian_collisions) << "SUMO's right-turners hit some";
+    EXPECT_LT(after.emergency_time_loss_s, before.emergency_time_loss_s);
+    EXPECT_EQ(record_of(folder, "intersection", "solo").metrics.pedestrian_count, 0U);
+}
+
+/// Counts letters that turn green, in states that Clearway set, while somebody walks on a crossing in the
+/// way.
+class CrossingWatch : public loop::StepListener {
+  public:
+    CrossingWatch(const roads::Network& network, const sumo::Session& session)
+        : network_(network), session_(session) {}
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster&) override {
+        for (std::size_t row = 0; row < before_.size(); ++row)
+            look(network_.signals()[row], before_[row], snapshot.signals.state[row]);
+        before_ = snapshot.signals.state;
+    }
+    int greens = 0;
+    int greens_with_pedestrians = 0;
+
+  private:
+    void look(const roads::Signal& signal, const std::string& before, const std::string& now) {
+        if (std::ranges::count(signal.program, now, &roads::Phase::state) > 0) return;
+        for (std::size_t link = 0; link < now.size(); ++link) {
+            if (!traffic::is_green(now[link]) || traffic::is_green(before[link])) continue;
+            ++greens;
+            for (std::size_t crossing = 0; crossing < now.size(); ++crossing) {
+                if (!signal.crossings[crossing] || !signal.foes[link][crossing]) continue;
+                if (session_.has_pedestrian(signal.links[crossing].front().to)) ++greens_with_pedestrians;
+            }
+        }
+    }
+
+    const roads::Network& network_;
+    const sumo::Session& session_;
+    std::vector<std::string> before_;
+};
+
+TEST(Worker, GivesNoGreenAcrossACrossingThatSomebodyIsStillOn) {
+    scenario::Options slow;
+    slow.variant = scenario::Variant::dense;
+    slow.road_limit_kmh = 70.0;
+    slow.pedestrians = 600.0;
+    slow.settings = {{"pedestrians.speed_mean_mps", "0.8"}};
+    const test::StudyFolder folder("intersection", slow, {clearing});
+    const sumo::Session* session = nullptr;
+    loop::UnitRun run(folder.unit(0), folder.path() / "demand", folder.path() / "here",
+                      [&](sumo::SessionConfig config) {
+                          auto started = loop::in_this_process(std::move(config));
+                          session = started.get();
+                          return started;
+                      });
+    CrossingWatch watch(run.network(), *session);
+    run.record(clearing, watch);
+    EXPECT_GT(watch.greens, 5);
+    EXPECT_EQ(watch.greens_with_pedestrians, 0);
+}
+
 TEST(Worker, BelievesTheTrueGraphUnderPerfectSensing) {
     const test::StudyFolder folder("intersection", {}, {perfect});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
@@ -173,6 +253,12 @@ void expect_equal_without_fork(const std::string& scenario, const scenario::Opti
 
 TEST(Worker, EqualsARunWithoutForkInTheCity) {
     expect_equal_without_fork("city", {});
+}
+
+TEST(Worker, EqualsARunWithoutForkAmongPedestrians) {
+    scenario::Options walked;
+    walked.pedestrians = 300.0;
+    expect_equal_without_fork("city", walked);
 }
 
 TEST(Worker, EqualsARunWithoutForkInBologna) {

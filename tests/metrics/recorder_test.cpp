@@ -124,6 +124,21 @@ TEST_F(RecorderAtTheEnd, TakesOneFilePerVehicleOfASoloRun) {
     EXPECT_EQ(summary.vehicles.front().id, "e1");
 }
 
+TEST_F(RecorderAtTheEnd, CountsWalksAndAveragesTheTimeLostOnThoseThatEnded) {
+    RunEnd end;
+    end.tripinfo_files = {
+        folder_.write("walks.xml",
+                      "<tripinfos>"
+                      "<personinfo id=\"a\"><walk arrival=\"9\" timeLoss=\"4\"/></personinfo>"
+                      "<personinfo id=\"b\"><walk arrival=\"9\" timeLoss=\"6\"/></personinfo>"
+                      "<personinfo id=\"c\"><walk arrival=\"-1\" timeLoss=\"0\"/></personinfo>"
+                      "</tripinfos>")};
+    const RunMetrics metrics = Recorder().finish(end).metrics;
+    EXPECT_EQ(metrics.pedestrian_count, 3U);
+    EXPECT_EQ(metrics.pedestrians_unfinished, 1U);
+    EXPECT_DOUBLE_EQ(*metrics.pedestrian_time_loss_s, 5.0);
+}
+
 TEST(Recorder, CountsEventsOverAllSteps) {
     Recorder recorder;
     truth::Snapshot snapshot;
@@ -133,11 +148,19 @@ TEST(Recorder, CountsEventsOverAllSteps) {
     at_junction.place = truth::CollisionPlace::junction;
     truth::Collision with_emergency;
     with_emergency.with_emergency_vehicle = true;
-    events.collisions = {at_junction, with_emergency};
+    truth::Collision with_pedestrian = with_emergency;
+    with_pedestrian.victim = VehicleKey{2};
+    events.collisions = {at_junction, with_emergency, with_pedestrian};
+    traffic::Roster roster;
+    traffic::VehicleInfo victim;
+    victim.id = "victim";
+    roster.add(victim);
     events.emergency_brakings.resize(4);
-    recorder.step(snapshot, {}, events, {});
-    recorder.step(snapshot, {}, events, {});
+    recorder.step(snapshot, roster, events, {});
+    recorder.step(snapshot, roster, events, {});
     const RunMetrics metrics = recorder.finish({}).metrics;
+    EXPECT_EQ(metrics.pedestrian_collisions, 2U);
+    EXPECT_EQ(metrics.emergency_pedestrian_collisions, 2U);
     EXPECT_EQ(metrics.collisions, 4U);
     EXPECT_EQ(metrics.junction_collisions, 2U);
     EXPECT_EQ(metrics.emergency_collisions, 2U);

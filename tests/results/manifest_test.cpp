@@ -38,7 +38,7 @@ TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {
     text.replace(text.find("1.15.0"), 6, "1.16.0");
     EXPECT_THROW(manifest_from_json(text, "m"), core::InputError);
     text = to_json(synthetic::manifest());
-    text.replace(text.find("\"format\": 3"), 11, "\"format\": 9");
+    text.replace(text.find("\"format\": 4"), 11, "\"format\": 9");
     try {
         manifest_from_json(text, "m.json");
         FAIL();

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "crossing_network.hpp"
+#include "roads/crossings.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::roads {
@@ -16,6 +17,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 class NetworkTest : public ::testing::Test {
   protected:
@@ -39,6 +41,24 @@ class NetworkTest : public ::testing::Test {
 
     support::TemporaryFolder folder_;
 };
+
+TEST(Crossings, JoinSidewalksAndKnowTheirSignal) {
+    const Network network = Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml");
+    const std::vector<Crossing> found = crossings(network);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(network.edge(found[0].edge).id, ":J_c0");
+    EXPECT_TRUE(found[0].has_signal);
+    const auto ends = [&](const std::vector<SidewalkEnd>& side) {
+        std::vector<std::string> names;
+        for (const SidewalkEnd& each : side)
+            names.push_back((each.end == LaneEnd::last ? "end of " : "start of ") +
+                            network.lane(each.lane).id);
+        return names;
+    };
+    EXPECT_THAT(ends(found[0].one_side), UnorderedElementsAre("end of in2_0", "start of out2_0"));
+    EXPECT_THAT(ends(found[0].other_side), UnorderedElementsAre("end of in_0", "start of out_0"));
+    EXPECT_EQ(network.signal(*network.find_signal("J")).crossings, (std::vector<bool>{false, false, true}));
+}
 
 TEST_F(NetworkTest, ReadsEdgesAndLanes) {
     const Network network = crossing();

@@ -284,6 +284,39 @@ TEST_F(Config, bad_road_conditions_say_where_and_what) {
     EXPECT_EQ(only_problem("", options).where, "--friction");
 }
 
+TEST_F(Config, crossings_that_nobody_uses_leave_the_effective_configuration_as_it_was) {
+    EXPECT_EQ(to_toml(load_text("[pedestrians]\nper_hour = 0\ncrossings = \"all\"\n")),
+              to_toml(load_text("")));
+    EXPECT_EQ(to_toml(load("city")).find("[pedestrians"), std::string::npos);
+}
+
+TEST_F(Config, pedestrians_come_from_table_option_and_factor_and_read_back) {
+    Options options;
+    options.pedestrians = 120.0;
+    options.settings = {{"pedestrians.speed_mean_mps", "1.2"}};
+    const ScenarioConfig config =
+        load_text("[pedestrians]\nper_hour = 5\ncrossings = \"all\"\nspeed_deviation_mps = 0\n", options);
+    EXPECT_EQ(config.pedestrians.per_hour, 120.0);
+    EXPECT_EQ(config.pedestrians.crossings, Crossings::all);
+    EXPECT_EQ(config.pedestrians.speed_mean_mps, 1.2);
+    EXPECT_EQ(config.pedestrians.speed_deviation_mps, 0.0);
+    store(config, folder() / "stored");
+    EXPECT_EQ(to_toml(load((folder() / "stored").string())), to_toml(config));
+}
+
+TEST_F(Config, bad_pedestrians_say_where_and_what) {
+    EXPECT_THAT(only_problem("[pedestrians]\nper_hour = -1\n"),
+                AllOf(Field(&core::Problem::where, HasSubstr("scenario.toml:7:1: pedestrians.per_hour")),
+                      Field(&core::Problem::allowed, "0 to 2000")));
+    EXPECT_THAT(only_problem("[pedestrians]\nper_hour = nan\n").allowed, "0 to 2000");
+    EXPECT_THAT(only_problem("[pedestrians]\nper_huor = 5\n").cure, HasSubstr("per_hour"));
+    EXPECT_THAT(only_problem("[pedestrians]\ncrossings = \"some\"\n").allowed, HasSubstr("signals"));
+    EXPECT_THAT(only_problem("[pedestrians]\nspeed_mean_mps = 0\n").allowed, "0.5 to 3");
+    Options options;
+    options.pedestrians = 1e6;
+    EXPECT_EQ(only_problem("", options).where, "--pedestrians");
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

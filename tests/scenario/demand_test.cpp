@@ -106,6 +106,42 @@ TEST_F(PreparedDemand, depends_on_seed_and_replication_alone) {
     EXPECT_NE(first.simulator_seed, other.simulator_seed);
 }
 
+TEST_F(PreparedDemand, pedestrians_walk_across_crossings_and_leave_the_vehicles_as_they_were) {
+    const Prepared alone = prepared("city");
+    EXPECT_EQ(alone.route_files.size(), 1U) << "nobody walks by default";
+    Options options;
+    options.pedestrians = 200.0;
+    const Prepared walked = prepared("city", options);
+    ASSERT_EQ(walked.route_files.size(), 2U);
+    EXPECT_EQ(core::read_file(walked.route_files[0]), core::read_file(alone.route_files[0]));
+    EXPECT_NE(walked.demand_hash, alone.demand_hash);
+    const std::string first = core::read_file(walked.route_files[1]);
+    EXPECT_EQ(first, core::read_file(prepared("city", options).route_files[1]));
+    EXPECT_NE(first, core::read_file(prepared("city", options, 1).route_files[1]));
+    const auto count = [](const std::string& text) {
+        std::size_t persons = 0;
+        for (std::size_t at = text.find("<person "); at != std::string::npos;
+             at = text.find("<person ", at + 1))
+            ++persons;
+        return persons;
+    };
+    options.pedestrians = 400.0;
+    const std::string more = core::read_file(prepared("city", options).route_files[1]);
+    EXPECT_NEAR(static_cast<double>(count(more)), 2.0 * static_cast<double>(count(first)), 1.0);
+    const std::size_t person = first.find("<person id=\"pedestrian.7\"");
+    EXPECT_NE(more.find(first.substr(person, first.find('\n', person) - person)), std::string::npos)
+        << "more of them leave the others as they were";
+}
+
+TEST_F(PreparedDemand, pedestrians_need_a_crossing) {
+    Options options;
+    options.pedestrians = 10.0;
+    const auto problems = problems_of([&] { prepared("merge", options); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "--pedestrians");
+    EXPECT_THAT(problems[0].what, HasSubstr("no crossing"));
+}
+
 TEST_F(PreparedDemand, more_traffic_leaves_the_other_vehicles_as_they_were) {
     const auto few = rows_of(prepared("merge").route_files[0]);
     Options options;

@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "core/files.hpp"
+#include "roads/crossings.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
@@ -133,6 +134,18 @@ TEST_F(BuiltNetworks, rain_slows_all_roads_and_a_stretch_has_a_factor_of_its_own
     config.road = {};
     config.road.friction = 0.5;
     EXPECT_EQ(core::read_file(build_network(config, folder() / "slippery").file), core::read_file(dry.file));
+}
+
+TEST_F(BuiltNetworks, pedestrians_bring_the_intersection_four_crossings_with_phases_of_their_own) {
+    Options options;
+    options.pedestrians = 100.0;
+    const BuiltNetwork walked = built("intersection", options);
+    EXPECT_EQ(roads::crossings(walked.network).size(), 4U);
+    const roads::Signal& signal = walked.network.signals()[0];
+    EXPECT_EQ(std::count(signal.crossings.begin(), signal.crossings.end(), true), 4);
+    ASSERT_EQ(signal.program.size(), 6U);
+    EXPECT_EQ(signal.program[0].duration_s + signal.program[1].duration_s, 40.0) << "5 s to clear crossings";
+    EXPECT_TRUE(roads::crossings(build_network(load("intersection"), folder() / "plain").network).empty());
 }
 
 TEST_F(BuiltNetworks, a_stretch_over_an_unknown_edge_names_the_nearest) {

@@ -76,7 +76,7 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
         const bool in_green = in_program || stage_ == Stage::hold;
         if (in_green && waits_for_gap(way.target, around)) return;
         if (in_program || conflict(signal_, links, last_held_)) taken_since_ = around.now;
-        begin(std::move(way), around.now, commands);
+        begin(std::move(way), around, commands);
     } else {
         gap_awaited_.reset();
     }
@@ -139,17 +139,18 @@ SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
     return way;
 }
 
-void SignalControl::begin(Way way, core::Seconds now, std::vector<traffic::Command>& commands) {
+void SignalControl::begin(Way way, const SignalSurroundings& around,
+                          std::vector<traffic::Command>& commands) {
     way_ = std::move(way);
     if (!way_.links.empty()) last_held_ = way_.links;
     const std::string& target = way_.target;
     const bool to_unknown = way_.links.empty() && !way_.return_phase;
     if (needs_yellow(shown_, target))
-        enter(Stage::yellow, yellow_state(shown_, target), now, commands);
-    else if (to_unknown || needs_all_red(shown_, target))
-        enter(Stage::all_red, all_red_state(shown_, target), now, commands);
+        enter(Stage::yellow, yellow_state(signal_, shown_, target), around.now, commands);
+    else if (to_unknown || needs_all_red(shown_, target) || !is_left_by_pedestrians(around))
+        enter(Stage::all_red, all_red_state(shown_, target), around.now, commands);
     else
-        enter(Stage::hold, target, now, commands);
+        enter(Stage::hold, target, around.now, commands);
 }
 
 void SignalControl::enter(Stage stage, const std::string& state, core::Seconds now,
@@ -162,17 +163,47 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
     shown_ = state;
 }
 
-/// Nobody who has lost green is still on a way that those who get it will cross.
-bool SignalControl::is_clear(const Lanes& occupied) const {
+/// Whether no way that has lost green is busy where those of `gaining` will cross.
+template <class IsBusy>
+bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
     const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
     for (std::uint16_t link = 0; link < link_count; ++link) {
         const bool keeps = link < way_.target.size() && traffic::is_green(way_.target[link]);
-        if (keeps || !conflict(signal_, {link}, way_.gaining)) continue;
-        for (const core::LaneIndex lane : inner_lanes_[link]) {
-            if (std::ranges::binary_search(occupied, lane)) return false;
-        }
+        if (keeps || !conflict(signal_, {link}, gaining)) continue;
+        if (is_busy(link)) return false;
     }
     return true;
+}
+
+bool SignalControl::is_left_by_vehicles(const Links& gaining, const SignalSurroundings& around) const {
+    return is_clear(gaining, [&](std::uint16_t link) {
+        return std::ranges::any_of(inner_lanes_[link], [&](core::LaneIndex lane) {
+            return std::ranges::binary_search(around.occupied, lane);
+        });
+    });
+}
+
+bool SignalControl::is_left_by_pedestrians(const SignalSurroundings& around) const {
+    return around.timing.walking_s <= 0.0 || is_clear(way_.gaining, [&](std::uint16_t link) {
+               return signal_.crossings[link] &&
+                      std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
+                          return around.crossings.has_pedestrian(way.to);
+                      });
+           });
+}
+
+/// Whether those who get green meet nobody, or have waited for it as long as they may. Pedestrians wait
+/// longer for vehicles than vehicles do.
+bool SignalControl::may_open(const SignalSurroundings& around) const {
+    const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
+    if (red_s < 0.0) return false;
+    Links walking;
+    std::ranges::copy_if(way_.gaining, std::back_inserter(walking), [&](std::uint16_t link) {
+        return link < signal_.crossings.size() && signal_.crossings[link];
+    });
+    return (red_s >= around.timing.clearing_s || is_left_by_vehicles(way_.gaining, around)) &&
+           (red_s >= around.timing.walking_s ||
+            (is_left_by_pedestrians(around) && is_left_by_vehicles(walking, around)));
 }
 
 void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands) {
@@ -181,13 +212,11 @@ void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffi
     };
     if (stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
         const std::string red = all_red_state(shown_, way_.target);
-        const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target);
+        const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target) ||
+                            !is_left_by_pedestrians(around);
         enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : way_.target, around.now, commands);
     }
-    const bool is_cleared =
-        stage_ == Stage::all_red && is_over(around.timing.all_red_s) &&
-        (is_over(around.timing.all_red_s + around.timing.clearing_s) || is_clear(around.occupied));
-    if (is_cleared) enter(Stage::hold, way_.target, around.now, commands);
+    if (stage_ == Stage::all_red && may_open(around)) enter(Stage::hold, way_.target, around.now, commands);
     if (stage_ == Stage::hold && way_.links.empty()) return_to_program(around.now, around.timing, commands);
 }
 

@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
+#include "truth/self_knowledge.hpp"
 
 namespace clearway::actuation::detail {
 
@@ -19,6 +20,7 @@ struct SignalTiming {
     double yellow_s;
     double all_red_s;
     double clearing_s;
+    double walking_s;
     double gap_wait_s;
     double hold_cap_s;
     double cool_down_s;
@@ -37,17 +39,19 @@ struct SignalSurroundings {
     /// Lanes with a vehicle that could stop before their end, but not comfortably. Looked for when the first
     /// signal of a step asks: few end a green.
     const std::function<const Lanes&()>& pressed;
+    const truth::SelfKnowledge& crossings;  ///< Asked for pedestrians when somebody is to get green.
 };
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.
 ///
 /// own program -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> own program. Yellow is shown
 /// where a link loses green, all red wherever a link gains it, for longer while the junction is not clear;
-/// links that keep green keep it all the way. The way back leads to the phase that a favour asks for; without
-/// one all links are cleared, because where the program is by then is not known. A request that changes on
-/// the way starts the way again from what is shown now. Simulated steps decide when a stage ends: it never is
-/// shorter than asked. A green ends when nobody on it is so near that he could just stop, or a little later
-/// all the same.
+/// links that keep green keep it all the way. Crossings turn red when others turn yellow, and nobody may walk
+/// any more on one that gets crossed, whether by new green or by green that no longer yields. The way back
+/// leads to the phase that a favour asks for; without one all links are cleared, because where the program is
+/// by then is not known. A request that changes on the way starts the way again from what is shown now.
+/// Simulated steps decide when a stage ends: it never is shorter than asked. A green ends when nobody on it
+/// is so near that he could just stop, or a little later all the same.
 ///
 /// In its own program a favour ends a green that serves none of its links, once that has lasted its least
 /// time: the program goes on with its next phase, so with its own yellow. Afterwards a program of fixed times
@@ -82,10 +86,14 @@ class SignalControl {
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
     Way plan_hold(const Links& links) const;
     Way plan_return(Ledger& ledger);
-    void begin(Way way, core::Seconds now, std::vector<traffic::Command>& commands);
+    void begin(Way way, const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     void run_own_program(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
-    bool is_clear(const Lanes& occupied) const;
+    template <class IsBusy>
+    bool is_clear(const Links& gaining, IsBusy&& is_busy) const;
+    bool is_left_by_vehicles(const Links& gaining, const SignalSurroundings& around) const;
+    bool is_left_by_pedestrians(const SignalSurroundings& around) const;
+    bool may_open(const SignalSurroundings& around) const;
     bool waits_for_gap(const std::string& target, const SignalSurroundings& around);
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);

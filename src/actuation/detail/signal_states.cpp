@@ -36,7 +36,9 @@ std::string hold_state(const roads::Signal& signal, const std::string& shown, co
     const auto add_green = [&](const std::string& from, const Links& kept) {
         for (std::size_t link = 0; link < from.size() && link < signal.links.size(); ++link) {
             const bool is_known = !signal.links[link].empty();
-            if (is_known && traffic::is_green(from[link]) && !is_foe_of_any(signal, link, kept))
+            const bool begins_to_walk = signal.crossings[link] && !traffic::is_green(shown[link]);
+            if (is_known && !begins_to_walk && traffic::is_green(from[link]) &&
+                !is_foe_of_any(signal, link, kept))
                 state[link] = from[link];
         }
     };
@@ -60,9 +62,10 @@ std::string hold_state(const roads::Signal& signal, const std::string& shown, co
     return state;
 }
 
-std::string yellow_state(const std::string& shown, const std::string& target) {
+std::string yellow_state(const roads::Signal& signal, const std::string& shown, const std::string& target) {
     std::string state = all_red_state(shown, target);
     for (std::size_t link = 0; link < shown.size(); ++link) {
+        if (link < signal.crossings.size() && signal.crossings[link]) continue;
         const bool loses = traffic::is_green(shown[link]) && !traffic::is_green(target[link]);
         if (loses || is_yellow(shown[link])) state[link] = 'y';
     }

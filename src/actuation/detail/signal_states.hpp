@@ -13,15 +13,16 @@ namespace clearway::actuation::detail {
 using Links = std::vector<std::uint16_t>;
 
 /// Letters to show for a hold of `links` when the signal shows `shown` now: green for them; of what does not
-/// conflict with them, green for what has it in the phase of the program that serves most of them, and then
-/// for what shows it already and does not conflict with those either. So nobody else loses green without
-/// need, and the rest of a joined junction goes on. Red for all else and for links whose ways are unknown
-/// (pedestrian crossings). Where two of `links` conflict with each other (joined junctions), their letters
-/// come from a phase that serves them all, or else the later one yields.
+/// conflict with them, green for what has it in the phase of the program that serves most of them, crossings
+/// left out, and then for what shows it already and does not conflict with those either. So nobody else loses
+/// green without need, and the rest of a joined junction goes on. Red for all else and for links whose ways
+/// are unknown. Where two of `links` conflict with each other (joined junctions), their letters come from a
+/// phase that serves them all, or else the later one yields.
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links);
 
-/// Yellow for the links that are green in `shown` and not in `target`, and for those that are yellow now.
-std::string yellow_state(const std::string& shown, const std::string& target);
+/// Yellow for the links that are green in `shown` and not in `target`, and for those that are yellow now; red
+/// at once for crossings: pedestrians know no yellow.
+std::string yellow_state(const roads::Signal& signal, const std::string& shown, const std::string& target);
 /// Green only for the links that are green in `shown` and in `target`.
 std::string all_red_state(const std::string& shown, const std::string& target);
 

@@ -154,7 +154,7 @@ MapContents read_map(const std::filesystem::path& extract) {
 }
 
 std::filesystem::path build_roads(const std::filesystem::path& map, const std::filesystem::path& extract,
-                                  DrivingSide side, const std::filesystem::path& folder,
+                                  RoadPlan plan, const std::filesystem::path& folder,
                                   const OnProgress& on_progress) {
     const std::filesystem::path network = folder / "network.net.xml";
     const std::filesystem::path log = folder / "netconvert.log";
@@ -167,7 +167,9 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
         "static", "--no-turnarounds.except-deadend", "--keep-edges.by-vclass", "passenger,bus",
         "--remove-edges.isolated", "--output.street-names", "--junctions.corner-detail", "5",
         "--xml-validation", "never", "--aggregate-warnings", "3"};
-    if (side == DrivingSide::left) arguments.emplace_back("--lefthand");
+    if (plan.side == DrivingSide::left) arguments.emplace_back("--lefthand");
+    if (plan.footways == Footways::build)
+        arguments.insert(arguments.end(), {"--osm.sidewalks", "--sidewalks.guess", "--crossings.guess"});
     const Tool tool{"netconvert", std::move(arguments), log, "building the network", "sumo"};
     if (succeeds(tool, on_progress)) return network;
     const std::string reason = complaint(log);

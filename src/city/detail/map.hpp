@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,10 +35,19 @@ std::filesystem::path extract_roads(const std::vector<std::filesystem::path>& ma
 /// Reads what `extract_roads` made.
 MapContents read_map(const std::filesystem::path& extract);
 
+/// Whether roads get sidewalks and crossings.
+enum class Footways : std::uint8_t { none, build };
+
+/// How roads are built.
+struct RoadPlan {
+    DrivingSide side = DrivingSide::right;
+    Footways footways = Footways::none;
+};
+
 /// Builds `network.net.xml` in `folder` of the roads for cars in what was left of `map`, with netconvert.
 /// Throws core::InputError when there are none.
 std::filesystem::path build_roads(const std::filesystem::path& map, const std::filesystem::path& extract,
-                                  DrivingSide side, const std::filesystem::path& folder,
+                                  RoadPlan plan, const std::filesystem::path& folder,
                                   const OnProgress& on_progress);
 
 }  // namespace clearway::city::detail

@@ -30,6 +30,14 @@ constexpr std::array rows = {
     Row{"worst_approach_delay_s", "Time lost on the worst approach, s a vehicle"},
 };
 
+/// Where there are pedestrians.
+constexpr std::array pedestrian_rows = {
+    Row{"pedestrian_collisions", "Collisions with a pedestrian"},
+    Row{"emergency_pedestrian_collisions", "Collisions of an EV with a pedestrian"},
+    Row{"pedestrian_count", "Walks of pedestrians"},
+    Row{"pedestrian_time_loss_s", "Time lost on a walk over a crossing, s"},
+};
+
 double total(const analysis::Values& values) {
     double sum = 0.0;
     for (const std::optional<double>& value : values)
@@ -53,7 +61,10 @@ std::vector<SafetyFacts> safety_of(const analysis::ConditionSummary& summary) {
     std::vector<SafetyFacts> facts;
     if (summary.complete_runs == 0) return facts;
     const double driven_km = total(summary.metric("vehicle_km").values);
-    for (const Row& row : rows) {
+    const bool has_pedestrians = total(summary.metric("pedestrian_count").values) > 0.0;
+    std::vector<Row> shown(rows.begin(), rows.end());
+    if (has_pedestrians) shown.insert(shown.end(), pedestrian_rows.begin(), pedestrian_rows.end());
+    for (const Row& row : shown) {
         const analysis::MetricSummary& metric = summary.metric(row.metric);
         SafetyFacts fact{row.metric, row.title, estimate_from(metric.estimate), {}, std::nullopt};
         if (metric.comparison) fact.difference = estimate_from(metric.comparison->difference);

@@ -151,7 +151,9 @@ void NetworkBuilder::read_edge(const XmlAttributes& attributes) {
     edge.id = text(attributes, "id");
     edge.name = attributes.find("name").value_or("");
     edge.type = attributes.find("type").value_or("");
-    edge.internal = is_inside_junction(attributes.find("function").value_or(""));
+    const std::string_view function = attributes.find("function").value_or("");
+    edge.internal = is_inside_junction(function);
+    edge.crossing = function == "crossing";
     if (!edge.internal) {
         edge.from_junction = text(attributes, "from");
         edge.to_junction = text(attributes, "to");

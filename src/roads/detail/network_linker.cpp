@@ -58,10 +58,14 @@ void NetworkBuilder::list_successors() {
 }
 
 void NetworkBuilder::list_signal_links() {
+    for (Signal& signal : network_.signals_)
+        signal.crossings.assign(signal.links.size(), false);
     for (const Connection& connection : network_.connections_) {
         if (!connection.signal.exists()) continue;
-        network_.signals_[connection.signal.value].links[connection.signal_link].push_back(
-            {connection.from, connection.to, connection.via});
+        Signal& signal = network_.signals_[connection.signal.value];
+        signal.links[connection.signal_link].push_back({connection.from, connection.to, connection.via});
+        if (network_.edge(network_.lane(connection.to).edge).crossing)
+            signal.crossings[connection.signal_link] = true;
     }
 }
 

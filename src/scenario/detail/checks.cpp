@@ -322,6 +322,8 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     set("--siren", "compliance", options.siren_compliance, config.siren, problems);
     set("--road-speed", "speed_factor", options.road_speed_factor, config.road, problems);
     set("--friction", "friction", options.friction, config.road, problems);
+    set("--pedestrians", "per_hour", options.pedestrians, config.pedestrians, problems);
+    if (options.pedestrians) config.origins["pedestrians.per_hour"] = "--pedestrians";
     if (options.idm) config.drivers.idm = *options.idm;
     set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
     set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);

@@ -215,6 +215,10 @@ class ApiGateway : public Sumo {
         return call([&] { return api::Lane::getLength(lane); });
     }
 
+    bool has_person(const std::string& edge) override {
+        return call([&] { return !api::Edge::getLastStepPersonIDs(edge).empty(); });
+    }
+
     void set_type_parameter(const std::string& type, const std::string& parameter,
                             const std::string& value) override {
         call([&] { api::VehicleType::setParameter(type, parameter, value); });

@@ -126,6 +126,7 @@ class Sumo {
     virtual std::vector<std::string> signal_ids() = 0;
     virtual int lane_count(const std::string& edge) = 0;
     virtual double lane_length_m(const std::string& lane) = 0;
+    virtual bool has_person(const std::string& edge) = 0;
 
     // --- Commands ---
     virtual void add(const Insertion& insertion) = 0;

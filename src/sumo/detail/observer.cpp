@@ -109,6 +109,7 @@ void Observer::take_collisions(truth::Events& events) {
         const core::VehicleKey collider = core::vehicle_key(report.collider);
         const core::VehicleKey victim = core::vehicle_key(report.victim);
         const Contact contact = std::minmax(collider, victim);
+        if (roster_.find(victim) == nullptr && stands(report.collider)) continue;
         if (!contacts.insert(contact).second || contacts_.contains(contact)) continue;
         const auto is_emergency = [&](core::VehicleKey key) {
             const traffic::VehicleInfo* info = roster_.find(key);
@@ -123,6 +124,12 @@ void Observer::take_collisions(truth::Events& events) {
              .with_emergency_vehicle = is_emergency(collider) || is_emergency(victim)});
     }
     contacts_ = std::move(contacts);
+}
+
+bool Observer::stands(const std::string& id) {
+    constexpr float standing_mps = 0.1F;  // SUMO's own bound for halting
+    const Vehicle* vehicle = fleet_.find(id);
+    return vehicle != nullptr && vehicle->speed_mps < standing_mps;
 }
 
 void Observer::register_vehicle(Vehicle& vehicle) {

@@ -25,7 +25,8 @@ namespace clearway::sumo::detail {
 ///   its own warning, (d - usual) / (emergency - usual) >= 1, with the type's usual and emergency
 ///   deceleration.
 /// - Two vehicles in contact are one collision while SUMO reports the contact in consecutive steps, whoever
-///   is named first.
+///   is named first. Pedestrians who walk into a standing vehicle collide with nobody: in SUMO they do not
+///   see those that stand on a crossing.
 /// - A route that changes under way is noticed within a second of simulated time: asking each step would add
 ///   a seventh to the cost of reading, for demand that hardly ever reroutes.
 class Observer {
@@ -54,6 +55,7 @@ class Observer {
     void take_teleports(truth::Events& events);
     void take_arrivals(truth::Events& events, double step_s);
     void take_collisions(truth::Events& events);
+    bool stands(const std::string& id);
     void register_vehicle(Vehicle& vehicle);
     bool reached_destination(const Vehicle& vehicle, double step_s) const;
     void take_parked();

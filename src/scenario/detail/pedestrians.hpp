@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "scenario/detail/demand.hpp"
+
+namespace clearway::scenario::detail {
+
+/// Route file of the persons `pedestrian.0`, ..., by departure. Each sets out near one side of a crossing and
+/// walks to near its other side, on one of the sidewalks there, with a speed of its own. Throws
+/// core::InputError when the network has no such crossing.
+std::string pedestrians_xml(const DemandContext& context);
+
+}  // namespace clearway::scenario::detail
