@@ -266,7 +266,7 @@ TEST(Crossing, turns_red_at_once_and_vehicles_get_green_when_nobody_is_on_it_any
     ASSERT_EQ(slow.size(), 3U);
     EXPECT_EQ(slow[1].state, "rrr") << "pedestrians know no yellow";
     EXPECT_LE(slow[1].from_s, 0.5);
-    EXPECT_EQ(slow[2].state, "rGr");
+    EXPECT_EQ(slow[2].state, "GGr");
     EXPECT_GE(slow[2].from_s, 20.0);
     EXPECT_LE(slow[2].from_s, 20.5);
     const auto quick = watch_crossing(1.0, 30.0, 30.0);
@@ -283,7 +283,7 @@ TEST(Crossing, with_somebody_who_is_stuck_does_not_hold_up_the_signal_for_ever) 
 TEST(Crossing, gets_its_green_back_from_the_program_after_the_hold) {
     const auto history = watch_crossing(1.0, 10.0, 40.0);
     ASSERT_EQ(history.size(), 6U);
-    EXPECT_EQ(history[3].state, "ryr");
+    EXPECT_EQ(history[3].state, "yyr");
     EXPECT_EQ(history[4].state, "rrr");
     EXPECT_EQ(history[5].state, footway().signal(signal_a).program[0].state);
 }
