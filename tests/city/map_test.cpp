@@ -49,6 +49,31 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     }
 }
 
+TEST_F(MapImport, pedestrians_bring_sidewalks_and_crossings_and_walk_at_the_signal) {
+    ImportRequest asked = request({write("town.osm", town_map(13.0, 51.0, "residential"))});
+    asked.pedestrians_per_hour = 60.0;
+    const Findings findings = run(asked);
+    EXPECT_EQ(findings.car_edges, town_edges);
+    EXPECT_THAT(findings.changes,
+                testing::Contains(HasSubstr("60 pedestrians an hour at each of 4 crossings")));
+    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
+    EXPECT_EQ(config.pedestrians.per_hour, 60.0);
+    const scenario::BuiltNetwork network = scenario::build_network(config, folder() / "built");
+    const scenario::Prepared prepared =
+        scenario::prepare(config, network, core::StudySeed{1}, core::Replication{0}, folder() / "demand");
+    EXPECT_EQ(prepared.route_files.size(), 2U);
+}
+
+TEST_F(MapImport, pedestrians_in_a_network_without_crossings_are_refused) {
+    run(request({write("town.osm", town_map())}, "plain"));
+    std::filesystem::rename(out() / "plain" / "network.net.xml", folder() / "plain.net.xml");
+    std::filesystem::remove_all(out() / "plain");
+    ImportRequest asked = request({folder() / "plain.net.xml"});
+    asked.pedestrians_per_hour = 60.0;
+    EXPECT_THAT(refusal(asked), HasSubstr("no crossing for pedestrians"));
+    EXPECT_FALSE(std::filesystem::exists(out() / "town"));
+}
+
 TEST_F(MapImport, packed_maps_give_the_same_scenario) {
     const auto plain = write("town.osm", town_map());
     for (const std::string packing : {"gz", "bz2", "pbf"}) {
