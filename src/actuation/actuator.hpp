@@ -28,19 +28,21 @@ namespace clearway::actuation {
 /// as `outranked`. What is not feasible now is judged again at every step until its expiry, and counted once
 /// for each reason:
 ///
-/// | reason | meaning |
-/// |---|---|
-/// | `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
-/// `no_such_signal`, `wrong_target` | never legal | | `unreachable` | commands do not reach it now | |
-/// `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer` | the target is not there (any more) | |
-/// `not_controllable`, `not_an_emergency_vehicle` | human drivers take no leases; only emergency vehicles
-/// pass red | | `above_allowed_speed` | faster than road limit and vehicle allow | |
-/// `cannot_stop_comfortably` | a stop that needs more than the vehicle's usual deceleration | |
-/// `on_a_junction`, `no_such_lane`, `lane_not_allowed` | the lane is not there for this vehicle | |
-/// `lane_does_not_continue` | neither a best lane for its route nor drivable for over 300 m | |
-/// `no_room_beside` | the vehicle itself would not change now | | `needs_sublane_model` | lateral positions
-/// without the sublane model | | `outranked`, `hold_cap`, `cool_down`, `no_phase_serves` | see Config; a
-/// favour that no phase can grant |
+/// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
+///   `no_such_signal`, `wrong_target`;
+/// - `unreachable`: commands do not reach it now;
+/// - the target is not there (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
+/// - human drivers take no leases, only emergency vehicles pass red: `not_controllable`,
+///   `not_an_emergency_vehicle`;
+/// - `above_allowed_speed`: faster than road limit and vehicle allow;
+/// - `cannot_stop_comfortably`: a stop that needs more than the vehicle's usual deceleration;
+/// - the lane is not there for this vehicle: `on_a_junction`, `no_such_lane`, `lane_not_allowed`;
+/// - `lane_does_not_continue`: neither a best lane for its route nor drivable for over 300 m;
+/// - `no_room_beside`: the vehicle itself would not change now;
+/// - `needs_sublane_model`: lateral positions without the sublane model;
+/// - `outranked`, `hold_cap`, `cool_down`: see Config;
+/// - a favour that cannot be granted: `no_phase_serves`; `unknown_program`, another than the network and the
+///   additional files start the signal with.
 ///
 /// A speed lease never brakes harder than the vehicle's usual deceleration: SUMO bounds the change of every
 /// step while the safety checks are on.

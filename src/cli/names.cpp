@@ -67,6 +67,11 @@ void check_names(const std::vector<results::ConditionSpec>& conditions) {
         for (const std::string& part : condition.parts) {
             check(where + "policy", part, part_names());
         }
+        std::vector<std::string> sorted = condition.parts;
+        std::ranges::sort(sorted);
+        if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+            problems.push_back({where + "policy", fmt::format("`{}` is there twice", *twice),
+                                "each part once", "Take one of the two out"});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }

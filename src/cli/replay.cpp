@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "replay/failure_log.hpp"
 #include "results/recording_tables.hpp"
+#include "scenario/config.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -51,6 +52,13 @@ struct Arguments {
 
 /// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
 /// core::InputError when it is another one.
+/// In a run folder the scenario's copy stands above its network, and names the files with signal programs.
+std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem::path& network_file) {
+    const std::filesystem::path scenario = network_file.parent_path().parent_path() / "scenario.toml";
+    if (!std::filesystem::exists(scenario)) return {};
+    return scenario::additional_files(scenario::load(scenario.string()));
+}
+
 roads::Network network_of(const results::RecordingInfo& info, const Arguments& arguments) {
     std::filesystem::path file = arguments.network;
     if (file.empty()) {
@@ -66,7 +74,7 @@ roads::Network network_of(const results::RecordingInfo& info, const Arguments& a
     if (core::content_hash(core::read_file(file)) != info.settings.network_hash)
         throw core::InputError({where, "is not the network on which the recording was made",
                                 "content hash " + info.settings.network_hash, "Name it with --network"});
-    return roads::Network::read(file);
+    return roads::Network::read(file, signal_programs_beside(file));
 }
 
 results::ConditionSpec condition_of(const results::RecordingInfo& info, const Arguments& arguments) {

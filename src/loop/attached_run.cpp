@@ -36,8 +36,8 @@ std::filesystem::path file_of(const sumo::RemoteSumo& sumo, const std::string& o
                             "a file that this machine sees, by its whole path", cure});
 }
 
-/// Signal programs stand in them. A signal whose program is in none of them is known by its state, and given
-/// back to it by way of all red.
+/// Signal programs stand in them. A signal whose program is in none of those that this machine
+/// sees is given back to it by way of all red.
 std::vector<std::filesystem::path> additional_files_of(const sumo::RemoteSumo& sumo) {
     std::vector<std::filesystem::path> files;
     const std::string names = sumo.option("additional-files");

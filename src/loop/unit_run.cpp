@@ -114,7 +114,7 @@ results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition,
         }
         spent = run_condition(condition, recording.get(), end.leases);
         if (recording) recording->finish();
-        std::vector<std::filesystem::path> files = prepared_.additional_files;
+        std::vector<std::filesystem::path> files = {prepared_.additional_files.front()};  // vehicle types
         files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
         end.planned = metrics::read_planned(files, prepared_.emergency);
     }

@@ -19,7 +19,7 @@ struct PreemptSignalsConfig {
     double horizon_m = 600.0;      ///< Signals farther away are left alone; (0, 5000].
 };
 
-/// Opens the signals on the route of every emergency vehicle: green for its approach alone, asked for early
+/// Opens the signals on the route of every emergency vehicle: green for its approach, asked for early
 /// enough that the queue ahead is gone on its arrival. Yellow, all-red, cap, cool-down and the way back are
 /// the work of actuation.
 class PreemptSignals : public Part {

@@ -84,6 +84,7 @@ struct Signal {
     std::vector<std::vector<SignalLink>> links;
     std::vector<bool> crossings;  ///< By link number: whether it is a crossing.
     std::vector<Phase> program;
+    std::string program_id;
     double offset_s = 0.0;    ///< The program starts anew whenever time - offset is a multiple of its cycle.
     bool fixed_time = false;  ///< It never waits for vehicles, so it keeps in step with its neighbours.
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.

@@ -335,6 +335,12 @@ bool Session::has_pedestrian(core::LaneIndex crossing) const {
                            [&] { return state_->sumo->has_person(lane.substr(0, lane.rfind('_'))); });
 }
 
+std::string Session::running_program(core::SignalIndex signal) const {
+    return state_->guarded("SUMO cannot tell the program of a signal", [&] {
+        return state_->sumo->signal_program(state_->names.names().signals.at(signal.value));
+    });
+}
+
 const std::filesystem::path& Session::trip_file() const {
     return state_->trip_file;
 }

@@ -121,6 +121,7 @@ class Session : public truth::SelfKnowledge {
     std::optional<std::vector<truth::LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const override;
     std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const override;
     bool has_pedestrian(core::LaneIndex crossing) const override;
+    std::string running_program(core::SignalIndex signal) const override;
 
   private:
     struct State;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -20,7 +21,7 @@ struct LaneOutlook {
 };
 
 /// Questions that a vehicle can answer about itself, for `actuation` alone: what it could do now. Answers are
-/// nothing when the vehicle is not on the road. And what the detector of a crossing knows.
+/// nothing when the vehicle is not on the road. And what a signal knows of itself and its crossings.
 class SelfKnowledge {
   public:
     SelfKnowledge() = default;
@@ -37,6 +38,8 @@ class SelfKnowledge {
     virtual std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const = 0;
     /// Whether a pedestrian is on a crossing.
     virtual bool has_pedestrian(core::LaneIndex crossing) const = 0;
+    /// Id of the program that a signal runs.
+    virtual std::string running_program(core::SignalIndex signal) const = 0;
 };
 
 }  // namespace clearway::truth

@@ -34,6 +34,9 @@ class FakeSelfKnowledge : public truth::SelfKnowledge {
 
     bool has_pedestrian(core::LaneIndex crossing) const override { return walked_on.contains(crossing); }
 
+    std::string running_program(core::SignalIndex) const override { return program; }
+
+    std::string program = "0";  ///< That all signals run.
     bool room_beside = true;
     std::set<core::LaneIndex> walked_on;
     double allowed_mps = 16.67;

@@ -27,7 +27,7 @@ constexpr core::Seconds least_green{10.0};
 /// the `cycles`th time; answers when that is, s.
 double start_of_cycle(const roads::Signal& signal, std::size_t phase, double start_s, int cycles) {
     OwnProgram own(signal);
-    own.disturb();
+    own.disturb(core::Seconds(0.0));
     double now_s = start_s;
     for (int seen = 0;; phase = (phase + 1) % signal.program.size()) {
         if (phase == 0 && ++seen == cycles) return now_s;
@@ -67,7 +67,7 @@ TEST(OwnProgram, that_waits_for_vehicles_has_no_step_to_keep) {
     roads::Signal signal = clockwork();
     signal.fixed_time = false;
     OwnProgram own(signal);
-    own.disturb();
+    own.disturb(core::Seconds(0.0));
     own.watch("Gr", core::Seconds(50.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0)));
 }
@@ -76,22 +76,36 @@ TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
     roads::Signal signal = clockwork();
     signal.program[2].duration_s = 6.0;
     OwnProgram own(signal);
-    own.disturb();
+    own.disturb(core::Seconds(0.0));
+    own.watch("yr", core::Seconds(96.0));
     own.watch("rG", core::Seconds(100.0));
     const auto change = own.step_back(least_green, core::Seconds(100.0));
     ASSERT_TRUE(change.has_value());
     EXPECT_DOUBLE_EQ(change->lasting.value, 6.0) << "20 s late";
 }
 
-TEST(OwnProgram, is_known_while_it_shows_one_of_its_states) {
+TEST(OwnProgram, gives_up_after_five_cycles) {
+    roads::Signal signal = clockwork();
+    OwnProgram own(signal);
+    EXPECT_TRUE(own.is_in_step(core::Seconds(0.0)));
+    own.disturb(core::Seconds(10.0));
+    EXPECT_FALSE(own.is_in_step(core::Seconds(510.0)));
+    EXPECT_TRUE(own.is_in_step(core::Seconds(511.0)));
+    signal.program.clear();
+    OwnProgram none(signal);
+    none.disturb(core::Seconds(10.0));
+    EXPECT_TRUE(none.is_in_step(core::Seconds(10.0))) << "without a cycle there is no step";
+}
+
+TEST(OwnProgram, takes_what_it_sees_first_for_no_start) {
     const roads::Signal signal = clockwork();
     OwnProgram own(signal);
-    own.watch("Gr", core::Seconds(0.0));
-    EXPECT_TRUE(own.is_known());
-    own.watch("GG", core::Seconds(1.0));
-    EXPECT_FALSE(own.is_known());
-    own.watch("ry", core::Seconds(2.0));
-    EXPECT_TRUE(own.is_known());
+    own.disturb(core::Seconds(0.0));
+    own.watch("Gr", core::Seconds(70.0));
+    EXPECT_FALSE(own.step_back(least_green, core::Seconds(70.0)));
+    own.watch("yr", core::Seconds(80.0));
+    own.watch("rG", core::Seconds(84.0));
+    EXPECT_TRUE(own.step_back(least_green, core::Seconds(84.0)));
 }
 
 TEST(OwnProgram, goes_on_after_a_green_that_has_lasted) {

@@ -148,6 +148,20 @@ TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_mo
     EXPECT_GE(served().front(), 12U);
 }
 
+TEST(RedPrivilege, slows_the_emergency_vehicle_down_to_20_kmh_at_the_line) {
+    policy::RedPrivilege part({two_crossings()});
+    const std::string red(16, 'r');
+    const auto speed_at = [&](double before_line_m) -> std::optional<double> {
+        CrossingScene scene = emergency_at(before_line_m);
+        for (const traffic::Lease& lease : act(part, scene, 100.0, red))
+            if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) return drive->speed.value;
+        return std::nullopt;
+    };
+    EXPECT_FALSE(speed_at(150.0).has_value()) << "far enough to brake later";
+    EXPECT_NEAR(speed_at(30.0).value(), std::sqrt(5.56 * 5.56 + 2.0 * 2.0 * 30.0), 0.05);
+    EXPECT_NEAR(speed_at(0.5).value(), 5.7, 0.1);
+}
+
 TEST(RedPrivilege, is_asked_for_before_red_and_not_before_green) {
     policy::RedPrivilege part({two_crossings()});
     CrossingScene scene = emergency_at(100.0);

@@ -195,12 +195,14 @@ TEST_F(NetworkTest, ProgramsOfAdditionalFilesReplaceThoseOfTheNetwork) {
     EXPECT_EQ(foes_of(signal), foes_of(crossing().signals()[0])) << "ways are those of the network";
 
     const auto later = folder_.write("later.add.xml", R"(<additional>
-    <tlLogic id="J" type="actuated" programID="measured" offset="9"/>
+    <tlLogic id="J" type="actuated" programID="other" offset="5"/>
+    <tlLogic id="J" programID="measured" offset="9"/>
 </additional>)");
     const Network moved = Network::read(file, {programs, later});
     EXPECT_EQ(moved.signals()[0].program.size(), 3U) << "another offset, the same phases";
     EXPECT_DOUBLE_EQ(moved.signals()[0].offset_s, 9.0);
-    EXPECT_FALSE(moved.signals()[0].fixed_time);
+    EXPECT_TRUE(moved.signals()[0].fixed_time);
+    EXPECT_EQ(moved.signals()[0].program_id, "measured");
 }
 
 TEST_F(NetworkTest, RefusesAProgramOfAnotherNetwork) {
@@ -213,7 +215,7 @@ TEST_F(NetworkTest, RefusesAProgramOfAnotherNetwork) {
         FAIL() << "three letters for four links";
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("tls.add.xml:2: a program of signal \"J\" with 3 letters"));
-        EXPECT_THAT(error.what(), HasSubstr("4, as in the network"));
+        EXPECT_THAT(error.what(), HasSubstr("at least 4, the links of the network"));
     }
     EXPECT_THROW(Network::read(file, {folder_.path() / "missing.add.xml"}), core::InputError);
 }

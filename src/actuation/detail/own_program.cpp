@@ -11,6 +11,8 @@ namespace {
 
 /// A green is prolonged by at most this share of itself on the way back into step: others wait for it.
 constexpr double most_stretch = 0.5;
+/// A program that is not back after so many cycles has no green that could be told from its others.
+constexpr double most_cycles = 5.0;
 /// Nearer than this is in step, s: a state is seen a simulated step after it began.
 constexpr double in_step_s = 1.0;
 
@@ -22,11 +24,20 @@ OwnProgram::OwnProgram(const roads::Signal& signal) : signal_(signal) {
 }
 
 void OwnProgram::watch(const std::string& state, core::Seconds now) {
-    just_changed_ = state != state_;
-    if (!just_changed_) return;
+    const bool is_new = state != state_;
+    just_changed_ = is_new && !state_.empty();  // of what is shown at first sight nobody knows since when
+    if (!is_new) return;
     state_ = state;
     since_ = now;
-    known_ = std::ranges::find(signal_.program, state, &roads::Phase::state) != signal_.program.end();
+}
+
+void OwnProgram::disturb(core::Seconds now) {
+    in_step_ = !signal_.fixed_time || cycle_s_ <= 0.0;
+    disturbed_ = now;
+}
+
+bool OwnProgram::is_in_step(core::Seconds now) const {
+    return in_step_ || (now - disturbed_).value > most_cycles * cycle_s_;
 }
 
 std::optional<std::uint32_t> OwnProgram::next_after(core::Seconds least_green, core::Seconds now) const {

@@ -17,8 +17,6 @@ struct PhaseChange {
 
 /// What a signal's own program does while nothing is held: which phase it is in, since when, and what would
 /// bring it back into step with its neighbours after it was started at a phase of ours.
-///
-/// A program is known while the signal shows one of its states; another one may have been switched on.
 class OwnProgram {
   public:
     /// The signal outlives the object.
@@ -27,11 +25,12 @@ class OwnProgram {
     /// What the signal shows while its own program runs.
     void watch(const std::string& state, core::Seconds now);
     /// It was started at a phase, out of turn.
-    void disturb() { in_step_ = !signal_.fixed_time; }
+    void disturb(core::Seconds now);
     /// It no longer runs.
     void leave() { state_.clear(); }
 
-    bool is_known() const { return known_; }
+    /// Nothing is left to do: in step, or without a step to keep, or there is no way back.
+    bool is_in_step(core::Seconds now) const;
     /// Time of one cycle, s; 0 without a program.
     double cycle_s() const { return cycle_s_; }
     /// The phase after a green that has lasted `least_green_s`; nothing otherwise.
@@ -48,8 +47,8 @@ class OwnProgram {
     double cycle_s_ = 0.0;
     std::string state_;  ///< Empty while another than the own program runs.
     core::Seconds since_;
-    bool known_ = true;
     bool in_step_ = true;
+    core::Seconds disturbed_;
     bool just_changed_ = false;
 };
 

@@ -5,6 +5,12 @@
 #include "traffic/signal.hpp"
 
 namespace clearway::actuation::detail {
+namespace {
+
+/// No cycle counts as longer than this, s: a program that never changes has none.
+constexpr double longest_cycle_s = 180.0;
+
+}  // namespace
 
 SignalControl::SignalControl(core::SignalIndex index, const roads::Network& network)
     : index_(index), signal_(network.signal(index)), inner_lanes_(signal_.links.size()), own_(signal_) {
@@ -26,7 +32,7 @@ void SignalControl::offer(const traffic::Lease& lease, Ledger& ledger) {
 }
 
 bool SignalControl::is_idle(core::Seconds now) const {
-    return active() == 0 && stage_ == Stage::own_program && now >= cool_until_;
+    return active() == 0 && stage_ == Stage::own_program && now >= cool_until_ && own_.is_in_step(now);
 }
 
 /// Links of the best lease and of all others that go with it.
@@ -68,17 +74,20 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
     }
     const Links links = allowed_now(around.now, around.timing, ledger);
     const bool in_program = stage_ == Stage::own_program;
+    if (!asked_for_gap_) gap_awaited_.reset();
+    asked_for_gap_ = false;
     if (in_program) own_.watch(around.state, around.now);
-    if (in_program && links.empty()) return run_own_program(around, commands);
-    if (in_program) shown_ = around.state;
+    if (in_program && links.empty()) return run_own_program(around, ledger, commands);
+    if (in_program) {
+        shown_ = around.state;
+        program_known_ = knows_program(around);
+    }
     if (in_program || links != way_.links) {
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
         if (in_green && waits_for_gap(way.target, around)) return;
         if (in_program || conflict(signal_, links, last_held_)) taken_since_ = around.now;
         begin(std::move(way), around, commands);
-    } else {
-        gap_awaited_.reset();
     }
     proceed(around, commands);
 }
@@ -93,26 +102,32 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroun
                });
     });
     if (!gap_awaited_) gap_awaited_ = around.now;
-    const bool waits =
+    asked_for_gap_ =
         is_pressed && (around.now - *gap_awaited_).value < around.timing.gap_wait_s - time_tolerance_s;
-    if (!waits) gap_awaited_.reset();
-    return waits;
+    return asked_for_gap_;
 }
 
-void SignalControl::run_own_program(const SignalSurroundings& around,
+/// Another program may have been switched on, or one may run that stands in no file we have seen.
+bool SignalControl::knows_program(const SignalSurroundings& around) const {
+    return around.self.running_program(index_) == signal_.program_id;
+}
+
+void SignalControl::run_own_program(const SignalSurroundings& around, Ledger& ledger,
                                     std::vector<traffic::Command>& commands) {
     const core::Seconds least_green(around.timing.least_green_s);
     HeldLease* const favour = favours_.best();
     if (favour == nullptr) {
-        if (const auto back = own_.step_back(least_green, around.now))
+        const auto back = own_.step_back(least_green, around.now);
+        if (back && knows_program(around))
             commands.push_back(traffic::RestoreProgram{index_, back->phase, back->lasting});
         return;
     }
     const auto next = own_.next_after(least_green, around.now);
     if (!next || serves_any(around.state, std::get<traffic::FavourLinks>(favour->lease.action).links)) return;
     if (waits_for_gap(signal_.program[*next].state, around)) return;
+    if (!knows_program(around)) return LeaseQueue::refuse(*favour, "unknown_program", ledger);
     commands.push_back(traffic::RestoreProgram{index_, next});
-    own_.disturb();
+    own_.disturb(around.now);
 }
 
 SignalControl::Way SignalControl::plan_hold(const Links& links) const {
@@ -124,11 +139,11 @@ SignalControl::Way SignalControl::plan_hold(const Links& links) const {
 SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
     Way way;
     if (HeldLease* favour = favours_.best()) {
-        if (own_.is_known())
+        if (program_known_)
             way.return_phase =
                 best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
         if (!way.return_phase)
-            LeaseQueue::refuse(*favour, own_.is_known() ? "no_phase_serves" : "unknown_program", ledger);
+            LeaseQueue::refuse(*favour, program_known_ ? "no_phase_serves" : "unknown_program", ledger);
     }
     way.target.assign(shown_.size(), 'r');
     if (way.return_phase) {
@@ -187,7 +202,7 @@ bool SignalControl::is_left_by_pedestrians(const SignalSurroundings& around) con
     return around.timing.walking_s <= 0.0 || is_clear(way_.gaining, [&](std::uint16_t link) {
                return signal_.crossings[link] &&
                       std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
-                          return around.crossings.has_pedestrian(way.to);
+                          return around.self.has_pedestrian(way.to);
                       });
            });
 }
@@ -223,10 +238,10 @@ void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffi
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase});
-    if (way_.return_phase) own_.disturb();
+    if (way_.return_phase) own_.disturb(now);
     stage_ = Stage::own_program;
-    cool_until_ =
-        now + core::Seconds(capped_ ? std::max(timing.cool_down_s, own_.cycle_s()) : timing.cool_down_s);
+    const double cycle_s = std::min(own_.cycle_s(), longest_cycle_s);
+    cool_until_ = now + core::Seconds(capped_ ? std::max(timing.cool_down_s, cycle_s) : timing.cool_down_s);
     capped_ = false;
 }
 

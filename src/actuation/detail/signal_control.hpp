@@ -39,7 +39,9 @@ struct SignalSurroundings {
     /// Lanes with a vehicle that could stop before their end, but not comfortably. Looked for when the first
     /// signal of a step asks: few end a green.
     const std::function<const Lanes&()>& pressed;
-    const truth::SelfKnowledge& crossings;  ///< Asked for pedestrians when somebody is to get green.
+    /// Asked for pedestrians when somebody is to get green, and for the program before one of its phases
+    /// starts.
+    const truth::SelfKnowledge& self;
 };
 
 /// The leases of one signal and where it is on the way between its own program and what they hold.
@@ -87,7 +89,8 @@ class SignalControl {
     Way plan_hold(const Links& links) const;
     Way plan_return(Ledger& ledger);
     void begin(Way way, const SignalSurroundings& around, std::vector<traffic::Command>& commands);
-    void run_own_program(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
+    void run_own_program(const SignalSurroundings& around, Ledger& ledger,
+                         std::vector<traffic::Command>& commands);
     void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
     template <class IsBusy>
     bool is_clear(const Links& gaining, IsBusy&& is_busy) const;
@@ -95,6 +98,7 @@ class SignalControl {
     bool is_left_by_pedestrians(const SignalSurroundings& around) const;
     bool may_open(const SignalSurroundings& around) const;
     bool waits_for_gap(const std::string& target, const SignalSurroundings& around);
+    bool knows_program(const SignalSurroundings& around) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
     void return_to_program(core::Seconds now, const SignalTiming& timing,
@@ -115,6 +119,8 @@ class SignalControl {
     Way way_;
     Links last_held_;                           ///< Links of the last way that was none back.
     std::optional<core::Seconds> gap_awaited_;  ///< Since when a green is kept for want of a gap.
+    bool asked_for_gap_ = false;                ///< In this step.
+    bool program_known_ = false;                ///< Of the program that was left.
     OwnProgram own_;
 };
 

@@ -1,5 +1,6 @@
 #include "roads/detail/network_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -209,8 +210,10 @@ void NetworkBuilder::read_program(const XmlAttributes& attributes) {
         network_.signals_.back().id = id;
     }
     program_signal_ = &network_.signals_[entry->second];
-    program_signal_->offset_s = number_or(attributes, "offset", -any, any, 0.0);
-    program_signal_->fixed_time = attributes.find("type").value_or("static") == "static";
+    program_id_ = attributes.find("programID").value_or("");
+    program_offset_s_.reset();
+    if (attributes.find("offset")) program_offset_s_ = number_or(attributes, "offset", -any, any, 0.0);
+    is_fixed_time_ = attributes.find("type").value_or("static") == "static";
     phases_.clear();
 }
 
@@ -223,21 +226,38 @@ void NetworkBuilder::read_phase(const XmlAttributes& attributes) {
     }
 }
 
+/// Letters of a program beyond the last link that a connection names are idle; SUMO only warns of them.
+std::size_t NetworkBuilder::letters_in_use(const Signal& signal) const {
+    std::size_t letters = 0;
+    for (const Connection& connection : network_.connections_) {
+        if (connection.signal.exists() && &network_.signals_[connection.signal.value] == &signal)
+            letters = std::max<std::size_t>(letters, connection.signal_link + 1U);
+    }
+    return letters;
+}
+
 void NetworkBuilder::end_program() {
     in_program_ = false;
-    if (in_additional_ && phases_.empty()) return;  // SUMO takes it for another offset of the program
+    Signal& signal = *program_signal_;
+    if (in_additional_ && phases_.empty()) {  // another offset for a program that is there
+        if (program_id_ == signal.program_id) signal.offset_s = program_offset_s_.value_or(signal.offset_s);
+        return;
+    }
     if (phases_.empty()) {
-        add_problem(fmt::format("signal \"{}\" has a program without phases", program_signal_->id));
+        add_problem(fmt::format("signal \"{}\" has a program without phases", signal.id));
         return;
     }
     const std::size_t letters = phases_.front().state.size();
-    if (in_additional_ && letters != program_signal_->links.size()) {
-        add_problem(fmt::format("a program of signal \"{}\" with {} letters", program_signal_->id, letters),
-                    fmt::format("{}, as in the network", program_signal_->links.size()));
+    if (in_additional_ && letters < letters_in_use(signal)) {
+        add_problem(fmt::format("a program of signal \"{}\" with {} letters", signal.id, letters),
+                    fmt::format("at least {}, the links of the network", letters_in_use(signal)));
         return;
     }
-    program_signal_->links.resize(letters);
-    program_signal_->program = std::move(phases_);
+    signal.links.resize(letters);
+    signal.program = std::move(phases_);
+    signal.program_id = program_id_;
+    signal.offset_s = program_offset_s_.value_or(0.0);
+    signal.fixed_time = is_fixed_time_;
 }
 
 void NetworkBuilder::read_junction(const XmlAttributes& attributes) {

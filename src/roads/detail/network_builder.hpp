@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -56,6 +57,7 @@ class NetworkBuilder : public XmlHandler {
     void read_program(const XmlAttributes& attributes);
     void read_phase(const XmlAttributes& attributes);
     void end_program();
+    std::size_t letters_in_use(const Signal& signal) const;
     void read_junction(const XmlAttributes& attributes);
     void read_request(const XmlAttributes& attributes);
     void read_connection(const XmlAttributes& attributes);
@@ -81,6 +83,9 @@ class NetworkBuilder : public XmlHandler {
     bool in_program_ = false;
     bool in_junction_ = false;
     Signal* program_signal_ = nullptr;
+    std::string program_id_;
+    std::optional<double> program_offset_s_;
+    bool is_fixed_time_ = false;
     std::vector<Phase> phases_;
     std::vector<Junction> junctions_;
     std::unordered_set<std::string> railway_signals_;
