@@ -20,6 +20,7 @@
 #include "sumo/detail/observer.hpp"
 #include "sumo/detail/options.hpp"
 #include "sumo/detail/outputs.hpp"
+#include "sumo/detail/painter.hpp"
 
 namespace clearway::sumo {
 namespace {
@@ -32,6 +33,7 @@ using detail::MessageLog;
 using detail::NameTable;
 using detail::Observer;
 using detail::Outputs;
+using detail::Painter;
 using detail::Vehicle;
 
 /// libsumo keeps its simulation in global variables: one session at a time, and none after a fault, because
@@ -106,6 +108,7 @@ struct Session::State {
     Observer observer;
     std::optional<MessageLog> log;
     std::optional<Commander> commander;
+    std::optional<Painter> painter;
     Outputs outputs;
     truth::Snapshot snapshot;
     truth::Events events;
@@ -285,6 +288,13 @@ std::uint64_t Session::refused_commands() const {
     return state_->commander->refused();
 }
 
+void Session::draw(const Drawing& drawing) {
+    state_->guarded("SUMO cannot draw", [&] {
+        if (!state_->painter) state_->painter.emplace(*state_->sumo, state_->observer.fleet());
+        state_->painter->draw(drawing);
+    });
+}
+
 void Session::continue_in(const std::filesystem::path& folder) {
     core::make_folder(folder);
     state_->config.folder = std::filesystem::canonical(folder);
@@ -352,7 +362,8 @@ std::vector<std::string> command_line(const SessionConfig& config) {
     return detail::arguments(placed);
 }
 
-RemoteSumo::RemoteSumo(const std::string& host, int port) : sumo_(gateway::at(host, port)) {}
+RemoteSumo::RemoteSumo(const std::string& host, int port, core::Seconds patience)
+    : sumo_(gateway::at(host, port, patience)) {}
 RemoteSumo::~RemoteSumo() = default;
 RemoteSumo::RemoteSumo(RemoteSumo&&) noexcept = default;
 RemoteSumo& RemoteSumo::operator=(RemoteSumo&&) noexcept = default;

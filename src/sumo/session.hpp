@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "sumo/drawing.hpp"
 #include "traffic/command.hpp"
 #include "traffic/departure.hpp"
 #include "traffic/vehicle.hpp"
@@ -50,9 +51,10 @@ std::vector<std::string> command_line(const SessionConfig& config);
 /// sumo-gui, for its start button. It ends with the connection. One at a time in a process.
 class RemoteSumo {
   public:
-    /// Connects. Throws core::EnvironmentError when nobody listens there, what listens speaks no TraCI, or it
-    /// is a SUMO of another version than the one that this program is built with.
-    RemoteSumo(const std::string& host, int port);
+    /// Connects, and waits so long for its answer. Throws core::EnvironmentError when nobody listens there,
+    /// what listens speaks no TraCI, or it is a SUMO of another version than the one that this program is
+    /// built with.
+    RemoteSumo(const std::string& host, int port, core::Seconds patience = core::Seconds(10.0));
     ~RemoteSumo();
     RemoteSumo(RemoteSumo&&) noexcept;
     RemoteSumo& operator=(RemoteSumo&&) noexcept;
@@ -103,6 +105,8 @@ class Session : public truth::SelfKnowledge {
     std::uint64_t skipped_commands() const;
     /// Stops that were commanded where the vehicle could no longer brake in time on its lane.
     std::uint64_t refused_commands() const;
+    /// Has a SUMO with a window show this beside its own; without a window nobody sees it.
+    void draw(const Drawing& drawing);
 
     /// In a forked child, before anything else: moves SUMO's open outputs to files of its own in `folder`,
     /// with what was written before the fork copied, so that each child's outputs equal those of an unforked

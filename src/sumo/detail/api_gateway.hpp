@@ -38,6 +38,23 @@ inline constexpr int change_blocked =
     (1 << 9) | (1 << 10) | (1 << 11) | (1 << 12) | (1 << 14) | (1 << 28);  // vehicles, space, speed
 inline constexpr int stopped_flag = 1;                                     // bit 0 of the stop state
 
+inline constexpr int above_vehicles = 200;  // a layer of sumo-gui
+
+inline ::libsumo::TraCIColor of_sumo(const Colour& colour) {
+    return {colour.red, colour.green, colour.blue};
+}
+
+inline ::libsumo::TraCIPositionVector of_sumo(const std::vector<Spot>& points) {
+    ::libsumo::TraCIPositionVector shape;
+    for (const Spot& point : points) {
+        ::libsumo::TraCIPosition at;
+        at.x = point.x_m;
+        at.y = point.y_m;
+        shape.value.push_back(at);
+    }
+    return shape;
+}
+
 class ApiGateway : public Sumo {
   public:
     void load(const std::vector<std::string>& arguments) override {
@@ -314,6 +331,25 @@ class ApiGateway : public Sumo {
 
     void set_signal_phase_duration(const std::string& signal, double duration_s) override {
         call([&] { api::TrafficLight::setPhaseDuration(signal, duration_s); });
+    }
+
+    void colour_vehicle(const std::string& vehicle, const Colour& colour) override {
+        call([&] { api::Vehicle::setColor(vehicle, of_sumo(colour)); });
+    }
+
+    void add_stroke(const std::string& name, const Stroke& stroke) override {
+        call([&] {
+            api::Polygon::add(name, of_sumo(stroke.points), of_sumo(stroke.colour), false, "clearway",
+                              above_vehicles, stroke.width_m);
+        });
+    }
+
+    void move_stroke(const std::string& name, const std::vector<Spot>& points) override {
+        call([&] { api::Polygon::setShape(name, of_sumo(points)); });
+    }
+
+    void remove_stroke(const std::string& name) override {
+        call([&] { api::Polygon::remove(name, above_vehicles); });
     }
 };
 

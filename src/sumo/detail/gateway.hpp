@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/units.hpp"
+#include "sumo/drawing.hpp"
+
 // Every call to SUMO, in plain types. Each function turns whatever SUMO throws (TraCIException,
 // FatalTraCIError, or an undeclared ProcessError) into core::SimulatorError with SUMO's text; the caller adds
 // time and log. Nothing here checks what SUMO would swallow: that is for the callers.
@@ -153,13 +156,25 @@ class Sumo {
     virtual void set_signal_phase(const std::string& signal, std::uint32_t phase) = 0;
     /// From now on, of the phase that runs.
     virtual void set_signal_phase_duration(const std::string& signal, double duration_s) = 0;
+
+    // --- Pictures, which change no result ---
+    virtual void colour_vehicle(const std::string& vehicle, const Colour& colour) = 0;
+    virtual void add_stroke(const std::string& name, const Stroke& stroke) = 0;
+    virtual void move_stroke(const std::string& name, const std::vector<Spot>& points) = 0;
+    virtual void remove_stroke(const std::string& name) = 0;
+    // A SUMO in this process has no window.
+    virtual bool has_view() { return false; }
+    /// Shows at least so many metres to each side of a vehicle on the road.
+    virtual void show_around(const std::string& /*vehicle*/, double /*metres*/) {}
+    /// The view goes with a vehicle; with an empty id it stays where it is.
+    virtual void track(const std::string& /*vehicle*/) {}
 };
 
 /// libsumo: SUMO in this process, to be loaded.
 std::unique_ptr<Sumo> in_this_process();
 /// libtraci: a SUMO that waits for orders at a port, with its simulation loaded. Reads by subscription, for
-/// a request costs about 200 us. Throws core::EnvironmentError when nobody listens there, or something else
-/// than SUMO 1.15 does.
-std::unique_ptr<Sumo> at(const std::string& host, int port);
+/// a request costs about 200 us. Throws core::EnvironmentError when nobody listens there, something else than
+/// SUMO 1.15 does, or it does not answer for `patience`.
+std::unique_ptr<Sumo> at(const std::string& host, int port, core::Seconds patience);
 
 }  // namespace clearway::sumo::detail::gateway

@@ -16,6 +16,8 @@ namespace {
 namespace api = ::libtraci;
 namespace key = ::libsumo;
 
+constexpr const char* view = "View #0";  // sumo-gui's first
+
 using Results = ::libsumo::TraCIResults;
 
 const std::vector<int>& read_variables() {
@@ -115,6 +117,25 @@ class RemoteGateway : public libtraci::ApiGateway {
         });
     }
 
+    bool has_view() override {
+        try {
+            return api::GUI::hasView(view);
+        } catch (const std::exception&) {
+            return false;  // a SUMO without windows does not know the question
+        }
+    }
+
+    void show_around(const std::string& vehicle, double metres) override {
+        libtraci::call([&] {
+            const auto at = api::Vehicle::getPosition(vehicle);
+            api::GUI::setBoundary(view, at.x - metres, at.y - metres, at.x + metres, at.y + metres);
+        });
+    }
+
+    void track(const std::string& vehicle) override {
+        libtraci::call([&] { api::GUI::trackVehicle(view, vehicle); });
+    }
+
   private:
     static void follow(const std::string& vehicle) {
         libtraci::call([&] { api::Vehicle::subscribe(vehicle, read_variables()); });
@@ -126,8 +147,7 @@ class RemoteGateway : public libtraci::ApiGateway {
 
 /// The version that a SUMO at the place tells. libtraci waits for ever for an answer, so it does that in a
 /// thread of its own, which is left behind when the patience is over: the process ends then, too.
-std::string greet(const std::string& host, int port) {
-    constexpr auto patience = std::chrono::seconds(10);
+std::string greet(const std::string& host, int port, core::Seconds patience) {
     auto promise = std::make_shared<std::promise<std::string>>();
     std::future<std::string> answer = promise->get_future();
     std::thread([promise, host, port] {
@@ -137,11 +157,11 @@ std::string greet(const std::string& host, int port) {
             promise->set_exception(std::current_exception());
         }
     }).detach();
-    if (answer.wait_for(patience) != std::future_status::ready)
+    if (answer.wait_for(std::chrono::duration<double>(patience.value)) != std::future_status::ready)
         throw core::EnvironmentError(fmt::format(
             "{}:{} does not answer as SUMO does within {} s. Start SUMO with --remote-port {}, and give "
             "the port of SUMO",
-            host, port, patience.count(), port));
+            host, port, patience.value, port));
     try {
         return answer.get();
     } catch (const std::exception& fault) {
@@ -160,10 +180,10 @@ std::string release(const std::string& version) {
 
 }  // namespace
 
-std::unique_ptr<Sumo> at(const std::string& host, int port) {
+std::unique_ptr<Sumo> at(const std::string& host, int port, core::Seconds patience) {
     // A connection that breaks is an error of the call, not the end of the process.
     std::signal(SIGPIPE, SIG_IGN);
-    const std::string there = greet(host, port);
+    const std::string there = greet(host, port, patience);
     auto sumo = std::make_unique<RemoteGateway>();
     const std::string here = in_this_process()->version();
     if (release(there) != release(here))
