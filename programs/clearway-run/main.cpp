@@ -7,6 +7,7 @@
 #include "loop/attached_run.hpp"
 #include "loop/dataset.hpp"
 #include "loop/link_evaluation.hpp"
+#include "loop/shown_run.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
 
@@ -18,6 +19,7 @@ constexpr const char* usage =
     "  clearway-run --dataset FILE   record a data set as a dataset file says\n"
     "  clearway-run --links FILE     judge predictors as a links file says\n"
     "  clearway-run --attach FILE    go on with a simulation that runs elsewhere, as an attach file says\n"
+    "  clearway-run --show FILE      run the one condition of a unit file in a window\n"
     "  clearway-run --version\n";
 
 int fail_usage() {
@@ -40,6 +42,7 @@ int main(int argument_count, char** arguments) {
         if (order == "--unit") return static_cast<int>(loop::run_unit(arguments[2]));
         if (order == "--dataset") return static_cast<int>(loop::record_dataset(arguments[2]));
         if (order == "--links") return static_cast<int>(loop::evaluate_links(arguments[2]));
+        if (order == "--show") return static_cast<int>(loop::run_shown(arguments[2]));
         if (order == "--attach") return static_cast<int>(loop::run_attached(arguments[2]));
         return fail_usage();
     } catch (const core::Error& error) {

@@ -72,6 +72,7 @@ void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {
     if (decided || chain.observation().is_report) step.observation = &chain.observation();
     if (decided) step.belief = &chain.belief();
     step.leases = chain.leases();
+    step.commands = commands_;
     listener_->on_step_end(step);
 }
 

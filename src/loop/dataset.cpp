@@ -8,25 +8,12 @@
 
 #include "core/files.hpp"
 #include "loop/detail/work_folder.hpp"
+#include "loop/listeners.hpp"
 #include "loop/recording.hpp"
 #include "loop/unit_run.hpp"
 
 namespace clearway::loop {
 namespace {
-
-/// Passes every step on to several listeners.
-class Listeners : public StepListener {
-  public:
-    void add(StepListener& listener) { listeners_.push_back(&listener); }
-    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override {
-        for (StepListener* const listener : listeners_) {
-            listener->on_step(snapshot, roster);
-        }
-    }
-
-  private:
-    std::vector<StepListener*> listeners_;
-};
 
 /// Car-following alone: data sets show traffic that no policy has touched.
 results::ConditionSpec plain_traffic() {

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "core/files.hpp"
+#include "loop/listeners.hpp"
 #include "loop/road_layout.hpp"
 #include "results/recording.hpp"
 #include "sensing/failure_config.hpp"
@@ -98,21 +99,25 @@ results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
     return finish_here(condition, timing);
 }
 
-results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition, results::RunTiming& timing) {
+results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition, results::RunTiming& timing,
+                                        StepListener* audience) {
     const auto started = std::chrono::steady_clock::now();
     LoopTiming spent;
     metrics::RunEnd end;
     if (condition.engine == results::Engine::solo) {
-        run_solo();
+        run_solo(audience);
         end.planned = metrics::read_planned({}, prepared_.emergency);
     } else {
+        Listeners listeners;
+        if (audience != nullptr) listeners.add(*audience);
         std::unique_ptr<FileRecording> recording;
         if (unit_.recording == results::StepRecording::on) {
             const results::RecordingInfo info = recording_info(condition);
             recording =
                 std::make_unique<FileRecording>(results::recording_file(unit_.output, info.key), info);
+            listeners.add(*recording);
         }
-        spent = run_condition(condition, recording.get(), end.leases);
+        spent = run_condition(condition, listeners.empty() ? nullptr : &listeners, end.leases);
         if (recording) recording->finish();
         std::vector<std::filesystem::path> files = {prepared_.additional_files.front()};  // vehicle types
         files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
@@ -178,7 +183,7 @@ void UnitRun::watch_roads() {
     recorder_.watch(std::move(layout));
 }
 
-void UnitRun::run_solo() {
+void UnitRun::run_solo(StepListener* audience) {
     open_all_signals();
     for (traffic::EmergencyDeparture departure : prepared_.emergency) {
         departure.depart = session_->time();
@@ -187,6 +192,8 @@ void UnitRun::run_solo() {
         while (session_->expected_vehicles() > 0 && session_->time().value < limit_s) {
             session_->step();
             recorder_.step(session_->snapshot(), session_->roster(), session_->events(), {});
+            if (audience != nullptr)
+                audience->on_step_end({&session_->snapshot(), &session_->roster(), &session_->events()});
         }
     }
 }

@@ -35,12 +35,14 @@ class UnitRun {
     /// `folder`.
     results::RunRecord finish_in(const std::filesystem::path& folder, const results::ConditionSpec& condition,
                                  results::RunTiming& timing);
-    /// Runs one condition to its end without a fork.
-    results::RunRecord finish_here(const results::ConditionSpec& condition, results::RunTiming& timing);
+    /// Runs one condition to its end without a fork; `audience` may be null.
+    results::RunRecord finish_here(const results::ConditionSpec& condition, results::RunTiming& timing,
+                                   StepListener* audience = nullptr);
     /// The same with a listener and without results: for recording data.
     void record(const results::ConditionSpec& condition, StepListener& listener);
 
     const roads::Network& network() const { return network_.network; }
+    sumo::Session& session() { return *session_; }
     /// When the first emergency vehicle departs; the end of the warm-up without any.
     core::Seconds first_emergency() const;
     std::string configuration_hash() const { return scenario::configuration_hash(config_); }
@@ -51,7 +53,7 @@ class UnitRun {
     /// Has the recorder say where time is lost, from now on.
     void watch_roads();
     /// Each emergency vehicle alone, one after the other, with every signal open.
-    void run_solo();
+    void run_solo(StepListener* audience);
     void open_all_signals();
     LoopTiming run_condition(const results::ConditionSpec& condition, StepListener* listener,
                              metrics::LeaseTotals& leases);

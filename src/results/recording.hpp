@@ -11,6 +11,7 @@
 #include "core/fields.hpp"
 #include "results/record.hpp"
 #include "traffic/belief.hpp"
+#include "traffic/command.hpp"
 #include "traffic/lease.hpp"
 #include "traffic/observation.hpp"
 #include "truth/events.hpp"
@@ -58,7 +59,8 @@ struct RecordedStep {
     /// Null unless a report arrived or a decision was made. Its roster is `roster`, or one of its own.
     const traffic::Observation* observation = nullptr;
     const traffic::BelievedGraph* belief = nullptr;  ///< Null unless a decision was made.
-    std::span<const traffic::Lease> leases;
+    std::span<const traffic::Lease> leases = {};
+    std::span<const traffic::Command> commands = {};  ///< What came of the leases in force; not recorded.
 };
 
 /// Writes a recording (docs/recording.md) step by step, in memory that does not grow with the length of the

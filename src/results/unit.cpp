@@ -17,6 +17,26 @@ std::optional<StepRecording> recording_from(std::string_view word) {
     return std::nullopt;
 }
 
+detail::Json to_json(const WindowSpec& window) {
+    detail::Json object;
+    object["delay_s"] = window.delay_s;
+    object["settings_file"] = window.settings_file.string();
+    object["program"] = window.program;
+    return object;
+}
+
+WindowSpec window_from(const detail::Json& object, const std::string& where,
+                       std::vector<core::Problem>& problems) {
+    WindowSpec window;
+    std::string settings_file;
+    detail::ObjectReader reader(object, where + ": window", problems);
+    reader.read("delay_s", window.delay_s);
+    reader.read("settings_file", settings_file);
+    reader.read("program", window.program);
+    window.settings_file = settings_file;
+    return window;
+}
+
 }  // namespace
 
 std::string_view name(Engine engine) {
@@ -90,6 +110,7 @@ std::string to_json(const UnitSpec& unit) {
     object["wall_limit_s"] = unit.limits.wall_s;
     object["memory_limit_mib"] = unit.limits.memory_mib;
     object["output"] = unit.output.string();
+    if (unit.window) object["window"] = to_json(*unit.window);
     return detail::to_text(object);
 }
 
@@ -114,6 +135,8 @@ UnitSpec read_unit(const std::filesystem::path& file) {
     reader.read("wall_limit_s", unit.limits.wall_s);
     reader.read("memory_limit_mib", unit.limits.memory_mib);
     reader.read("output", output);
+    if (object.contains("window"))
+        unit.window = window_from(reader.child("window", detail::Json::value_t::object), where, problems);
     if (!problems.empty()) throw core::InputError(problems);
     unit.scenario_file = scenario_file;
     unit.network_folder = network_folder;

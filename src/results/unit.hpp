@@ -63,6 +63,15 @@ struct RunLimits {
     bool operator==(const RunLimits&) const = default;
 };
 
+/// A run that is watched while it happens. It changes no result.
+struct WindowSpec {
+    double delay_s = 0.05;  ///< Wall time that a step takes at least, from where conditions part.
+    std::filesystem::path settings_file;  ///< sumo-gui's view settings; empty: Clearway's own.
+    std::string program = "sumo-gui";     ///< Or `sumo`: the same without a window.
+
+    bool operator==(const WindowSpec&) const = default;
+};
+
 /// What one worker process does: one scenario, one replication, one engine, several conditions forked from
 /// one warm-up.
 struct UnitSpec {
@@ -76,6 +85,7 @@ struct UnitSpec {
     std::vector<ConditionSpec> conditions;
     RunLimits limits;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
+    std::optional<WindowSpec> window = std::nullopt;  ///< Of a unit of one condition.
 
     bool operator==(const UnitSpec&) const = default;
 };

@@ -288,6 +288,31 @@ TEST(Worker, EqualsARunInASumoThatWasStartedElsewhere) {
     EXPECT_EQ(stored_bytes(remote.store(), key), stored_bytes(local.store(), key));
 }
 
+/// A run with a window, but for the window: the simulation in a child, over a connection, with all drawing.
+core::Exit show_without_window(const test::StudyFolder& folder, results::UnitSpec unit,
+                               const ConditionSpec& shown) {
+    unit.conditions = {shown};
+    unit.window = results::WindowSpec{.delay_s = 0.0, .settings_file = {}, .program = "sumo"};
+    return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
+                      .arguments = {"--show", folder.write(unit).string()},
+                      .environment = {},
+                      .output = folder.path() / "worker.log"});
+}
+
+TEST(Worker, EqualsARunThatIsShown) {
+    const ConditionSpec corridor = condition("corridor", "B10", "dead_reckoning", {"corridor"});
+    const test::StudyFolder usual("intersection", {}, {baseline, corridor, solo});
+    ASSERT_TRUE(run_worker(usual, usual.unit(0)).ok());
+    ASSERT_TRUE(run_worker(usual, usual.unit(0, Engine::solo)).ok());
+    const test::StudyFolder watched("intersection", {}, {baseline, corridor, solo});
+    for (const ConditionSpec& shown : {corridor, solo}) {
+        const core::Exit exit = show_without_window(watched, watched.unit(0, shown.engine), shown);
+        ASSERT_TRUE(exit.ok()) << exit.describe() << core::tail(watched.path() / "worker.log", 20);
+        const results::RunKey key{"intersection", shown.name, 0};
+        EXPECT_EQ(stored_bytes(watched.store(), key), stored_bytes(usual.store(), key)) << shown.name;
+    }
+}
+
 TEST(Worker, RunsEmergencyVehiclesAloneForTheSoloTime) {
     scenario::Options dense;
     dense.variant = scenario::Variant::dense;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "results/recording.hpp"
+#include "roads/network.hpp"
+#include "sumo/drawing.hpp"
+
+namespace clearway::loop {
+
+/// What a person who watches a run should see of it. An observer, as a recording is: it sees the truth, and
+/// nothing that decides sees it.
+///
+/// | what | shown as |
+/// |---|---|
+/// | emergency, automated, human vehicles | red, blue, yellow |
+/// | those that did not report in the newest round: dark | wine red, slate, grey |
+/// | believed links, those nearest to an emergency vehicle | green lines; orange where an end is dark |
+/// | signals that a policy holds | a magenta ring |
+///
+/// The view follows one emergency vehicle to its end, then another.
+class Illustrator {
+  public:
+    /// `network` outlives the object.
+    explicit Illustrator(const roads::Network& network)
+        : network_(network), held_(network.signals().size(), false) {}
+
+    /// Called for every step, in order of time. Valid until the next call.
+    const sumo::Drawing& draw(const results::RecordedStep& step);
+
+  private:
+    struct Link {
+        core::VehicleKey one;
+        core::VehicleKey other;
+    };
+
+    /// Who is on the road and did not report in the newest round.
+    void take_dark(const truth::Snapshot& snapshot, const traffic::Observation& observation);
+    bool is_dark(core::VehicleKey vehicle) const;
+    void take_links(const traffic::BelievedGraph& belief);
+    void take_held(std::span<const traffic::Command> commands);
+
+    void colour_vehicles(const truth::Snapshot& snapshot);
+    void draw_held();
+    void draw_links(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    void choose_followed(const truth::Snapshot& snapshot);
+
+    const roads::Network& network_;
+    std::vector<core::VehicleKey> dark_;  ///< Ascending.
+    std::vector<Link> links_;             ///< Of the last decision.
+    std::vector<bool> held_;              ///< By signal.
+    sumo::Drawing drawing_;
+};
+
+/// Points of a closed ring around the stop lines of a signal; none for a signal without any.
+std::vector<sumo::Spot> ring_around(const roads::Signal& signal, const roads::Network& network);
+
+}  // namespace clearway::loop
