@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +11,9 @@
 #include "cli/condition_options.hpp"
 #include "cli/run_plan.hpp"
 #include "cli/scenario_options.hpp"
+#include "cli/shown_run.hpp"
 #include "cli/verb.hpp"
+#include "core/number_range.hpp"
 #include "study/conditions.hpp"
 
 namespace clearway::cli {
@@ -19,6 +22,8 @@ namespace {
 enum class Floor : std::uint8_t { solo, none };
 
 constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replications
+/// What `--gui` shows where no condition is named: links, and vehicles that fail to report.
+constexpr const char* usually_shown = "graph_graphsage";
 
 results::ConditionSpec named_custom() {
     results::ConditionSpec condition;
@@ -39,6 +44,9 @@ struct Arguments {
     results::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options options;
+    bool is_shown = false;
+    double delay_ms = 50.0;  ///< 0.25 s steps: five times as fast as the traffic.
+    std::string window_settings;
 };
 
 /// Whether any option describes a condition of the user's own.
@@ -62,7 +70,8 @@ results::ConditionSpec baseline_of(results::Engine engine) {
     return baseline;
 }
 
-std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments) {
+/// The conditions that the user names or describes.
+std::vector<results::ConditionSpec> chosen_conditions(const Arguments& arguments) {
     std::vector<results::ConditionSpec> chosen;
     for (const std::string& name : arguments.conditions) {
         add_once(chosen, study::built_in_condition(name, "--condition"));
@@ -74,6 +83,12 @@ std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments) {
         }
         chosen.push_back(arguments.own);
     }
+    return chosen;
+}
+
+/// Those, or else the usual ones, and what they are compared with.
+std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments,
+                                                  std::vector<results::ConditionSpec> chosen) {
     if (chosen.empty()) {
         for (const study::BuiltInCondition& known : study::built_in_conditions()) {
             chosen.push_back(known.condition);
@@ -94,17 +109,64 @@ std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments) {
     return all;
 }
 
-core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
+/// Of the conditions that the user chose, the one that a window shows.
+results::ConditionSpec shown_condition(const std::vector<results::ConditionSpec>& chosen) {
+    if (chosen.empty()) return study::built_in_condition(usually_shown, "--gui");
+    if (chosen.size() == 1) return chosen.front();
+    std::vector<std::string> names;
+    for (const results::ConditionSpec& condition : chosen)
+        names.push_back(condition.name);
+    throw core::InputError({"--gui", fmt::format("cannot show {} at once", joined(names)), "one condition",
+                            "Name one with --condition, or describe one of your own (--policy ...)"});
+}
+
+/// A regular file, or empty: Clearway's own settings.
+std::filesystem::path window_settings(const std::string& file) {
+    if (file.empty()) return {};
+    if (std::filesystem::is_regular_file(file)) return std::filesystem::absolute(file);
+    throw core::InputError({"--gui-settings-file", fmt::format("{} is no file", file),
+                            "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
+}
+
+study::StudyConfig study_of(const Arguments& arguments, std::vector<results::ConditionSpec> chosen) {
     study::StudyConfig config;
     config.seed = arguments.seed;
     config.replications = arguments.seeds;
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     config.name = config.scenarios.front().name;
-    config.conditions = conditions_of(arguments);
+    config.conditions = conditions_of(arguments, std::move(chosen));
+    return config;
+}
+
+core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     RunPlanOptions options{arguments.folder,   arguments.jobs,     arguments.limits,
                            arguments.printing, invocation.command, arguments.recording};
-    const study::Plan plan = plan_for(config, options);
-    return run_and_print(plan, options);
+    const std::vector<results::ConditionSpec> chosen = chosen_conditions(arguments);
+    if (!arguments.is_shown) return run_and_print(plan_for(study_of(arguments, chosen), options), options);
+    const results::ConditionSpec shown = shown_condition(chosen);
+    const results::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
+                                     .settings_file = window_settings(arguments.window_settings)};
+    const study::Plan plan = plan_for(study_of(arguments, {shown}), options);
+    return show_and_print(plan, options, shown, window);
+}
+
+void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+    const char* const group = "A window";
+    CLI::Option* const gui =
+        app.add_flag("--gui", arguments->is_shown,
+                     fmt::format("Show the first seed of one condition [{}] in sumo-gui", usually_shown))
+            ->group(group);
+    constexpr double longest_delay_ms = 60000.0;
+    app.add_option("--gui-delay", arguments->delay_ms,
+                   "Time that a step takes at least, from a minute before the first emergency vehicle, ms")
+        ->check(core::NumberRange{0.0, longest_delay_ms})
+        ->option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
+        ->needs(gui)
+        ->group(group);
+    app.add_option("--gui-settings-file", arguments->window_settings, "View settings of sumo-gui")
+        ->option_text("FILE [Clearway's own]")
+        ->needs(gui)
+        ->group(group);
 }
 
 void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
@@ -141,7 +203,7 @@ Action configure_run(CLI::App& app) {
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
         "Leave out the runs of emergency vehicles alone, hence the gap closed [with them]");
-    add_seeds_option(app, arguments->seeds);
+    const CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
     app.add_option("--out", arguments->folder, "Run folder; what was interrupted there continues")
         ->option_text("DIR [runs/SCENARIO-xxxxxx, digits by what is run]");
@@ -151,7 +213,11 @@ Action configure_run(CLI::App& app) {
     add_json_option(app, arguments->printing, "the tables");
     add_own_condition_options(app, arguments);
     add_scenario_options(app, arguments->options);
-    return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
+    add_window_options(app, arguments);
+    return [arguments, seeds](const Invocation& invocation) {
+        if (arguments->is_shown && seeds->count() == 0) arguments->seeds = 1;
+        return run(*arguments, invocation);
+    };
 }
 
 }  // namespace clearway::cli

@@ -1,6 +1,7 @@
 #include "cli/worker_orders.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -90,15 +91,18 @@ class Workers {
         if (exit.ok()) return;
         ++failed_;
         const WorkerOrder& order = orders_[worker.order];
+        const std::string words = core::tail(order.log, shown_lines);
         remove_work(order);
-        fmt::print(stderr, "\nclearway: {}: {} ({})\n{}", order.label, exit.describe(), order.log.string(),
-                   core::tail(order.log, shown_lines));
+        const bool is_kept = std::filesystem::exists(order.log);
+        fmt::print(stderr, "\nclearway: {}: {}{}\n{}", order.label, exit.describe(),
+                   is_kept ? fmt::format(" ({})", order.log.string()) : "", words);
         logs_[worker.order].clear();
         if (exit_code_ != core::ExitCode::ok) return;
         exit_code_ = core::ExitCode::runs_failed;
-        const bool told = exit.signal == 0 && (exit.code == static_cast<int>(core::ExitCode::bad_input) ||
-                                               exit.code == static_cast<int>(core::ExitCode::environment));
-        if (told) exit_code_ = static_cast<core::ExitCode>(exit.code);
+        const auto code = static_cast<core::ExitCode>(exit.code);
+        constexpr std::array told = {core::ExitCode::bad_input, core::ExitCode::environment,
+                                     core::ExitCode::incomplete, core::ExitCode::conflict};
+        if (exit.signal == 0 && std::ranges::find(told, code) != told.end()) exit_code_ = code;
         if (exit.code == 127) exit_code_ = core::ExitCode::environment;
     }
 

@@ -1,0 +1,83 @@
+#include "cli/shown_run.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/worker_orders.hpp"
+
+namespace clearway::cli {
+namespace {
+
+bool is_set(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value != nullptr && !std::string_view(value).empty();
+}
+
+void require_display() {
+    if (is_set("DISPLAY")) return;
+    if (is_set("WAYLAND_DISPLAY"))
+        throw core::EnvironmentError(
+            "--gui needs an X display, and DISPLAY is not set: sumo-gui does not speak Wayland. Install "
+            "Xwayland "
+            "(Debian package xwayland) and start the session anew, or leave --gui out");
+    throw core::EnvironmentError(
+        "--gui needs a display, and DISPLAY is not set. Run it in a graphical session, over ssh with ssh -X, "
+        "or "
+        "leave --gui out");
+}
+
+/// What makes the first replication of a condition.
+results::UnitSpec unit_of(const study::Plan& plan, const results::ConditionSpec& shown) {
+    for (const study::PlannedUnit& planned : plan.units) {
+        if (planned.unit.engine != shown.engine) continue;
+        results::UnitSpec unit = planned.unit;
+        unit.conditions = {shown};
+        return unit;
+    }
+    throw std::logic_error("the shown condition is not in the plan");
+}
+
+/// Shows the run; ok, or what kept it from its end.
+core::ExitCode show(const results::UnitSpec& unit) {
+    const std::string label =
+        results::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
+    const std::filesystem::path work = unit.output / "work" / fmt::format("window-{}", ::getpid());
+    fmt::print(stderr, "clearway: {} in sumo-gui\n", label);
+    const WorkerResult result = work_on({{.label = label,
+                                          .option = "--show",
+                                          .file = work / "unit.json",
+                                          .text = results::to_json(unit),
+                                          .log = work / "worker.log",
+                                          .work = work}},
+                                        1, "shown");
+    std::error_code ignored;
+    std::filesystem::remove_all(work, ignored);
+    return result.exit_code;
+}
+
+}  // namespace
+
+core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& options,
+                              const results::ConditionSpec& shown, const results::WindowSpec& window) {
+    require_display();
+    const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
+    const results::Store store = prepare_run_folder(plan, options);
+    results::UnitSpec unit = unit_of(plan, shown);
+    unit.window = window;
+    const core::ExitCode code = show(unit);
+    if (code != core::ExitCode::ok) {
+        std::error_code ignored;
+        if (is_new) std::filesystem::remove_all(options.folder, ignored);
+        return code;
+    }
+    const study::StudyResult result = run_missing(plan, store, options);
+    return was_interrupted(result) ? result.exit_code : publish(store, options.printing);
+}
+
+}  // namespace clearway::cli
