@@ -158,7 +158,7 @@ void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
             ->group(group);
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
-                   "Time that a step takes at least, from a minute before the first emergency vehicle, ms")
+                   "Least wall time of a step, from a minute before the first emergency vehicle, ms")
         ->check(core::NumberRange{0.0, longest_delay_ms})
         ->option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
         ->needs(gui)
