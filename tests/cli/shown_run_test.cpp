@@ -29,7 +29,10 @@ class Screen {
                               .output = log})) {
         for (int tries = 0; tries < 1000 && number_.empty(); ++tries) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            std::ifstream(log) >> number_;
+            std::ifstream lines(log);  // with complaints about numbers that others have
+            for (std::string line; std::getline(lines, line);)
+                if (!line.empty() && line.find_first_not_of("0123456789") == std::string::npos)
+                    number_ = line;
         }
     }
     ~Screen() {
