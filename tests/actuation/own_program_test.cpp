@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/crossing_scene.hpp"
+#include "support/temporary_folder.hpp"
+
 namespace clearway::testing {
 namespace {
 
@@ -26,7 +29,7 @@ constexpr core::Seconds least_green{10.0};
 /// Runs the program from phase `phase` at `start_s`, obeying the way back, until its first phase begins for
 /// the `cycles`th time; answers when that is, s.
 double start_of_cycle(const roads::Signal& signal, std::size_t phase, double start_s, int cycles) {
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     own.disturb(core::Seconds(0.0));
     double now_s = start_s;
     for (int seen = 0;; phase = (phase + 1) % signal.program.size()) {
@@ -58,24 +61,38 @@ INSTANTIATE_TEST_SUITE_P(Lags, OwnProgramStart,
 
 TEST(OwnProgram, in_step_is_left_alone) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     own.watch("Gr", core::Seconds(50.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0))) << "nobody disturbed it";
 }
 
-TEST(OwnProgram, that_waits_for_vehicles_has_no_step_to_keep) {
-    roads::Signal signal = clockwork();
-    signal.fixed_time = false;
-    OwnProgram own(signal);
+TEST(OwnProgram, that_nobody_counts_on_is_left_alone) {
+    const roads::Signal signal = clockwork();
+    OwnProgram own(signal, false);
     own.disturb(core::Seconds(0.0));
+    EXPECT_TRUE(own.is_in_step(core::Seconds(0.0)));
+    own.watch("ry", core::Seconds(46.0));
     own.watch("Gr", core::Seconds(50.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0)));
+}
+
+TEST(KeepsStep, with_neighbours_near_by_and_fixed_times) {
+    const roads::Network& both = two_crossings();
+    EXPECT_TRUE(actuation::detail::keeps_step(core::SignalIndex{0}, both)) << "300 m apart";
+    const support::TemporaryFolder folder;
+    const std::string map = CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml";
+    const auto actuated = folder.write("tls.add.xml", R"(<additional>
+    <tlLogic id="A" type="actuated" programID="1"><phase duration="9" state="GGGgrrrrGGGgrrrr"/></tlLogic>
+</additional>)");
+    const roads::Network mixed = roads::Network::read(map, {actuated});
+    EXPECT_FALSE(actuation::detail::keeps_step(core::SignalIndex{0}, mixed)) << "it waits for vehicles";
+    EXPECT_TRUE(actuation::detail::keeps_step(core::SignalIndex{1}, mixed));
 }
 
 TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
     roads::Signal signal = clockwork();
     signal.program[2].duration_s = 6.0;
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     own.disturb(core::Seconds(0.0));
     own.watch("yr", core::Seconds(96.0));
     own.watch("rG", core::Seconds(100.0));
@@ -86,20 +103,20 @@ TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
 
 TEST(OwnProgram, gives_up_after_five_cycles) {
     roads::Signal signal = clockwork();
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     EXPECT_TRUE(own.is_in_step(core::Seconds(0.0)));
     own.disturb(core::Seconds(10.0));
     EXPECT_FALSE(own.is_in_step(core::Seconds(510.0)));
     EXPECT_TRUE(own.is_in_step(core::Seconds(511.0)));
     signal.program.clear();
-    OwnProgram none(signal);
+    OwnProgram none(signal, true);
     none.disturb(core::Seconds(10.0));
     EXPECT_TRUE(none.is_in_step(core::Seconds(10.0))) << "without a cycle there is no step";
 }
 
 TEST(OwnProgram, takes_what_it_sees_first_for_no_start) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     own.disturb(core::Seconds(0.0));
     own.watch("Gr", core::Seconds(70.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(70.0)));
@@ -110,7 +127,7 @@ TEST(OwnProgram, takes_what_it_sees_first_for_no_start) {
 
 TEST(OwnProgram, goes_on_after_a_green_that_has_lasted) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal);
+    OwnProgram own(signal, true);
     own.watch("rG", core::Seconds(100.0));
     own.watch("rG", core::Seconds(109.0));
     EXPECT_FALSE(own.next_after(least_green, core::Seconds(109.0)));

@@ -16,9 +16,29 @@ constexpr double most_cycles = 5.0;
 /// Nearer than this is in step, s: a state is seen a simulated step after it began.
 constexpr double in_step_s = 1.0;
 
+/// Farther apart, signals are not coordinated, m.
+constexpr double neighbour_m = 800.0;
+
+/// Where the first lane that a signal controls ends.
+std::optional<roads::Point> place_of(const roads::Signal& signal, const roads::Network& network) {
+    for (const auto& ways : signal.links)
+        if (!ways.empty()) return network.lane(ways.front().from).shape.back();
+    return std::nullopt;
+}
+
 }  // namespace
 
-OwnProgram::OwnProgram(const roads::Signal& signal) : signal_(signal) {
+bool keeps_step(core::SignalIndex signal, const roads::Network& network) {
+    const auto here = place_of(network.signal(signal), network);
+    if (!here || !network.signal(signal).fixed_time) return false;
+    return std::ranges::any_of(network.signals(), [&](const roads::Signal& other) {
+        const auto there = &other == &network.signal(signal) ? std::nullopt : place_of(other, network);
+        return there && std::hypot(there->x_m - here->x_m, there->y_m - here->y_m) <= neighbour_m;
+    });
+}
+
+OwnProgram::OwnProgram(const roads::Signal& signal, bool keeps_step)
+    : signal_(signal), keeps_step_(keeps_step) {
     for (const roads::Phase& phase : signal.program)
         cycle_s_ += phase.duration_s;
 }
@@ -32,7 +52,7 @@ void OwnProgram::watch(const std::string& state, core::Seconds now) {
 }
 
 void OwnProgram::disturb(core::Seconds now) {
-    in_step_ = !signal_.fixed_time || cycle_s_ <= 0.0;
+    in_step_ = !keeps_step_ || cycle_s_ <= 0.0;
     disturbed_ = now;
 }
 

@@ -15,12 +15,16 @@ struct PhaseChange {
     core::Seconds lasting;
 };
 
+/// Whether other signals count on a signal's times: its program waits for no vehicle, and another signal
+/// stands within 800 m, up to where signals are usually coordinated (MUTCD 2009, section 4D.17: half a mile).
+bool keeps_step(core::SignalIndex signal, const roads::Network& network);
+
 /// What a signal's own program does while nothing is held: which phase it is in, since when, and what would
 /// bring it back into step with its neighbours after it was started at a phase of ours.
 class OwnProgram {
   public:
-    /// The signal outlives the object.
-    explicit OwnProgram(const roads::Signal& signal);
+    /// The signal outlives the object; `keeps_step`: see above.
+    OwnProgram(const roads::Signal& signal, bool keeps_step);
 
     /// What the signal shows while its own program runs.
     void watch(const std::string& state, core::Seconds now);
@@ -44,6 +48,7 @@ class OwnProgram {
     double lag_s(std::uint32_t phase, core::Seconds now) const;
 
     const roads::Signal& signal_;
+    bool keeps_step_ = false;
     double cycle_s_ = 0.0;
     std::string state_;  ///< Empty while another than the own program runs.
     core::Seconds since_;

@@ -13,7 +13,10 @@ constexpr double longest_cycle_s = 180.0;
 }  // namespace
 
 SignalControl::SignalControl(core::SignalIndex index, const roads::Network& network)
-    : index_(index), signal_(network.signal(index)), inner_lanes_(signal_.links.size()), own_(signal_) {
+    : index_(index),
+      signal_(network.signal(index)),
+      inner_lanes_(signal_.links.size()),
+      own_(signal_, keeps_step(index, network)) {
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
         for (const roads::SignalLink& way : signal_.links[link]) {
             core::LaneIndex lane = way.via;
