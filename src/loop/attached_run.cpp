@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <limits>
-#include <ranges>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,11 +40,9 @@ std::filesystem::path file_of(const sumo::RemoteSumo& sumo, const std::string& o
 /// sees is given back to it by way of all red.
 std::vector<std::filesystem::path> additional_files_of(const sumo::RemoteSumo& sumo) {
     std::vector<std::filesystem::path> files;
-    const std::string names = sumo.option("additional-files");
-    for (const auto name : names | std::views::split(',')) {
-        const std::filesystem::path file(std::string(name.begin(), name.end()));
-        if (std::filesystem::is_regular_file(file)) files.push_back(file);
-    }
+    std::istringstream names(sumo.option("additional-files"));
+    for (std::string name; std::getline(names >> std::ws, name, ',');)
+        if (std::filesystem::is_regular_file(name)) files.emplace_back(name);
     return files;
 }
 
