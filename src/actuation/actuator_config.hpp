@@ -27,7 +27,9 @@ struct ActuatorConfig {
     /// Longest time away from the own program, counted anew when the hold passes on to links that conflict
     /// with those held before; [1, 600]. 60 s: as the prototype.
     double hold_cap_s = 60.0;
-    double cool_down_s = 10.0;    ///< Own program runs at least this long between holds; [0, 600]. Assumed.
+    /// Own program runs at least this long between holds, and after one that reached the cap for a whole
+    /// cycle (180 s at most); [0, 600]. Assumed.
+    double cool_down_s = 10.0;
     double least_green_s = 10.0;  ///< A favour ends no green of the program earlier; [1, 120]. Assumed.
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     LateralModel lateral_model = LateralModel::lane;

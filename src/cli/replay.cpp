@@ -50,8 +50,6 @@ struct Arguments {
     Printing printing = Printing::text;
 };
 
-/// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
-/// core::InputError when it is another one.
 /// In a run folder the scenario's copy stands above its network, and names the files with signal programs.
 std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem::path& network_file) {
     const std::filesystem::path scenario = network_file.parent_path().parent_path() / "scenario.toml";
@@ -59,6 +57,8 @@ std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem:
     return scenario::additional_files(scenario::load(scenario.string()));
 }
 
+/// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
+/// core::InputError when it is another one.
 roads::Network network_of(const results::RecordingInfo& info, const Arguments& arguments) {
     std::filesystem::path file = arguments.network;
     if (file.empty()) {

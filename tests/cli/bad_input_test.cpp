@@ -120,6 +120,15 @@ TEST_F(BadInputTest, unknown_failure_predictor_and_policy_are_told_before_anythi
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 
+TEST_F(BadInputTest, a_policy_part_that_is_there_twice_is_refused) {
+    write_line_scenario();
+    const Ended ended =
+        clearway({"run", "line", "--out", "out", "--policy", "clear_lane", "corridor", "clear_lane"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("`clear_lane` is there twice"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
 TEST_F(BadInputTest, an_unknown_condition_names_the_nearest) {
     const Ended ended = clearway({"run", "merge", "--condition", "graph_simulations"});
     EXPECT_EQ(ended.code, 3);

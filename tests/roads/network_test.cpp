@@ -205,6 +205,16 @@ TEST_F(NetworkTest, ProgramsOfAdditionalFilesReplaceThoseOfTheNetwork) {
     EXPECT_EQ(moved.signals()[0].program_id, "measured");
 }
 
+TEST_F(NetworkTest, TakesAProgramWithIdleLettersAsSumoDoes) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto programs = folder_.write("tls.add.xml", R"(<additional>
+    <tlLogic id="J" type="static" programID="p"><phase duration="20" state="GGrrGG"/></tlLogic>
+</additional>)");
+    const Network network = Network::read(file, {programs});
+    EXPECT_EQ(network.signals()[0].program[0].state, "GGrrGG");
+    EXPECT_EQ(network.signals()[0].links.size(), 6U);
+}
+
 TEST_F(NetworkTest, RefusesAProgramOfAnotherNetwork) {
     const auto file = folder_.write("test.net.xml", crossing_network());
     const auto programs = folder_.write("tls.add.xml", R"(<additional>

@@ -19,14 +19,12 @@ bool is_foe_of_any(const roads::Signal& signal, std::size_t link, const Links& l
     return std::ranges::any_of(links, [&](std::uint16_t other) { return are_foes(signal, link, other); });
 }
 
-const roads::Phase* phase_serving_all(const roads::Signal& signal, const Links& links) {
-    for (const roads::Phase& phase : signal.program) {
-        if (std::ranges::all_of(links, [&](std::uint16_t link) {
-                return link < phase.state.size() && traffic::is_green(phase.state[link]);
-            }))
-            return &phase;
-    }
-    return nullptr;
+bool is_green_for(const std::string& state, std::size_t link) {
+    return link < state.size() && traffic::is_green(state[link]);
+}
+
+bool serves_all(const std::string& state, const Links& links) {
+    return std::ranges::all_of(links, [&](std::uint16_t link) { return is_green_for(state, link); });
 }
 
 }  // namespace
@@ -43,17 +41,19 @@ std::string hold_state(const roads::Signal& signal, const std::string& shown, co
         }
     };
     const auto best = best_phase(signal, links);
-    if (best) add_green(signal.program[*best].state, links);
+    const std::string none;
+    const std::string& phase = best ? signal.program[*best].state : none;
+    add_green(phase, links);
     Links granted = green_links(state);
     granted.insert(granted.end(), links.begin(), links.end());
     add_green(shown, granted);
-    const roads::Phase* phase = phase_serving_all(signal, links);
+    const bool phase_serves_all = serves_all(phase, links);
     Links earlier;
     for (const std::uint16_t link : links) {
         state[link] = 'G';
         if (is_foe_of_any(signal, link, links)) {
-            if (phase != nullptr)
-                state[link] = phase->state[link];
+            if (phase_serves_all)
+                state[link] = phase[link];
             else if (is_foe_of_any(signal, link, earlier))
                 state[link] = 'g';
         }
@@ -106,14 +106,13 @@ Links green_links(const std::string& state) {
 Links losing_links(const std::string& shown, const std::string& target) {
     Links links;
     for (const std::uint16_t link : green_links(shown)) {
-        if (link >= target.size() || !traffic::is_green(target[link])) links.push_back(link);
+        if (!is_green_for(target, link)) links.push_back(link);
     }
     return links;
 }
 
 bool serves_any(const std::string& state, const Links& links) {
-    return std::ranges::any_of(
-        links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
+    return std::ranges::any_of(links, [&](std::uint16_t link) { return is_green_for(state, link); });
 }
 
 std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state) {
@@ -134,8 +133,8 @@ std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links
     long most = 0;
     for (std::uint32_t row = 0; row < signal.program.size(); ++row) {
         const std::string& state = signal.program[row].state;
-        const long served = std::ranges::count_if(
-            links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
+        const long served =
+            std::ranges::count_if(links, [&](std::uint16_t link) { return is_green_for(state, link); });
         if (served > most) {
             most = served;
             best = row;

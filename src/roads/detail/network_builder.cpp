@@ -248,9 +248,10 @@ void NetworkBuilder::end_program() {
         return;
     }
     const std::size_t letters = phases_.front().state.size();
-    if (in_additional_ && letters < letters_in_use(signal)) {
+    const std::size_t in_use = in_additional_ ? letters_in_use(signal) : 0;
+    if (letters < in_use) {
         add_problem(fmt::format("a program of signal \"{}\" with {} letters", signal.id, letters),
-                    fmt::format("at least {}, the links of the network", letters_in_use(signal)));
+                    fmt::format("at least {}, the links of the network", in_use));
         return;
     }
     signal.links.resize(letters);
