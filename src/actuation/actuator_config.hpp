@@ -6,9 +6,6 @@
 
 namespace clearway::actuation {
 
-/// Whether vehicles have a position within their lane (SUMO's sublane model).
-enum class LateralModel : std::uint8_t { lane, sublane };
-
 /// How an Actuator acts; the same in every condition of a study.
 struct ActuatorConfig {
     double yellow_s = 3.0;   ///< [0, 10]. 3 s: usual in towns.
@@ -32,7 +29,7 @@ struct ActuatorConfig {
     double cool_down_s = 10.0;
     double least_green_s = 10.0;  ///< A favour ends no green of the program earlier; [1, 120]. Assumed.
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    LateralModel lateral_model = LateralModel::lane;
+    traffic::LateralModel lateral_model = traffic::LateralModel::lane;
 };
 
 }  // namespace clearway::actuation

@@ -97,7 +97,8 @@ std::string precision_text(const results::PrecisionTarget& target) {
 std::string policy_of(const results::ConditionSpec& condition) {
     std::vector<std::string> means = condition.parts;
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
-    return means.empty() ? "-" : joined(means, "+");
+    const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
+    return (means.empty() ? "-" : joined(means, "+")) + (is_checked ? "" : ", safety checks off (!)");
 }
 
 }  // namespace
@@ -136,6 +137,7 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
                         {"loop_settings", cell.condition.loop_settings},
                         {"predictor", cell.condition.predictor},
                         {"policy", cell.condition.parts},
+                        {"safety_checks", results::name(cell.condition.safety_checks)},
                         {"runs", cell.runs},
                         {"complete_runs", cell.complete},
                         {"estimated_run_s", cell.cost.wall_s ? Json(*cell.cost.wall_s) : Json(nullptr)},

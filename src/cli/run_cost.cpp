@@ -86,7 +86,7 @@ CostBook::CostBook(const fs::path& folder) {
 }
 
 RunCost CostBook::of(const scenario::ScenarioConfig& config, results::Engine engine) const {
-    const std::string hash = scenario::configuration_hash(config);
+    const std::string hash = scenario::scenario_hash(config);
     for (const results::Store& store : stores_) {
         RunCost sum;
         std::size_t count = 0;

@@ -67,9 +67,15 @@ StudyStatus sum_of(const std::vector<StudyStatus>& parts, const std::filesystem:
 std::string text_of(const StudyStatus& status, const std::string& headline) {
     std::string text =
         fmt::format("{:32} {:40} {:>8} {:>9} {:>7}\n", "scenario", "condition", "runs", "complete", "failed");
-    for (const CellStatus& cell : status.cells)
-        text += fmt::format("{:32} {:40} {:8} {:9} {:7}\n", cell.scenario, cell.condition, cell.runs,
-                            cell.complete, cell.failed);
+    bool any_unsafe = false;
+    for (const CellStatus& cell : status.cells) {
+        const bool is_unsafe = cell.safety_checks == traffic::SafetyChecks::off;
+        any_unsafe = any_unsafe || is_unsafe;
+        text +=
+            fmt::format("{:32} {:40} {:8} {:9} {:7}\n", cell.scenario,
+                        cell.condition + (is_unsafe ? " (!)" : ""), cell.runs, cell.complete, cell.failed);
+    }
+    if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
     text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));
     if (!status.holder.empty()) text += fmt::format(" ({})", status.holder);
     text += fmt::format("; {} of {} runs complete, {} failed", status.complete, status.runs, status.failed);
@@ -96,6 +102,7 @@ std::string json_of(const StudyStatus& status, const analysis::Headline* headlin
     for (const CellStatus& cell : status.cells)
         cells.push_back({{"scenario", cell.scenario},
                          {"condition", cell.condition},
+                         {"safety_checks", results::name(cell.safety_checks)},
                          {"runs", cell.runs},
                          {"complete_runs", cell.complete},
                          {"failed_runs", cell.failed}});

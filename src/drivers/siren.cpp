@@ -17,8 +17,6 @@ constexpr double fastest_reaction_s = 0.3;
 constexpr double memory_s = 3.0;
 /// How long a driver tries for one lane before looking again, s.
 constexpr double lane_request_s = 2.0;
-/// A lane that is not a best one must carry the vehicle this far (facts: 300 m).
-constexpr float far_enough_m = 300.0F;
 
 }  // namespace
 
@@ -100,7 +98,7 @@ void Siren::leave_lane(core::VehicleKey key, Driver& driver, const truth::Snapsh
         const auto number = static_cast<std::int64_t>(lane.number) + static_cast<int>(side);
         if (number < 0 || number >= static_cast<std::int64_t>(outlook->size())) continue;
         const truth::LaneOutlook& there = (*outlook)[static_cast<std::size_t>(number)];
-        const bool continues = there.best_offset == 0 || there.drivable_m > far_enough_m;
+        const bool continues = there.best_offset == 0 || there.drivable_m > roads::worth_following.value;
         if (!continues || !self.could_change_lane(key, side).value_or(false)) continue;
         commands.push_back(
             traffic::RequestLane{key, static_cast<std::uint32_t>(number), core::Seconds(lane_request_s)});

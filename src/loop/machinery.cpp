@@ -37,8 +37,8 @@ Machinery make_machinery(const results::ConditionSpec& condition, const Surround
     actuation.yellow_s = yellow_s(surroundings.friction);
     if (!surroundings.has_pedestrians) actuation.walking_s = 0.0;
     actuation.safety_checks = condition.safety_checks;
-    actuation.lateral_model = condition.engine == results::Engine::sublane ? actuation::LateralModel::sublane
-                                                                           : actuation::LateralModel::lane;
+    actuation.lateral_model = condition.engine == results::Engine::sublane ? traffic::LateralModel::sublane
+                                                                           : traffic::LateralModel::lane;
     machinery.actuator = std::make_unique<actuation::Actuator>(surroundings.network, actuation);
     if (surroundings.siren.compliance > 0.0)
         machinery.siren =

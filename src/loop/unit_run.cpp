@@ -222,7 +222,7 @@ results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& con
 results::Provenance UnitRun::provenance(const std::string& trace_hash) const {
     return {.clearway_version = CLEARWAY_VERSION,
             .sumo_version = sumo::version(),
-            .configuration_hash = scenario::configuration_hash(config_),
+            .configuration_hash = scenario::scenario_hash(config_),
             .demand_hash = prepared_.demand_hash,
             .study_seed = unit_.study_seed,
             .simulator_seed = prepared_.simulator_seed,

@@ -152,11 +152,11 @@ class Way {
 }  // namespace
 
 ClearLane::ClearLane(const PartContext& context, ClearLaneConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void ClearLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const View view(network_, belief);
-    LeaseWriter write(part_name, belief.time, leases);
+    const View view(context_.network, belief);
+    LeaseWriter write(part_name, context_.period, belief.time, leases);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         Way(view, config_, emergency, write).clear();
     }

@@ -33,7 +33,7 @@ class ClearLane : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     ClearLaneConfig config_;
 };
 

@@ -69,12 +69,12 @@ class OneEmergency {
 }  // namespace
 
 Dissertation::Dissertation(const PartContext& context, DissertationConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     if (belief.link_count() == 0 || belief.link_count() < config_.min_edges) return;
-    const View view(network_, belief);
-    LeaseWriter write(part_name, belief.time, leases);
+    const View view(context_.network, belief);
+    LeaseWriter write(part_name, context_.period, belief.time, leases);
     for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
         const traffic::BelievedVehicle& emergency = belief.vehicles[row];
         if (emergency.vehicle_class != traffic::VehicleClass::emergency) continue;

@@ -30,7 +30,7 @@ class Dissertation : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     DissertationConfig config_;
 };
 

@@ -14,11 +14,11 @@ constexpr double whole_route_m = 1e6;
 }  // namespace
 
 GreenWave::GreenWave(const PartContext& context, GreenWaveConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void GreenWave::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const detail::View view(network_, belief);
-    detail::LeaseWriter write(part_name, belief.time, leases);
+    const detail::View view(context_.network, belief);
+    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
     const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
     for (const traffic::BelievedVehicle& emergency : emergencies) {
         const auto [plan, is_new] = plans_.try_emplace(emergency.key);

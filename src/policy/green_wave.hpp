@@ -30,7 +30,7 @@ class GreenWave : public Part {
         double until_s;
     };
 
-    const roads::Network& network_;
+    PartContext context_;
     GreenWaveConfig config_;
     std::map<core::VehicleKey, std::vector<Window>> plans_;
 };

@@ -84,7 +84,7 @@ void change_lanes(const View& view, core::VehicleIndex row, LeaseWriter& write) 
 }  // namespace
 
 Listing55::Listing55(const PartContext& context, Listing55Config config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 /// Differences to the print: the loop variable is `id` there while the body reads `vehicle_id`, a name never
 /// assigned, so that all vehicles would be judged by one; here each is judged by itself. A raised speed stays
@@ -95,8 +95,8 @@ Listing55::Listing55(const PartContext& context, Listing55Config config)
 /// released, although SUMO's setSpeed holds until it is, so every set speed is renewed here for as long as
 /// the vehicle is known.
 void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const View view(network_, belief);
-    LeaseWriter write(part_name, belief.time, leases);
+    const View view(context_.network, belief);
+    LeaseWriter write(part_name, context_.period, belief.time, leases);
     if (belief.link_count() >= config_.min_edges && belief.link_count() > 0) {
         for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
             const traffic::BelievedVehicle& vehicle = belief.vehicles[row];
@@ -114,7 +114,7 @@ void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::L
     std::erase_if(set_speed_mps_, [&](const auto& entry) { return belief.find(entry.first) == nullptr; });
     for (const auto& [vehicle, speed_mps] : set_speed_mps_) {
         write.add(vehicle, traffic::DriveAt{core::MetresPerSecond(speed_mps)}, "score", {},
-                  set_speed_lease_s);
+                  core::Seconds(set_speed_lease_s));
     }
 }
 

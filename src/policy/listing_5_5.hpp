@@ -24,7 +24,7 @@ class Listing55 : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     Listing55Config config_;
     std::map<core::VehicleKey, double> set_speed_mps_;  ///< Never released: see `act`.
 };

@@ -24,7 +24,7 @@ class Part {
     virtual ~Part() = default;
 
     virtual std::string_view name() const = 0;
-    /// Called every `period` of the policy (0.5 s by default) with the belief of that moment. Appends to
+    /// Called every `PartContext::period` with the belief of that moment. Appends to
     /// `leases`.
     virtual void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) = 0;
 };
@@ -32,6 +32,7 @@ class Part {
 /// What a part needs beside the belief. The network outlives the part.
 struct PartContext {
     const roads::Network& network;
+    core::Seconds period{0.5};  ///< Between two calls of `act`.
 };
 
 /// A part as the registry knows it.

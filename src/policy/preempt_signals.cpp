@@ -12,11 +12,11 @@ constexpr char part_name[] = "preempt_signals";
 }  // namespace
 
 PreemptSignals::PreemptSignals(const PartContext& context, PreemptSignalsConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const detail::View view(network_, belief);
-    detail::LeaseWriter write(part_name, belief.time, leases);
+    const detail::View view(context_.network, belief);
+    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked;
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const double slowest_mps = config_.slowest_share * view.allowed_speed(emergency).value;
@@ -31,8 +31,10 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
             const std::pair request{emergency.key, approach.signal};
             if (arrival_s > lead_s && !asked_.contains(request)) continue;
             asked.insert(request);
-            write.add(approach.signal, traffic::HoldGreen{approach.links}, "an emergency vehicle arrives",
-                      emergency.key);
+            // Whoever is next waits for the end of this lease.
+            write.add(approach.signal, traffic::HoldGreen{approach.links, approach.own_links},
+                      "an emergency vehicle arrives", emergency.key,
+                      detail::LeaseWriter::two_periods(context_.period));
         }
     }
     asked_ = std::move(asked);

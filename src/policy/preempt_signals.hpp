@@ -30,7 +30,7 @@ class PreemptSignals : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     PreemptSignalsConfig config_;
     /// Whose signals were asked for at the last call: a request stands until its vehicle has passed, for the
     /// queue that begins to move is not gone yet.

@@ -66,11 +66,11 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 }  // namespace
 
 RecoverSignals::RecoverSignals(const PartContext& context, RecoverSignalsConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const detail::View view(network_, belief);
-    detail::LeaseWriter write(part_name, belief.time, leases);
+    const detail::View view(context_.network, belief);
+    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.near_m))) {
@@ -79,10 +79,11 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
-    const DemandByLane demand = demand_by_lane(network_, belief, config_.close_m);
+    const DemandByLane demand = demand_by_lane(context_.network, belief, config_.close_m);
     for (const auto& [signal, until] : until_s_) {
-        std::vector<std::uint16_t> links = most_wanted(
-            network_.signal(signal), belief.signals.state[signal.value], demand, config_.change_vehicles);
+        std::vector<std::uint16_t> links =
+            most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,
+                        config_.change_vehicles);
         if (!links.empty())
             write.add(signal, traffic::FavourLinks{std::move(links)}, "waited for an emergency vehicle", {});
     }

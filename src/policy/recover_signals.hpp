@@ -30,7 +30,7 @@ class RecoverSignals : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     RecoverSignalsConfig config_;
     std::map<core::SignalIndex, double> until_s_;
 };

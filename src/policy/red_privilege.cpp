@@ -14,11 +14,11 @@ constexpr char part_name[] = "red_privilege";
 }  // namespace
 
 RedPrivilege::RedPrivilege(const PartContext& context, RedPrivilegeConfig config)
-    : network_(context.network), config_(config) {}
+    : context_(context), config_(config) {}
 
 void RedPrivilege::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    const detail::View view(network_, belief);
-    detail::LeaseWriter write(part_name, belief.time, leases);
+    const detail::View view(context_.network, belief);
+    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
     const auto shows_red = [&](const detail::Approach& approach) {
         const std::string& shown = belief.signals.state[approach.signal.value];
         return std::ranges::any_of(approach.own_links, [&](std::uint16_t link) {

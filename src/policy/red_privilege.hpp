@@ -23,7 +23,7 @@ class RedPrivilege : public Part {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    const roads::Network& network_;
+    PartContext context_;
     RedPrivilegeConfig config_;
 };
 

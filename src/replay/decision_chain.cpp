@@ -22,7 +22,8 @@ DecisionChain::DecisionChain(const results::ConditionSpec& condition, const Chai
     predictor_ = prediction::make_predictor(condition.predictor,
                                             {.network = context.network, .rules = rules, .model_file = {}});
     for (const std::string& part : condition.parts) {
-        parts_.push_back(policy::make_part(part, {.network = context.network}));
+        parts_.push_back(
+            policy::make_part(part, {.network = context.network, .period = core::Seconds(period_s_)}));
     }
 }
 

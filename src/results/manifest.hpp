@@ -18,7 +18,7 @@ struct ScenarioEntry {
     std::string version;
     std::string title;
     std::string configuration;       ///< The effective configuration, TOML.
-    std::string configuration_hash;  ///< Of `configuration`.
+    std::string configuration_hash;  ///< Of `configuration` and the files of its own.
     std::string attribution;         ///< Whom the map data must name; may be empty.
 
     bool operator==(const ScenarioEntry&) const = default;

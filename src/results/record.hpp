@@ -30,7 +30,7 @@ std::string to_text(const RunKey& key);
 struct Provenance {
     std::string clearway_version;
     std::string sumo_version;
-    std::string configuration_hash;  ///< Of the scenario's effective configuration.
+    std::string configuration_hash;  ///< As in the manifest.
     std::string demand_hash;
     std::uint64_t study_seed = 0;
     std::uint64_t simulator_seed = 0;

@@ -21,7 +21,7 @@ using detail::NumberReader;
 using detail::NumberWriter;
 
 /// Of what is inside the blocks: raised when a struct, its coding or what is foreseen changes.
-constexpr int recording_format = 1;
+constexpr int recording_format = 2;
 /// A block is closed at the end of the step that makes it this long, bytes.
 constexpr std::size_t block_length = std::size_t{256} << 10U;
 
@@ -76,16 +76,23 @@ struct ActionFields {
             stream.number(action.lane_number);
         } else if constexpr (std::is_same_v<Plain, traffic::PullAside>) {
             stream.choice(action.side, traffic::Side::right, 2);
-        } else if constexpr (std::is_same_v<Plain, traffic::HoldGreen> ||
-                             std::is_same_v<Plain, traffic::FavourLinks>) {
-            std::uint16_t expected = 0;
-            detail::list(stream, action.links, [&](auto& link) {
-                stream.number(link, expected);
-                expected = link;
-            });
+        } else if constexpr (std::is_same_v<Plain, traffic::HoldGreen>) {
+            links(action.links);
+            links(action.own_links);
+        } else if constexpr (std::is_same_v<Plain, traffic::FavourLinks>) {
+            links(action.links);
         } else {
             static_assert(std::is_empty_v<Plain>, "a new action must be coded here");
         }
+    }
+
+    template <class Links>
+    void links(Links& numbers) const {
+        std::uint16_t expected = 0;
+        detail::list(stream, numbers, [&](auto& link) {
+            stream.number(link, expected);
+            expected = link;
+        });
     }
 };
 

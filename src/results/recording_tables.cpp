@@ -30,10 +30,10 @@ constexpr std::array tables = {
     TableEntry{RecordingTable::detections, "detections", "time_s,from,to,range_m,range_sigma_m"},
     TableEntry{RecordingTable::belief, "belief", "time_s,vehicle,class,age_s,sigma_m,{}"},
     TableEntry{RecordingTable::links, "links", "time_s,left,right,distance_m,probability"},
-    TableEntry{
-        RecordingTable::leases, "leases",
-        "time_s,vehicle,signal,action,speed_mps,lane_number,side,links,expiry_s,priority,policy,reason,"
-        "beneficiary"},
+    TableEntry{RecordingTable::leases, "leases",
+               "time_s,vehicle,signal,action,speed_mps,lane_number,side,links,own_links,expiry_s,priority,"
+               "policy,reason,"
+               "beneficiary"},
 };
 
 /// Writes the lines of one step.
@@ -148,26 +148,26 @@ class StepLines {
         }
     }
 
-    /// `speed_mps,lane_number,side,links`.
+    /// `speed_mps,lane_number,side,links,own_links`.
     struct ActionCells {
         std::string operator()(const traffic::DriveAt& action) const {
-            return fmt::format("{},,,", action.speed.value);
+            return fmt::format("{},,,,", action.speed.value);
         }
         std::string operator()(const traffic::ChangeLane& action) const {
-            return fmt::format(",{},,", action.lane_number);
+            return fmt::format(",{},,,", action.lane_number);
         }
         std::string operator()(const traffic::PullAside& action) const {
-            return action.side == traffic::Side::right ? ",,right," : ",,left,";
+            return action.side == traffic::Side::right ? ",,right,," : ",,left,,";
         }
         std::string operator()(const traffic::HoldGreen& action) const {
-            return fmt::format(",,,{}", fmt::join(action.links, " "));
+            return fmt::format(",,,{},{}", fmt::join(action.links, " "), fmt::join(action.own_links, " "));
         }
         std::string operator()(const traffic::FavourLinks& action) const {
-            return fmt::format(",,,{}", fmt::join(action.links, " "));
+            return fmt::format(",,,{},", fmt::join(action.links, " "));
         }
         template <class Plain>
         std::string operator()(const Plain&) const {
-            return ",,,";
+            return ",,,,";
         }
     };
     void lease(const traffic::Lease& lease) {

@@ -79,6 +79,10 @@ struct StopLine {
 std::vector<StopLine> signals_ahead(const Network& network, Route route, const traffic::MotionState& state,
                                     core::Metres horizon);
 
+/// A lane that is not among the best for a route is worth taking when it can be followed for longer than this
+/// (measured on the prototype: less strands vehicles before turns).
+inline constexpr core::Metres worth_following{300.0};
+
 /// How far `route` can be followed from the start of lane `lane` (on route[route_edge]) without a lane
 /// change, counted from `lane_position`; the end of the route ends the count, capped at `horizon`.
 core::Metres drivable(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,

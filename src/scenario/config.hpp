@@ -434,6 +434,9 @@ std::string to_toml(const ScenarioConfig& config);
 /// Content hash of `to_toml` (32 hex digits): two configurations with one hash mean the same.
 std::string configuration_hash(const ScenarioConfig& config);
 
+/// Content hash of `to_toml` and of the files that it names relative to its folder, as far as they exist.
+std::string scenario_hash(const ScenarioConfig& config);
+
 /// Writes the effective `scenario.toml` and copies the files that it names relative to its folder, so that
 /// `folder` is a scenario of its own.
 void store(const ScenarioConfig& config, const std::filesystem::path& folder);

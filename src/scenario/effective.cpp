@@ -145,6 +145,15 @@ std::string configuration_hash(const ScenarioConfig& config) {
     return core::content_hash(to_toml(config));
 }
 
+std::string scenario_hash(const ScenarioConfig& config) {
+    std::string bytes = to_toml(config);
+    for (const std::string& file : own_files(config)) {
+        const std::filesystem::path path = resolve(config, file);
+        if (std::filesystem::exists(path)) bytes += core::content_hash(core::read_file(path)) + "\n";
+    }
+    return core::content_hash(bytes);
+}
+
 void store(const ScenarioConfig& config, const std::filesystem::path& folder) {
     core::make_folder(folder);
     copy_files(config, folder);

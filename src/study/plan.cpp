@@ -81,7 +81,7 @@ results::Manifest make_manifest(const StudyConfig& config, const Versions& versi
     manifest.replications = config.replications;
     for (const scenario::ScenarioConfig& scenario : config.scenarios) {
         manifest.scenarios.push_back({scenario.name, scenario.version, scenario.title,
-                                      scenario::to_toml(scenario), scenario::configuration_hash(scenario),
+                                      scenario::to_toml(scenario), scenario::scenario_hash(scenario),
                                       scenario.network.attribution});
     }
     manifest.conditions = config.conditions;

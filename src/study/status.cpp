@@ -14,7 +14,7 @@ std::vector<CellStatus> cells_of(const results::Manifest& manifest, const Shard&
     std::vector<CellStatus> cells;
     for (const results::ScenarioEntry& scenario : manifest.scenarios) {
         for (const results::ConditionSpec& condition : manifest.conditions)
-            cells.push_back({scenario.name, condition.name, 0, 0, 0});
+            cells.push_back({scenario.name, condition.name, condition.safety_checks, 0, 0, 0});
     }
     const std::vector<UnitPlace> units = units_of(manifest);
     for (std::size_t unit = 0; unit < units.size(); ++unit) {

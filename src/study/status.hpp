@@ -24,6 +24,7 @@ std::string_view name(State state);
 struct CellStatus {
     std::string scenario;
     std::string condition;
+    traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     std::size_t runs = 0;
     std::size_t complete = 0;
     std::size_t failed = 0;

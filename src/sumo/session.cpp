@@ -27,7 +27,6 @@ namespace {
 
 namespace gateway = detail::gateway;
 using detail::Commander;
-using detail::LateralModel;
 using detail::MessageCapture;
 using detail::MessageLog;
 using detail::NameTable;
@@ -156,7 +155,7 @@ void Session::State::begin() {
     }
     const bool has_sublanes = std::stod(sumo->option("lateral-resolution")) > 0.0;
     commander.emplace(*sumo, observer.fleet(), names,
-                      has_sublanes ? LateralModel::sublanes : LateralModel::lanes);
+                      has_sublanes ? traffic::LateralModel::sublane : traffic::LateralModel::lane);
     observer.observe_signals(snapshot);
 }
 

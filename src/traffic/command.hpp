@@ -49,6 +49,9 @@ struct SetLaneChangeFreedom {
     core::VehicleKey vehicle;
     LaneChangeFreedom freedom = LaneChangeFreedom::normal;
 };
+/// Whether vehicles have a place within their lane (SUMO's sublane model); without it lateral alignment has
+/// no effect.
+enum class LateralModel : std::uint8_t { lane, sublane };
 /// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows
 /// what it does.
 enum class SafetyChecks : std::uint8_t { on, off };

@@ -32,6 +32,9 @@ struct StopAtLine {};
 /// Show green for these links of a signal and red for those that conflict, with yellow and all-red between.
 struct HoldGreen {
     std::vector<std::uint16_t> links;  ///< Link numbers of the signal, ascending.
+    /// Those of them that the beneficiary itself may take, ascending; empty: all. Beside the hold of another
+    /// the rest may yield.
+    std::vector<std::uint16_t> own_links = {};
 };
 /// Lengthen or shorten what a signal's own program shows, to give time back to the approaches that waited.
 struct FavourLinks {

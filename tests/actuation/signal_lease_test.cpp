@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -186,6 +187,45 @@ TEST(SignalHold, of_higher_priority_wins_over_an_earlier_one) {
     bench.offer(signal_a, traffic::HoldGreen{north}, 20.0, 5, "part", core::VehicleKey{2});
     bench.run_until(10.0);
     EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr");
+}
+
+const traffic::HoldGreen from_north{north, {1, 2}};
+const traffic::HoldGreen from_south{{8, 9, 10, 11}, {9, 10}};
+
+TEST(SignalHold, for_two_that_only_pass_each_other_shows_the_phase_that_serves_both) {
+    ActuationBench bench;
+    bench.offer(signal_a, from_north, 20.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.run_until(10.0);
+    EXPECT_EQ(bench.shown[0], "GGGgrrrrGGGgrrrr") << "left turns from both sides yield";
+    EXPECT_EQ(bench.counts("part/hold_green").refused.size(), 0U);
+}
+
+TEST(SignalHold, for_two_whose_own_ways_cross_serves_one_though_a_phase_has_both) {
+    ActuationBench bench;
+    const traffic::HoldGreen left_from_north{north, {3}};
+    bench.offer(signal_a, left_from_north, 20.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.run_until(10.0);
+    EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr");
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+}
+
+TEST(SignalHold, that_is_served_beside_the_first_goes_on_before_one_that_waited_longer) {
+    ActuationBench bench;
+    const auto history = watch(bench, 40.0, [&](ActuationBench& b) {
+        const double now_s = b.now.value;
+        if (now_s < 8.0) b.offer(signal_a, from_north, 1.0, 0, "part", core::VehicleKey{1});
+        if (now_s >= 2.0 && now_s < 26.0)
+            b.offer(signal_a, traffic::HoldGreen{west}, 1.0, 0, "part", core::VehicleKey{3});
+        if (now_s >= 4.0 && now_s < 14.0) b.offer(signal_a, from_south, 1.0, 0, "part", core::VehicleKey{2});
+        if (now_s >= 9.0 && now_s < 14.0) {
+            EXPECT_EQ(b.shown[0].substr(9, 2), "GG") << now_s;
+        }
+    });
+    EXPECT_TRUE(std::ranges::any_of(history, [](const Shown& shown) {
+        return shown.from_s < 26.0 && shown.state.substr(12) == "GGGG";
+    })) << "then the third has its turn";
 }
 
 TEST(SignalHold, serves_requests_together_that_do_not_conflict) {

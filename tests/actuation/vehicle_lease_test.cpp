@@ -270,7 +270,7 @@ TEST(PullAsideLease, needs_the_sublane_model) {
     EXPECT_EQ(without.counts("part/pull_aside").refused.at("needs_sublane_model"), 1U);
 
     actuation::Actuator::Config config;
-    config.lateral_model = actuation::LateralModel::sublane;
+    config.lateral_model = traffic::LateralModel::sublane;
     ActuationBench with(0.25, config);
     with.add(automated("a"));
     with.offer(vehicle, traffic::PullAside{traffic::Side::left}, 1.0);

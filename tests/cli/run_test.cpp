@@ -201,11 +201,13 @@ TEST_F(RunTest, terminated_it_exits_with_143_and_continues_to_the_same_result) {
 TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     write("my.toml",
           "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
-          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\nparts = [\"dissertation\"]\n");
+          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\nparts = [\"dissertation\"]\n"
+          "safety_checks = \"off\"\n");
     const Ended plan = clearway({"study", "my.toml", "--dry-run", "--json"});
     ASSERT_EQ(plan.code, 0) << plan.err;
     const auto json = nlohmann::json::parse(plan.out);
     EXPECT_EQ(json.at("runs"), 4);
+    EXPECT_EQ(json.at("cells").at(1).at("safety_checks"), "off");
     EXPECT_GT(json.at("estimated_time_left_s"), 0.0);
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
 
@@ -213,6 +215,8 @@ TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,b20,1,ok"));
     EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("4 complete in runs/mine"));
+    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("safety checks off (!)"));
+    EXPECT_THAT(clearway({"status", "runs/mine"}).out, HasSubstr("b20 (!)"));
 }
 
 TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {

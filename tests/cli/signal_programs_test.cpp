@@ -95,6 +95,25 @@ TEST_F(SignalProgramsTest, switched_on_under_way_end_no_run) {
     EXPECT_EQ(ended.code, 0) << ended.err;
 }
 
+TEST_F(SignalProgramsTest, that_have_changed_make_it_another_run) {
+    const auto write_programs = [&](int green_s) {
+        write("crossings/tls.add.xml",
+              fmt::format(R"(<additional><tlLogic id="A" type="static" programID="measured">
+    <phase duration="{}" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
+    <phase duration="20" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
+</tlLogic></additional>)",
+                          green_s));
+    };
+    write_programs(20);
+    write_scenario("tls.add.xml");
+    ASSERT_EQ(run("out").code, 0);
+    EXPECT_EQ(run("out").code, 0);
+    write_programs(25);
+    const Ended changed = run("out");
+    EXPECT_EQ(changed.code, 3);
+    EXPECT_THAT(changed.err, HasSubstr("out"));
+}
+
 TEST_F(SignalProgramsTest, of_another_network_are_refused_before_anything_runs) {
     write("crossings/tls.add.xml", R"(<additional>
     <tlLogic id="A" programID="measured"><phase duration="20" state="GGG"/></tlLogic>

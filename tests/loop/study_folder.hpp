@@ -30,7 +30,7 @@ class StudyFolder {
                                       .version = config_.version,
                                       .title = config_.title,
                                       .configuration = scenario::to_toml(config_),
-                                      .configuration_hash = scenario::configuration_hash(config_),
+                                      .configuration_hash = scenario::scenario_hash(config_),
                                       .attribution = {}});
         const results::Store store = results::Store::create(folder_, manifest);
         const std::filesystem::path home = store.scenario_folder(config_.name);

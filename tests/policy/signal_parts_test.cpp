@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "policy/green_wave.hpp"
@@ -75,6 +77,34 @@ TEST(PreemptSignals, asks_for_the_whole_approach_and_nothing_else) {
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).links,
               (std::vector<std::uint16_t>{12, 13, 14, 15}));
+}
+
+TEST(PreemptSignals, tells_which_of_the_links_its_vehicle_takes) {
+    policy::PreemptSignals part({two_crossings()});
+    CrossingScene scene = emergency_at(50.0, 10.0, {"west_A", "A_north_a"});
+    const auto leases = act(part, scene);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).own_links, (std::vector<std::uint16_t>{15}));
+}
+
+TEST(PreemptSignals, asks_for_as_long_as_two_decisions_take) {
+    for (const double period_s : {0.5, 3.0}) {
+        policy::PreemptSignals part({two_crossings(), core::Seconds(period_s)});
+        CrossingScene scene = emergency_at(50.0);
+        const auto leases = act(part, scene);
+        ASSERT_EQ(leases.size(), 1U);
+        EXPECT_DOUBLE_EQ(leases[0].expiry.value - 100.0, 2.0 * period_s);
+    }
+}
+
+TEST(RedPrivilege, asks_again_before_its_lease_ends_however_seldom_it_decides) {
+    for (const double period_s : {0.5, 3.0}) {
+        policy::RedPrivilege part({two_crossings(), core::Seconds(period_s)});
+        CrossingScene scene = emergency_at(50.0);
+        const auto leases = act(part, scene);
+        ASSERT_FALSE(leases.empty());
+        EXPECT_DOUBLE_EQ(leases[0].expiry.value - 100.0, std::max(2.0, 2.0 * period_s));
+    }
 }
 
 TEST(PreemptSignals, serves_a_left_turn_with_its_approach) {

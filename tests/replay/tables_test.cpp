@@ -40,7 +40,7 @@ class OneStep : public testing::Test {
         belief_.links = {{1, 2.0F, 0.75F}, {0, 2.0F, 0.75F}};
         leases_ = {
             {car, traffic::ChangeLane{1}, core::Seconds(14.0), 2, "clear_lane", "in the way", ambulance},
-            {core::SignalIndex{0}, traffic::HoldGreen{{2, 3}}, core::Seconds(20.0), 0, "preempt", "near",
+            {core::SignalIndex{0}, traffic::HoldGreen{{2, 3}, {3}}, core::Seconds(20.0), 0, "preempt", "near",
              ambulance}};
         step_ = {&snapshot_, &roster_, &events_, &observation_, &belief_, leases_};
     }
@@ -71,8 +71,8 @@ TEST_F(OneStep, IsWrittenWithNamesAndUnits) {
               "12.5,\"ambulance,1\",emergency,0,0.5,0,0,0,0,,0,0\n12.5,car,human,4,3,0,0,0,0,,0,0\n");
     EXPECT_EQ(lines(RecordingTable::links), "12.5,\"ambulance,1\",car,2,0.75\n");
     EXPECT_EQ(lines(RecordingTable::leases),
-              "12.5,car,,change_lane,,1,,,14,2,clear_lane,in the way,\"ambulance,1\"\n"
-              "12.5,,crossing,hold_green,,,,2 3,20,0,preempt,near,\"ambulance,1\"\n");
+              "12.5,car,,change_lane,,1,,,,14,2,clear_lane,in the way,\"ambulance,1\"\n"
+              "12.5,,crossing,hold_green,,,,2 3,3,20,0,preempt,near,\"ambulance,1\"\n");
 }
 
 TEST(RecordingTables, HaveAsManyCellsAsTheirHeaderInEveryLine) {

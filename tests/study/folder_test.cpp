@@ -32,7 +32,7 @@ TEST_F(RunFolder, HoldsScenarioAndNetworkAsUnitsNameThem) {
     const results::Store store = prepare_folder(plan(), out_);
     const results::UnitSpec unit = plan().units.front().unit;
     const scenario::ScenarioConfig stored = scenario::load(unit.scenario_file.string());
-    EXPECT_EQ(scenario::configuration_hash(stored), store.manifest().scenarios.front().configuration_hash);
+    EXPECT_EQ(scenario::scenario_hash(stored), store.manifest().scenarios.front().configuration_hash);
     EXPECT_TRUE(std::filesystem::exists(scenario::open_network(stored, unit.network_folder).file));
 }
 

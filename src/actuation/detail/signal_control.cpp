@@ -1,6 +1,8 @@
 #include "actuation/detail/signal_control.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "traffic/signal.hpp"
 
@@ -9,6 +11,14 @@ namespace {
 
 /// No cycle counts as longer than this, s: a program that never changes has none.
 constexpr double longest_cycle_s = 180.0;
+
+/// Ascending, without repetition, whatever the order of what a part asked for.
+Links united(Links links, const Links& others) {
+    links.insert(links.end(), others.begin(), others.end());
+    std::ranges::sort(links);
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+    return links;
+}
 
 }  // namespace
 
@@ -38,19 +48,30 @@ bool SignalControl::is_idle(core::Seconds now) const {
     return active() == 0 && stage_ == Stage::own_program && now >= cool_until_ && own_.is_in_step(now);
 }
 
-/// Links of the best lease and of all others that go with it.
+/// Links of the best lease and of all others that go with it. Who is served already comes before who waits:
+/// a change costs both of them time.
 Links SignalControl::requested(Ledger& ledger) {
+    std::vector<HeldLease*> order;
+    for (HeldLease& held : holds_.all())
+        order.push_back(&held);
+    std::ranges::stable_sort(order, std::greater{}, [](const HeldLease* held) {
+        return std::pair(held->lease.priority, held->served);
+    });
     Links links;
-    for (HeldLease& held : holds_.all()) {
-        const Links& asked = std::get<traffic::HoldGreen>(held.lease.action).links;
-        if (!links.empty() && conflict(signal_, asked, links)) {
-            LeaseQueue::refuse(held, "outranked", ledger);
+    Links own;
+    for (HeldLease* const held : order) {
+        const auto& asked = std::get<traffic::HoldGreen>(held->lease.action);
+        const Links& asked_own = asked.own_links.empty() ? asked.links : asked.own_links;
+        const Links both = united(links, asked.links);
+        held->served = links.empty() || !conflict(signal_, asked.links, links) ||
+                       (!conflict(signal_, asked_own, own) && a_phase_serves_all(signal_, both));
+        if (!held->served) {
+            LeaseQueue::refuse(*held, "outranked", ledger);
             continue;
         }
-        links.insert(links.end(), asked.begin(), asked.end());
+        links = both;
+        own = united(own, asked_own);
     }
-    std::ranges::sort(links);
-    links.erase(std::unique(links.begin(), links.end()), links.end());
     return links;
 }
 
@@ -60,6 +81,7 @@ Links SignalControl::allowed_now(core::Seconds now, const SignalTiming& timing, 
     const bool cooling = in_program && now.value < cool_until_.value - time_tolerance_s;
     if (!capped_ && !cooling) return requested(ledger);
     for (HeldLease& held : holds_.all()) {
+        held.served = false;
         LeaseQueue::refuse(held, capped_ ? "hold_cap" : "cool_down", ledger);
     }
     return {};

@@ -143,4 +143,9 @@ std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links
     return best;
 }
 
+bool a_phase_serves_all(const roads::Signal& signal, const Links& links) {
+    const auto best = best_phase(signal, links);
+    return best && serves_all(signal.program[*best].state, links);
+}
+
 }  // namespace clearway::actuation::detail

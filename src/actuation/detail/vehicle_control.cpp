@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roads/route.hpp"
+
 namespace clearway::actuation::detail {
 namespace {
 
@@ -10,8 +12,6 @@ namespace {
 constexpr double speed_tolerance_mps = 0.01;
 /// Speeds nearer to each other than this are not sent again, m/s.
 constexpr double speed_resolution_mps = 1e-3;
-/// A lane other than a best one must be drivable for longer than this (300 m: measured on the prototype).
-constexpr float least_drivable_m = 300.0F;
 /// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
 constexpr double stop_line_gap_m = 1.0;
 /// Longest single lane request: a request that outlives its lease by a fault binds the vehicle no longer
@@ -23,7 +23,7 @@ constexpr double prolong_lane_request_s = 1.5;
 constexpr double longest_absence_s = 600.0;
 
 bool is_best_or_long(const truth::LaneOutlook& outlook) {
-    return outlook.best_offset == 0 || outlook.drivable_m > least_drivable_m;
+    return outlook.best_offset == 0 || outlook.drivable_m > roads::worth_following.value;
 }
 
 /// Greatest speed of the next step after which the vehicle can still stop within `distance` with
@@ -169,7 +169,7 @@ void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Plac
     if (std::holds_alternative<traffic::HoldLane>(held->lease.action)) {
         settings.freedom = traffic::LaneChangeFreedom::strategic_only;
     } else if (const auto* aside = std::get_if<traffic::PullAside>(&held->lease.action)) {
-        if (around.lateral_model == LateralModel::lane) {
+        if (around.lateral_model == traffic::LateralModel::lane) {
             LeaseQueue::refuse(*held, "needs_sublane_model", ledger);
             return;
         }

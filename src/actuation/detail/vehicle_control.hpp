@@ -21,7 +21,7 @@ struct VehicleSurroundings {
     const traffic::Roster& roster;
     const truth::SelfKnowledge& self;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    LateralModel lateral_model = LateralModel::lane;
+    traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     core::Seconds step;  ///< Time since the last step; 0 at the first.
 };
 

@@ -39,7 +39,10 @@ struct TraceHash::State {
     void operator()(const traffic::HoldLane&) {}
     void operator()(const traffic::PullAside& action) { value(action.side); }
     void operator()(const traffic::StopAtLine&) {}
-    void operator()(const traffic::HoldGreen& action) { array(action.links); }
+    void operator()(const traffic::HoldGreen& action) {
+        array(action.links);
+        array(action.own_links);
+    }
     void operator()(const traffic::FavourLinks& action) { array(action.links); }
     void operator()(const traffic::PassRed&) {}
     void operator()(core::VehicleKey vehicle) { value(vehicle.value); }

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace clearway::policy::detail {
-namespace {
-
-/// A lane that carries a vehicle this far is worth changing to (300 m: measured on the prototype).
-constexpr double far_enough_m = 300.0;
-
-}  // namespace
 
 roads::Route View::route_of(core::VehicleKey vehicle) const {
     const traffic::VehicleInfo* info = belief_.roster->find(vehicle);
@@ -84,7 +78,7 @@ bool View::may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t n
     const core::Metres position(vehicle.state.lane_position_m);
     const core::Metres carried =
         roads::drivable(network_, route, vehicle.state.route_edge, lane, position, core::Metres(1000.0));
-    return carried.value > far_enough_m || carried.value >= to_end.value - 1.0;
+    return carried > roads::worth_following || carried.value >= to_end.value - 1.0;
 }
 
 std::vector<std::uint32_t> View::usable_neighbours(const traffic::BelievedVehicle& vehicle) const {

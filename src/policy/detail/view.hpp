@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,7 +19,8 @@ namespace clearway::policy::detail {
 inline constexpr float link_exists = 0.5F;
 /// Below this speed a vehicle counts as standing in a queue, m/s (walking pace is 1.4).
 inline constexpr float halted_mps = 0.5F;
-/// How long a lease of these parts lives unless renewed, s: as the prototype.
+/// How long a lease of these parts lives unless renewed, s, or two periods where those are longer: as the
+/// prototype.
 inline constexpr double usual_lease_s = 2.0;
 
 /// A vehicle believed ahead of another on its route.
@@ -71,19 +73,27 @@ class View {
 /// Writes the leases of one part.
 class LeaseWriter {
   public:
-    /// `policy` has static storage.
-    LeaseWriter(const char* policy, core::Seconds now, std::vector<traffic::Lease>& leases)
-        : policy_(policy), now_(now), leases_(leases) {}
+    /// `policy` has static storage; `period` is the time between two decisions.
+    LeaseWriter(const char* policy, core::Seconds period, core::Seconds now,
+                std::vector<traffic::Lease>& leases)
+        : policy_(policy),
+          usual_(std::max(usual_lease_s, two_periods(period).value)),
+          now_(now),
+          leases_(leases) {}
+
+    /// Long enough for a lease that every decision renews, and no longer.
+    static core::Seconds two_periods(core::Seconds period) { return core::Seconds(2.0 * period.value); }
 
     /// `reason` has static storage; `beneficiary` is the emergency vehicle served.
     void add(traffic::Target target, traffic::Action action, const char* reason, core::VehicleKey beneficiary,
-             double duration_s = usual_lease_s) {
+             std::optional<core::Seconds> lasting = std::nullopt) {
         leases_.push_back(
-            {target, std::move(action), now_ + core::Seconds(duration_s), 0, policy_, reason, beneficiary});
+            {target, std::move(action), now_ + lasting.value_or(usual_), 0, policy_, reason, beneficiary});
     }
 
   private:
     const char* policy_;
+    core::Seconds usual_;
     core::Seconds now_;
     std::vector<traffic::Lease>& leases_;
 };

@@ -90,7 +90,7 @@ void Commander::run(const traffic::ReleaseLane& command) {
 }
 
 void Commander::run(const traffic::SetLateralAlignment& command) {
-    require(lateral_ == LateralModel::sublanes,
+    require(lateral_ == traffic::LateralModel::sublane,
             "lateral alignment has no effect without the sublane model (--lateral-resolution)");
     Vehicle* vehicle = present(command.vehicle);
     if (vehicle == nullptr) return;

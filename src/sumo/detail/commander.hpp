@@ -11,9 +11,6 @@
 
 namespace clearway::sumo::detail {
 
-/// Whether SUMO runs its sublane model; without it lateral alignment has no effect.
-enum class LateralModel : std::uint8_t { lanes, sublanes };
-
 /// Carries out commands and checks what SUMO would swallow.
 ///
 /// Modes are those of SUMO: speedMode 31 and laneChangeMode 1621 are its defaults, with every safety check.
@@ -30,7 +27,7 @@ enum class LateralModel : std::uint8_t { lanes, sublanes };
 class Commander {
   public:
     /// `sumo`, `fleet` and `names` outlive the commander.
-    Commander(gateway::Sumo& sumo, Fleet& fleet, const NameTable& names, LateralModel lateral)
+    Commander(gateway::Sumo& sumo, Fleet& fleet, const NameTable& names, traffic::LateralModel lateral)
         : sumo_(sumo), fleet_(fleet), names_(names), lateral_(lateral), step_s_(sumo.step_length_s()) {}
 
     /// Throws std::invalid_argument as Session::apply says.
@@ -62,7 +59,7 @@ class Commander {
     gateway::Sumo& sumo_;
     Fleet& fleet_;
     const NameTable& names_;
-    LateralModel lateral_;
+    traffic::LateralModel lateral_;
     double step_s_;
     std::unordered_map<std::string, std::string> own_programs_;  ///< Of signals that show a set state.
     std::uint64_t skipped_ = 0;
