@@ -40,8 +40,12 @@ const char* check_signal_action(const roads::Network& network, core::SignalIndex
     if (links == nullptr) return "wrong_target";
     if (links->empty()) return "no_links";
     const std::size_t count = network.signal(signal).links.size();
-    const bool legal = std::ranges::all_of(*links, [&](std::uint16_t link) { return link < count; });
-    return legal ? nullptr : "no_such_link";
+    if (!std::ranges::all_of(*links, [&](std::uint16_t link) { return link < count; })) return "no_such_link";
+    const auto* const hold = std::get_if<traffic::HoldGreen>(&action);
+    const bool holds_own = hold == nullptr || std::ranges::all_of(hold->own_links, [&](std::uint16_t link) {
+                               return std::ranges::find(*links, link) != links->end();
+                           });
+    return holds_own ? nullptr : "own_link_not_held";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct Place {
 };
 
 Place place_of(const LinkPlan& plan, const scenario::ScenarioConfig& config) {
-    const std::string hash = scenario::configuration_hash(config);
+    const std::string hash = scenario::scenario_hash(config);
     return {plan.folder / "scenarios" / fmt::format("{}-{}", config.name, hash.substr(0, 8)), hash};
 }
 
@@ -65,7 +65,7 @@ class RunFiles {
 
   private:
     std::string key(const scenario::ScenarioConfig& config, const LinkPredictor& predictor) const {
-        std::string content = fmt::format("{} {} {} ", program_hash_, scenario::configuration_hash(config),
+        std::string content = fmt::format("{} {} {} ", program_hash_, scenario::scenario_hash(config),
                                           plan_.benchmark.study_seed);
         for (const std::string& failure : plan_.benchmark.failures)
             content += failure + " ";

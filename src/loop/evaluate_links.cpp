@@ -97,7 +97,7 @@ core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
     plain_traffic.name = "links";
     run.record(plain_traffic, evaluator);
     check_scored(order, evaluator);
-    write_results(order, run.configuration_hash(), evaluator);
+    write_results(order, run.scenario_hash(), evaluator);
     return core::ExitCode::ok;
 }
 

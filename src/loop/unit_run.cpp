@@ -69,6 +69,7 @@ UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& dem
                  const std::filesystem::path& folder, const StartSession& start)
     : unit_(unit),
       config_(scenario::load(unit.scenario_file.string())),
+      scenario_hash_(scenario::scenario_hash(config_)),
       network_(scenario::open_network(config_, unit.network_folder)),
       prepared_(scenario::prepare(config_, network_, core::StudySeed{unit.study_seed},
                                   core::Replication{unit.replication}, demand_folder)),
@@ -222,7 +223,7 @@ results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& con
 results::Provenance UnitRun::provenance(const std::string& trace_hash) const {
     return {.clearway_version = CLEARWAY_VERSION,
             .sumo_version = sumo::version(),
-            .configuration_hash = scenario::scenario_hash(config_),
+            .configuration_hash = scenario_hash_,
             .demand_hash = prepared_.demand_hash,
             .study_seed = unit_.study_seed,
             .simulator_seed = prepared_.simulator_seed,

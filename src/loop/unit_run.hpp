@@ -45,7 +45,7 @@ class UnitRun {
     sumo::Session& session() { return *session_; }
     /// When the first emergency vehicle departs; the end of the warm-up without any.
     core::Seconds first_emergency() const;
-    std::string configuration_hash() const { return scenario::configuration_hash(config_); }
+    const std::string& scenario_hash() const { return scenario_hash_; }
 
   private:
     void warm_up();
@@ -62,6 +62,7 @@ class UnitRun {
 
     results::UnitSpec unit_;
     scenario::ScenarioConfig config_;
+    std::string scenario_hash_;
     scenario::BuiltNetwork network_;
     scenario::Prepared prepared_;
     std::unique_ptr<sumo::Session> session_;

@@ -129,6 +129,8 @@ void compare_action(Comparison& comparison, const std::string& name, const traff
             if constexpr (requires { left.side; }) comparison.check(name + ".side", left.side, right.side);
             if constexpr (requires { left.links; })
                 comparison.values(name + ".links", left.links, right.links);
+            if constexpr (requires { left.own_links; })
+                comparison.values(name + ".own_links", left.own_links, right.own_links);
         },
         one);
 }

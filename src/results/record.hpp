@@ -45,7 +45,7 @@ struct Provenance {
             Field{"clearway_version", "", &P::clearway_version, 0, 0, "Version of Clearway", ""},
             Field{"sumo_version", "", &P::sumo_version, 0, 0, "Version of SUMO", ""},
             Field{"configuration_hash", "", &P::configuration_hash, 0, 0,
-                  "Hash of the scenario's effective configuration", ""},
+                  "Hash of the scenario's effective configuration and own files", ""},
             Field{"demand_hash", "", &P::demand_hash, 0, 0, "Hash of vehicle types, routes and departures",
                   ""},
             Field{"study_seed", "1", &P::study_seed, 0, 1.9e19, "Seed of the study", ""},

@@ -127,7 +127,7 @@ std::string to_toml(const ScenarioConfig& config) {
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
     // A siren that nobody heeds is none, and so are a dry road and crossings that nobody uses: so
-    // configurations from before them keep their hash.
+    // configurations from before them keep their `configuration_hash`.
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
     if (!config.road.is_dry()) text += road_text(config.road);
     if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);

@@ -55,7 +55,8 @@ struct Lease {
     Target target;
     Action action;
     core::Seconds expiry;  ///< Simulation time; later than now.
-    /// Of two leases for one target that cannot both be carried out the higher wins; then the earlier.
+    /// Of two leases for one target that cannot both be carried out the higher wins; then, of holds, the one
+    /// that is carried out; then the earlier.
     int priority = 0;
     const char* policy = "";       ///< Name of the part that issued it (static storage).
     const char* reason = "";       ///< Why, in a few words (static storage).

@@ -194,11 +194,35 @@ const traffic::HoldGreen from_south{{8, 9, 10, 11}, {9, 10}};
 
 TEST(SignalHold, for_two_that_only_pass_each_other_shows_the_phase_that_serves_both) {
     ActuationBench bench;
-    bench.offer(signal_a, from_north, 20.0, 0, "part", core::VehicleKey{1});
-    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, from_north, 30.0, 0, "part", core::VehicleKey{1});
     bench.run_until(10.0);
+    EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr") << "alone its approach yields to nobody";
+    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.run_until(20.0);
     EXPECT_EQ(bench.shown[0], "GGGgrrrrGGGgrrrr") << "left turns from both sides yield";
     EXPECT_EQ(bench.counts("part/hold_green").refused.size(), 0U);
+}
+
+TEST(SignalHold, for_one_that_turns_left_stays_protected_when_another_comes_from_the_other_side) {
+    for (const std::uint16_t own : {std::uint16_t{8}, std::uint16_t{11}}) {
+        ActuationBench bench;
+        bench.offer(signal_a, traffic::HoldGreen{north, {3}}, 20.0, 0, "part", core::VehicleKey{1});
+        bench.offer(signal_a, traffic::HoldGreen{{8, 9, 10, 11}, {own}}, 20.0, 0, "part",
+                    core::VehicleKey{2});
+        bench.run_until(10.0);
+        EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr") << own;
+        EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U) << own;
+    }
+}
+
+TEST(SignalHold, of_one_that_is_stuck_ends_at_its_cap_though_others_join_and_leave) {
+    ActuationBench bench;
+    watch(bench, 75.0, [&](ActuationBench& b) {
+        const double now_s = b.now.value;
+        b.offer(signal_a, from_north, 2.0, 0, "part", core::VehicleKey{1});
+        if (now_s > 30.0 && now_s < 40.0) b.offer(signal_a, from_south, 2.0, 0, "part", core::VehicleKey{2});
+    });
+    EXPECT_EQ(bench.counts("part/hold_green").refused.count("hold_cap"), 1U);
 }
 
 TEST(SignalHold, for_two_whose_own_ways_cross_serves_one_though_a_phase_has_both) {
@@ -245,7 +269,11 @@ TEST(SignalHold, for_links_that_do_not_exist_is_refused) {
     bench.offer(core::SignalIndex{99}, traffic::HoldGreen{{0}});
     bench.offer(core::SignalIndex::none(), traffic::HoldGreen{{0}});
     EXPECT_TRUE(bench.step().empty());
+    bench.offer(signal_a, traffic::HoldGreen{{0}, {99}}, 2.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{{0}, {1}}, 2.0, 0, "part", core::VehicleKey{2});
+    EXPECT_TRUE(bench.step().empty());
     const auto& refused = bench.counts("part/hold_green").refused;
+    EXPECT_EQ(refused.at("own_link_not_held"), 2U);
     EXPECT_EQ(refused.at("no_such_link"), 1U);
     EXPECT_EQ(refused.at("no_links"), 1U);
     EXPECT_EQ(refused.at("no_such_signal"), 2U);

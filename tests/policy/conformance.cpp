@@ -1,5 +1,6 @@
 #include "policy/conformance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -21,8 +22,11 @@ std::string describe(const traffic::Lease& lease) {
     if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) text << ' ' << drive->speed.value;
     if (const auto* lane = std::get_if<traffic::ChangeLane>(&lease.action)) text << ' ' << lane->lane_number;
     if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
-        for (const std::uint16_t link : hold->links)
-            text << ' ' << link;
+        for (const auto* links : {&hold->links, &hold->own_links}) {
+            text << " |";
+            for (const std::uint16_t link : *links)
+                text << ' ' << link;
+        }
     }
     if (const auto* favour = std::get_if<traffic::FavourLinks>(&lease.action)) {
         for (const std::uint16_t link : favour->links)
@@ -101,9 +105,10 @@ void PartRun::expect_legal(const traffic::Lease& lease) {
     EXPECT_STRNE(lease.policy, "");
     if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) {
         ASSERT_LT(signal->value, two_crossings().signals().size());
-        if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action))
+        if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
             expect_legal_links(*signal, hold->links);
-        else
+            EXPECT_TRUE(std::ranges::includes(hold->links, hold->own_links));
+        } else
             expect_legal_links(*signal, std::get<traffic::FavourLinks>(lease.action).links);
         return;
     }

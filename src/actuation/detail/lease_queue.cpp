@@ -5,6 +5,16 @@
 
 namespace clearway::actuation::detail {
 
+namespace {
+
+bool same_links(const traffic::Action& one, const traffic::Action& other) {
+    const auto* const left = std::get_if<traffic::HoldGreen>(&one);
+    const auto* const right = std::get_if<traffic::HoldGreen>(&other);
+    return left != nullptr && right != nullptr && left->links == right->links;
+}
+
+}  // namespace
+
 LeaseCounts& Ledger::of(const traffic::Lease& lease) {
     std::string key(lease.policy);
     key += '/';
@@ -23,6 +33,7 @@ void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
         ++(same_kind ? counts.renewed : counts.issued);
         if (!same_kind) same->counted_refusals.clear();
         same->edge = core::EdgeIndex::none();
+        same->served = same->served && same_links(same->lease.action, lease.action);
         same->lease = lease;
     } else {
         ++counts.issued;

@@ -31,7 +31,7 @@ struct HeldLease {
     core::EdgeIndex edge;
     core::EdgeIndex granted_on;                 ///< A stop that was found feasible stays so on that edge.
     std::vector<const char*> counted_refusals;  ///< Each reason is counted once a lease.
-    bool served = false;                        ///< A hold that is being carried out.
+    bool served = false;                        ///< A hold that is being carried out, or on the way there.
 };
 
 /// Leases in force for one target, of which only one kind of thing can be done at a time, best first: by

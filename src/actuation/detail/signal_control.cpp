@@ -20,6 +20,11 @@ Links united(Links links, const Links& others) {
     return links;
 }
 
+bool overlap(const Links& left, const Links& right) {
+    return std::ranges::any_of(left,
+                               [&](std::uint16_t link) { return std::ranges::binary_search(right, link); });
+}
+
 }  // namespace
 
 SignalControl::SignalControl(core::SignalIndex index, const roads::Network& network)
@@ -63,14 +68,15 @@ Links SignalControl::requested(Ledger& ledger) {
         const auto& asked = std::get<traffic::HoldGreen>(held->lease.action);
         const Links& asked_own = asked.own_links.empty() ? asked.links : asked.own_links;
         const Links both = united(links, asked.links);
+        const Links both_own = united(own, asked_own);
         held->served = links.empty() || !conflict(signal_, asked.links, links) ||
-                       (!conflict(signal_, asked_own, own) && a_phase_serves_all(signal_, both));
+                       (!conflict(signal_, asked_own, own) && a_phase_serves(signal_, both, both_own));
         if (!held->served) {
             LeaseQueue::refuse(*held, "outranked", ledger);
             continue;
         }
         links = both;
-        own = united(own, asked_own);
+        own = both_own;
     }
     return links;
 }
@@ -111,7 +117,9 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
         if (in_green && waits_for_gap(way.target, around)) return;
-        if (in_program || conflict(signal_, links, last_held_)) taken_since_ = around.now;
+        // Another that joins or leaves does not make a stuck one's hold begin anew.
+        if (in_program || (!overlap(links, last_held_) && conflict(signal_, links, last_held_)))
+            taken_since_ = around.now;
         begin(std::move(way), around, commands);
     }
     proceed(around, commands);
@@ -203,12 +211,14 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
     shown_ = state;
 }
 
-/// Whether no way that has lost green is busy where those of `gaining` will cross.
+/// Whether no way that has lost green, or has to yield from now on, is busy where those of `gaining` will
+/// cross.
 template <class IsBusy>
 bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
     const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
     for (std::uint16_t link = 0; link < link_count; ++link) {
-        const bool keeps = link < way_.target.size() && traffic::is_green(way_.target[link]);
+        const bool yields = shown_[link] == 'G' && way_.target[link] == 'g';
+        const bool keeps = !yields && traffic::is_green(way_.target[link]);
         if (keeps || !conflict(signal_, {link}, gaining)) continue;
         if (is_busy(link)) return false;
     }

@@ -143,9 +143,13 @@ std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links
     return best;
 }
 
-bool a_phase_serves_all(const roads::Signal& signal, const Links& links) {
+bool a_phase_serves(const roads::Signal& signal, const Links& links, const Links& own) {
     const auto best = best_phase(signal, links);
-    return best && serves_all(signal.program[*best].state, links);
+    if (!best) return false;
+    const std::string& state = signal.program[*best].state;
+    return serves_all(state, links) && std::ranges::all_of(own, [&](std::uint16_t link) {
+               return state[link] == 'G' || !is_foe_of_any(signal, link, links);
+           });
 }
 
 }  // namespace clearway::actuation::detail

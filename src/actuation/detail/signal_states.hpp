@@ -46,7 +46,8 @@ bool conflict(const roads::Signal& signal, const Links& left, const Links& right
 /// The phase of the program that shows green for most of `links`, the earliest of equals; nothing when none
 /// serves any.
 std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links& links);
-/// Whether one phase of the program shows green for all of `links`, some of them yielding to others perhaps.
-bool a_phase_serves_all(const roads::Signal& signal, const Links& links);
+/// Whether one phase of the program shows green for all of `links`, while those of them in `own` yield to
+/// none.
+bool a_phase_serves(const roads::Signal& signal, const Links& links, const Links& own);
 
 }  // namespace clearway::actuation::detail

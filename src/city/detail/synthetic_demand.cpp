@@ -16,8 +16,8 @@ namespace clearway::city::detail {
 namespace {
 
 constexpr double window_s = 900.0;
-constexpr double probe_begin_s = 240.0;
-constexpr double probe_end_s = 420.0;
+// The last minutes of the demand: a network that fills slowly jams late.
+constexpr double probe_begin_s = window_s - 180.0;
 
 /// How full a network is, means over the probe.
 struct Level {
@@ -95,7 +95,7 @@ class Probe {
         std::vector<std::string> arguments = arguments_of(demand_);
         for (const std::string& word :
              {std::string("--step-length"), std::string("1"), std::string("--scale"),
-              fmt::format("{:.4f}", share), std::string("--end"), fmt::format("{}", probe_end_s),
+              fmt::format("{:.4f}", share), std::string("--end"), fmt::format("{}", window_s),
               std::string("--summary-output"), summary.string(), std::string("--summary-output.period"),
               std::string("10"), std::string("--no-warnings")})
             arguments.push_back(word);
@@ -143,9 +143,9 @@ FoundLevel find_level(const Probe& probe, double most) {
 
 std::string describe(double cars, const Level& level, const Findings& findings) {
     return fmt::format(
-        "synthetic: {:.0f} cars in {:.0f} s between places drawn by length of road; after 4 to 7 minutes "
-        "{:.0f} on "
-        "the road, {:.1f} a km of lane, mean speed {:.0f} % of the limits, {:.0f} % halting, {:.0f} waiting "
+        "synthetic: {:.0f} cars in {:.0f} s between places drawn by length of road; after 12 to 15 minutes "
+        "{:.0f} on the road, {:.1f} a km of lane, mean speed {:.0f} % of the limits, {:.0f} % halting, "
+        "{:.0f} waiting "
         "to enter",
         cars, window_s, level.running, level.running / std::max(0.001, findings.lane_km),
         100.0 * level.relative_speed, 100.0 * level.halting / std::max(1.0, level.running), level.waiting);

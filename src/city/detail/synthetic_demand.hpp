@@ -9,9 +9,9 @@ namespace clearway::city::detail {
 
 /// Gives `config` a demand by recipe: cars that depart evenly over a quarter of an hour, 35 % of them
 /// automated, on trips whose ends are drawn by length of edge. Their number is the largest of a ladder
-/// (factor 1.5) with which the network is busy but not jammed, tried with SUMO at steps of 0.5 s: over the
-/// minutes 4 to 7, mean speed at least 45 % of the limits, at most 40 % of the vehicles halting, at most 5 %
-/// waiting to be let in, at most 1 % teleported. Says in `import.findings` what was found.
+/// (factor 1.5) with which the network is busy but not jammed, tried with SUMO at steps of 1 s: over the
+/// minutes 12 to 15, mean speed at least 45 % of the limits, at most 40 % of the vehicles halting, at most 5
+/// % waiting to be let in, at most 1 % teleported. Says in `import.findings` what was found.
 void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, const roads::Network& network);
 
 /// Writes the scenario, builds its network and first demand as a run does, and has SUMO load them: so what a
