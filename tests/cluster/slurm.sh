@@ -174,7 +174,9 @@ echo "killed node n2 in shard $victim of $shards, which had $kept runs"
 [[ $kept -lt 32 ]] || fail "the shard was over before it was killed"
 
 wait_for 240 "the end of all jobs" bash -c '[[ -z $(squeue -h -o %i) ]]'
-scontrol -o show job | grep -q "ArrayTaskId=$victim .*Restarts=1" || fail "shard $victim was not requeued"
+# Not through a pipe: `grep -q` ends at its first match, and what still writes to it then fails the pipeline.
+jobs=$(scontrol -o show job)
+grep -q "ArrayTaskId=$victim .*Restarts=1" <<<"$jobs" || fail "shard $victim was not requeued: $jobs"
 [[ $(runs_in "$folder/study/shards/$victim-of-$shards" ! -newer "$folder/killed") == "$kept" ]] ||
     fail "the shard that came back made runs again that it had"
 cat "$folder/study/logs/merge.log"
@@ -185,5 +187,6 @@ for table in results.sqlite runs.csv vehicles.csv; do
 done
 [[ $(runs_in "$folder/study/shards") == 128 ]] || fail "there are duplicate or missing runs in the shards"
 [[ $(runs_in "$folder/study/merged") == 128 ]] || fail "the merged folder has not 128 runs"
-"$bin/clearway" status "$folder/study" | grep -q "complete; 128 of 128" || fail "status does not tell the end"
+state=$("$bin/clearway" status "$folder/study")
+grep -q "complete; 128 of 128" <<<"$state" || fail "status does not tell the end: $state"
 echo "the merged database is the single machine's, byte for byte: 128 runs, no duplicates, one shard requeued"
