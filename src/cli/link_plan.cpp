@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -31,11 +32,6 @@ struct Place {
     std::string configuration_hash;
 };
 
-Place place_of(const LinkPlan& plan, const scenario::ScenarioConfig& config) {
-    const std::string hash = scenario::scenario_hash(config);
-    return {plan.folder / "scenarios" / fmt::format("{}-{}", config.name, hash.substr(0, 8)), hash};
-}
-
 std::string settings_text(const LinkPredictor& predictor) {
     std::string text;
     for (const auto& [name, value] : predictor.settings)
@@ -55,7 +51,15 @@ std::string worker_hash() {
 /// Where the runs of a plan are.
 class RunFiles {
   public:
-    explicit RunFiles(const LinkPlan& plan) : plan_(plan), program_hash_(worker_hash()) {}
+    explicit RunFiles(const LinkPlan& plan) : plan_(plan), program_hash_(worker_hash()) {
+        for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios)
+            scenario_hashes_[scenario::configuration_hash(config)] = scenario::scenario_hash(config);
+    }
+
+    Place place_of(const scenario::ScenarioConfig& config) const {
+        const std::string& hash = hash_of(config);
+        return {plan_.folder / "scenarios" / fmt::format("{}-{}", config.name, hash.substr(0, 8)), hash};
+    }
 
     fs::path file(const scenario::ScenarioConfig& config, std::uint32_t replication,
                   const LinkPredictor& predictor) const {
@@ -64,9 +68,13 @@ class RunFiles {
     }
 
   private:
+    /// Files are read once.
+    const std::string& hash_of(const scenario::ScenarioConfig& config) const {
+        return scenario_hashes_.at(scenario::configuration_hash(config));
+    }
     std::string key(const scenario::ScenarioConfig& config, const LinkPredictor& predictor) const {
-        std::string content = fmt::format("{} {} {} ", program_hash_, scenario::scenario_hash(config),
-                                          plan_.benchmark.study_seed);
+        std::string content =
+            fmt::format("{} {} {} ", program_hash_, hash_of(config), plan_.benchmark.study_seed);
         for (const std::string& failure : plan_.benchmark.failures)
             content += failure + " ";
         for (const std::string& exits : plan_.benchmark.exits)
@@ -79,6 +87,7 @@ class RunFiles {
 
     const LinkPlan& plan_;
     std::string program_hash_;
+    std::map<std::string, std::string> scenario_hashes_;  ///< By that of the configuration alone.
 };
 
 std::vector<std::uint32_t> replications(const study::SeedRange& range) {
@@ -114,7 +123,7 @@ std::vector<results::LinkPredictorOrder> missing(const LinkPlan& plan, const Run
 /// The orders of a scenario, which is stored and built when there are any.
 void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::ScenarioConfig& config,
                 std::vector<WorkerOrder>& work) {
-    const Place place = place_of(plan, config);
+    const Place place = files.place_of(config);
     bool built = false;
     for (const std::uint32_t replication : replications(plan)) {
         results::LinkOrder order;

@@ -38,11 +38,14 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
     const CostBook book(folder);
     std::vector<Cell> cells;
     std::map<std::pair<std::string, std::string>, std::size_t> rows;
-    for (const scenario::ScenarioConfig& config : plan.scenarios) {
+    for (std::size_t row = 0; row < plan.scenarios.size(); ++row) {
+        const scenario::ScenarioConfig& config = plan.scenarios[row];
+        const std::string& hash = plan.manifest.scenarios[row].configuration_hash;
         for (const results::ConditionSpec& condition : plan.manifest.conditions) {
             rows[{config.name, condition.name}] = cells.size();
-            cells.push_back(
-                {.scenario = config.name, .condition = condition, .cost = book.of(config, condition.engine)});
+            cells.push_back({.scenario = config.name,
+                             .condition = condition,
+                             .cost = book.of(config, hash, condition.engine)});
         }
     }
     for (const study::PlannedUnit& planned : plan.units) {

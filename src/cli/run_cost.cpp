@@ -85,8 +85,8 @@ CostBook::CostBook(const fs::path& folder) {
     }
 }
 
-RunCost CostBook::of(const scenario::ScenarioConfig& config, results::Engine engine) const {
-    const std::string hash = scenario::scenario_hash(config);
+RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& hash,
+                     results::Engine engine) const {
     for (const results::Store& store : stores_) {
         RunCost sum;
         std::size_t count = 0;

@@ -297,7 +297,7 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
     for (const results::ScenarioEntry& scenario : manifest.scenarios) {
         rows.emplace_back(
             fmt::format("Scenario {}", scenario.name),
-            fmt::format("{}; effective configuration {}", scenario.version, scenario.configuration_hash));
+            fmt::format("{}; configuration and files {}", scenario.version, scenario.configuration_hash));
     }
     rows.emplace_back("Runs", fmt::format("{} complete, {} failed, {} missing", grouped(results.runs.size()),
                                           grouped(results.failures.size()), grouped(results.missing.size())));

@@ -32,8 +32,7 @@ constexpr std::array tables = {
     TableEntry{RecordingTable::links, "links", "time_s,left,right,distance_m,probability"},
     TableEntry{RecordingTable::leases, "leases",
                "time_s,vehicle,signal,action,speed_mps,lane_number,side,links,own_links,expiry_s,priority,"
-               "policy,reason,"
-               "beneficiary"},
+               "policy,reason,beneficiary"},
 };
 
 /// Writes the lines of one step.

@@ -317,6 +317,33 @@ TEST(SignalHold, waits_for_a_left_turner_inside_the_junction_but_not_for_ever) {
     }
 }
 
+TEST(SignalHold, waits_for_a_turner_who_had_right_of_way_before_it_has_to_yield) {
+    ActuationBench bench;
+    const auto turner = bench.add({"h", traffic::VehicleClass::human, {"north_a_A", "A_B"}, 1, 280.0, 0.0});
+    bench.on_road[turner].lane = two_crossings().find_lane(":A_3_0").value();
+    double opens_s = 0.0;
+    watch(bench, 25.0, [&](ActuationBench& b) {
+        b.offer(signal_a, from_north, 2.0, 0, "part", core::VehicleKey{1});
+        if (b.now.value >= 10.0) b.offer(signal_a, from_south, 2.0, 0, "part", core::VehicleKey{2});
+        if (b.now.value >= 14.0) b.on_road.erase(turner);
+        if (opens_s == 0.0 && b.now.value > 10.0 && b.shown[0].substr(9, 2) == "GG") opens_s = b.now.value;
+    });
+    EXPECT_GE(opens_s, 14.0) << "1.5 s of red alone would end at 11.5";
+    EXPECT_LE(opens_s, 14.75);
+}
+
+TEST(SignalHold, that_asks_for_another_approach_is_no_longer_the_one_that_has_green) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::HoldGreen{{12}}, 30.0, 0, "part", core::VehicleKey{1});
+    bench.run_until(10.0);
+    bench.offer(signal_a, traffic::HoldGreen{west}, 30.0, 0, "part", core::VehicleKey{2});
+    bench.run_until(12.0);
+    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 30.0, 0, "part", core::VehicleKey{1});
+    bench.run_until(20.0);
+    EXPECT_EQ(bench.shown[0].substr(12), "GGGG") << "the second has it";
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+}
+
 /// The footway, pedestrians having green, with somebody on the crossing until `left_s`; vehicles from the
 /// west are asked green until `asked_s`.
 std::vector<Shown> watch_crossing(double left_s, double asked_s, double until_s,

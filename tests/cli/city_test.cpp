@@ -1,5 +1,6 @@
 // Cities from the command line: import, check, run, trajectories.
 #include <csignal>
+#include <cstdlib>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,18 @@ TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
                        {},
                        folder() / "sumo.log"};
     EXPECT_TRUE(core::run(sumo).ok()) << read("sumo.log");
+}
+
+// It fills slowly: judged after seven minutes it took half as many cars again, and jammed after twelve.
+TEST_F(CityTest, the_demand_of_an_import_does_not_jam_a_town_that_fills_slowly) {
+    const std::string sumo_home =
+        std::getenv("SUMO_HOME") != nullptr ? std::getenv("SUMO_HOME") : "/usr/share/sumo";
+    const Ended import = clearway({"import", sumo_home + "/tools/game/DRT/osm.net.xml", "--name", "town"});
+    ASSERT_EQ(import.code, 0) << import.err;
+    EXPECT_THAT(import.out, HasSubstr("after 12 to 15 minutes"));
+    const Ended check = clearway({"check", "./town"});
+    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    EXPECT_THAT(check.out, HasSubstr("ok       jams"));
 }
 
 TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {

@@ -44,6 +44,16 @@ void expect_same_roster(const traffic::Roster& one, const traffic::Roster& other
         EXPECT_EQ(one.route(core::RouteIndex{route}), other.route(core::RouteIndex{route}));
 }
 
+TEST(Difference, SeesTheLinksThatAnEmergencyVehicleItselfTakes) {
+    std::vector<traffic::Lease> one(1);
+    one.front().target = core::SignalIndex{0};
+    one.front().action = traffic::HoldGreen{{2, 3}, {3}};
+    std::vector<traffic::Lease> other = one;
+    other.front().action = traffic::HoldGreen{{2, 3}, {2}};
+    EXPECT_EQ(replay::difference(one, one), std::nullopt);
+    EXPECT_THAT(replay::difference(one, other).value_or(""), testing::HasSubstr("own_links"));
+}
+
 void expect_same(const RecordedStep& one, const RecordedStep& other) {
     EXPECT_EQ(replay::difference(*one.snapshot, *other.snapshot), std::nullopt);
     EXPECT_TRUE(same(*one.events, *other.events));
