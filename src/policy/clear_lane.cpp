@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "policy/detail/gap_search.hpp"
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy {
@@ -35,7 +36,9 @@ class Way {
         const std::optional<std::uint32_t> wanted = choose_lane();
         if (wanted) {
             write_.add(emergency_.key, traffic::ChangeLane{*wanted}, "less delay ahead", emergency_.key);
-            open_gap(*wanted);
+            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(emergency_), *wanted);
+            open_beside(lane);
+            make_for_gap(lane);
         }
         for (const VehicleAhead& ahead : ahead_) {
             if (ahead.distance_m > config_.horizon_m) break;
@@ -126,19 +129,38 @@ class Way {
     }
 
     /// The nearest automated vehicle that is a little behind on the wanted lane drops back.
-    void open_gap(std::uint32_t wanted) {
-        const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(emergency_), wanted);
+    void open_beside(core::LaneIndex wanted) {
         const traffic::BelievedVehicle* nearest = nullptr;
         for (const traffic::BelievedVehicle& vehicle : view_.belief().vehicles) {
             const double behind_m = emergency_.state.lane_position_m - vehicle.state.lane_position_m;
-            if (vehicle.state.lane != lane || behind_m < 0.0 || behind_m > config_.beside_m) continue;
+            if (vehicle.state.lane != wanted || behind_m < 0.0 || behind_m > config_.beside_m) continue;
             if (nearest == nullptr || vehicle.state.lane_position_m > nearest->state.lane_position_m)
                 nearest = &vehicle;
         }
         if (nearest == nullptr || nearest->vehicle_class != traffic::VehicleClass::automated) return;
-        const double wished = std::max(config_.gap_factor * emergency_.state.speed_mps, config_.slowest_mps);
-        const core::MetresPerSecond speed(std::min(wished, view_.allowed_speed(*nearest).value));
-        write_.add(nearest->key, traffic::DriveAt{speed}, "opens a gap", emergency_.key);
+        drive_at(*nearest, config_.gap_factor * emergency_.state.speed_mps, "opens a gap");
+    }
+
+    /// Falls back to the nearest gap on the wanted lane, where the lane is worth that, and an automated
+    /// vehicle behind the gap keeps it open.
+    void make_for_gap(core::LaneIndex wanted) {
+        const auto gap = detail::nearest_gap(view_, emergency_, wanted, config_.headways);
+        if (!gap || gap->shift_m >= 0.0 || gap->flow_mps < config_.slowest_mps) return;
+        const double back_m = -gap->shift_m;
+        const double gain_s = time_on(emergency_.state.lane) - time_on(wanted) - back_m / gap->flow_mps;
+        if (gain_s < config_.gap_worth_s) return;
+        drive_at(emergency_, gap->flow_mps - std::min(config_.fall_back_mps, back_m / config_.fall_back_s),
+                 "falls back to a gap");
+        if (gap->behind == nullptr || gap->behind->vehicle_class != traffic::VehicleClass::automated) return;
+        const double room_m = emergency_.state.lane_position_m - back_m - gap->behind->state.lane_position_m;
+        if (room_m < config_.keep_open_m)
+            drive_at(*gap->behind, config_.gap_factor * gap->flow_mps, "keeps a gap open");
+    }
+
+    void drive_at(const traffic::BelievedVehicle& vehicle, double speed_mps, const char* reason) {
+        const double least_mps = std::max(speed_mps, config_.slowest_mps);
+        const core::MetresPerSecond speed(std::min(least_mps, view_.allowed_speed(vehicle).value));
+        write_.add(vehicle.key, traffic::DriveAt{speed}, reason, emergency_.key);
     }
 
     const View& view_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "policy/detail/gap_search.hpp"
 #include "policy/part.hpp"
 
 namespace clearway::policy {
@@ -13,6 +14,14 @@ struct ClearLaneConfig {
                                ///< opens a gap; assumed: a gap of two cars.
     double gap_factor = 0.8;   ///< By driving at this share of the emergency vehicle's speed, (0, 1].
     double slowest_mps = 5.0;  ///< But not below; as the dissertation part.
+    /// Where no gap is beside, the emergency vehicle falls back to one that gains this; dense merge: 2 s is
+    /// no better.
+    double gap_worth_s = 3.0;
+    detail::Headways headways;   ///< A gap leaves these to both sides.
+    double fall_back_mps = 5.0;  ///< Slower than the traffic of that lane by at most this; 3 m/s helped less.
+    double fall_back_s = 4.0;    ///< And by no more than leads to the gap in this time; assumed.
+    /// An automated vehicle nearer behind such a gap keeps it open, by `gap_factor`; 90 m is no better.
+    double keep_open_m = 60.0;
     /// Stretch over which lanes are compared, (0, 5000]. 800 m: in the sparse merge scenario 200 m cut the
     /// time loss of emergency vehicles by 3 %, 600 m by 9 %, 800 to 1000 m by 12 to 13 %.
     double choice_m = 800.0;

@@ -92,6 +92,51 @@ TEST(ClearLane, counts_a_queue_and_takes_the_shorter_one) {
     EXPECT_EQ(road.asked_lane("e1"), 0U);
 }
 
+/// The lane beside is dense from here on; behind there is a gap. The queue ahead stands.
+constexpr const char* gap_behind = R"(
+        10 m per cell, limit 15 m/s, speed 15 m/s
+        ............e..............................hhhh|r...............................
+        ....a.....h..h...h...h...h...h...h...h.........|r...............................
+    )";
+
+void stop(StraightRoad& road, std::initializer_list<const char*> ids) {
+    for (const char* id : ids)
+        road.scene.set_speed(id, core::MetresPerSecond(0.0));
+}
+
+TEST(ClearLane, lets_the_emergency_vehicle_fall_back_to_a_gap_before_a_queue_and_keeps_it_open) {
+    StraightRoad road(gap_behind);
+    stop(road, {"h1", "h2", "h3", "h4"});
+    policy::ClearLane part({road.scene.network()});
+    road.act(part);
+    EXPECT_EQ(road.asked_lane("e1"), 0U);
+    EXPECT_NEAR(road.asked_speed("e1").value(), 10.0, 1e-5) << "5 m/s slower than the traffic there";
+    EXPECT_NEAR(road.asked_speed("a1").value(), 12.0, 1e-5) << "the one behind the gap";
+}
+
+TEST(ClearLane, does_not_fall_back_for_less_than_it_costs) {
+    StraightRoad road(gap_behind);
+    stop(road, {"h1", "h2"});
+    policy::ClearLane part({road.scene.network()});
+    road.act(part);
+    EXPECT_EQ(road.asked_lane("e1"), 0U) << "the lane beside is faster";
+    EXPECT_FALSE(road.asked_speed("e1")) << "42 m back cost 3 s of the 4 that it gains";
+    EXPECT_FALSE(road.asked_speed("a1"));
+}
+
+TEST(ClearLane, stays_beside_a_gap_that_is_wide_enough) {
+    StraightRoad road(R"(
+        10 m per cell, limit 15 m/s, speed 15 m/s
+        ............e..............................hhhh|r...............................
+        ........h........h...h...h...h...h...h.........|r...............................
+    )");
+    stop(road, {"h1", "h2", "h3", "h4"});
+    policy::ClearLane part({road.scene.network()});
+    road.act(part);
+    EXPECT_EQ(road.asked_lane("e1"), 0U);
+    EXPECT_FALSE(road.asked_speed("e1"));
+}
+
 TEST(ClearLane, does_nothing_on_a_free_road) {
     StraightRoad road(R"(
         10 m per cell, limit 20 m/s, speed 15 m/s

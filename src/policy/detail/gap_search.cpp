@@ -1,0 +1,56 @@
+#include "policy/detail/gap_search.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace clearway::policy::detail {
+
+namespace {
+
+const traffic::VehicleInfo& info_of(const View& view, const traffic::BelievedVehicle& vehicle) {
+    static const traffic::VehicleInfo unknown;
+    const traffic::VehicleInfo* info = view.belief().roster->find(vehicle.key);
+    return info != nullptr ? *info : unknown;
+}
+
+/// Vehicles on a lane, the rearmost first.
+std::vector<const traffic::BelievedVehicle*> vehicles_on(const View& view, core::LaneIndex lane) {
+    std::vector<const traffic::BelievedVehicle*> on_lane;
+    for (const traffic::BelievedVehicle& vehicle : view.belief().vehicles)
+        if (vehicle.state.lane == lane) on_lane.push_back(&vehicle);
+    std::ranges::sort(on_lane, {}, [](const auto* vehicle) { return vehicle->state.lane_position_m; });
+    return on_lane;
+}
+
+}  // namespace
+
+std::optional<Gap> nearest_gap(const View& view, const traffic::BelievedVehicle& vehicle,
+                               core::LaneIndex lane, const Headways& headways) {
+    const std::vector<const traffic::BelievedVehicle*> on_lane = vehicles_on(view, lane);
+    const traffic::VehicleInfo& own = info_of(view, vehicle);
+    std::optional<Gap> best;
+    for (std::size_t row = 0; row <= on_lane.size(); ++row) {
+        const traffic::BelievedVehicle* const behind = row > 0 ? on_lane[row - 1] : nullptr;
+        const traffic::BelievedVehicle* const before = row < on_lane.size() ? on_lane[row] : nullptr;
+        if (behind == nullptr && before == nullptr) return Gap{};
+        Gap gap{0.0, (before != nullptr ? before : behind)->state.speed_mps, behind};
+        double nearest_m = -std::numeric_limits<double>::infinity();
+        double farthest_m = std::numeric_limits<double>::infinity();
+        if (behind != nullptr) {
+            const bool automated = behind->vehicle_class == traffic::VehicleClass::automated;
+            nearest_m = behind->state.lane_position_m - vehicle.state.lane_position_m + own.length_m +
+                        info_of(view, *behind).minimum_gap_m +
+                        (automated ? headways.automated_s : headways.usual_s) * behind->state.speed_mps;
+        }
+        if (before != nullptr)
+            farthest_m = before->state.lane_position_m - vehicle.state.lane_position_m -
+                         info_of(view, *before).length_m - own.minimum_gap_m -
+                         headways.usual_s * gap.flow_mps;
+        if (nearest_m > farthest_m) continue;
+        gap.shift_m = std::clamp(0.0, nearest_m, farthest_m);
+        if (!best || std::abs(gap.shift_m) < std::abs(best->shift_m)) best = gap;
+    }
+    return best;
+}
+
+}  // namespace clearway::policy::detail
