@@ -197,8 +197,9 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     std::filesystem::remove(built);
     add_pedestrians(import, network, config);
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
+    detail::choose_trips(import, config, network);
     config.emergency_sites =
-        detail::place_sites(map.sites, network, config.trips.minimum_edge_m, import.left_out);
+        detail::place_sites(map.sites, network, config.trips, import.left_out);
     for (const scenario::EmergencySite& site : config.emergency_sites)
         for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
             if (kind == site.kind) ++import.findings.sites[name];
@@ -219,6 +220,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     }
     if (has_files)
         import.findings.changes.emplace_back("the files hold no vehicle for the road: demand is synthetic");
+    detail::choose_trips(import, config, network);
     detail::add_synthetic_demand(import, config, network);
 }
 

@@ -88,6 +88,15 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     EXPECT_THAT(none.out, HasSubstr("0 EVs with a route"));
 }
 
+TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
+    write_line_scenario();
+    EXPECT_THAT(clearway({"check", "line"}).out, HasSubstr("ok       routes      0 of"));
+    write_line_scenario("to = \"second\"", "to = \"first\"");
+    const Ended ended = clearway({"check", "line"});
+    EXPECT_EQ(ended.code, 6) << ended.out << ended.err;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("short    routes"), HasSubstr("1 of 1 EVs drive a single edge")));
+}
+
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     write_line_scenario();
     const Ended failed = clearway({"check", "line", "--run-time-limit", "0.001"});
