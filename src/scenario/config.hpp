@@ -28,9 +28,9 @@ enum class CarFollowing { own, idm };
 /// A place that emergency vehicles start from or drive to.
 enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
-/// Between which edges the trips of `[trips]` are drawn: those of the largest set that all reach each other by
-/// car, or any edge and one that can be reached from it, for networks that are driven through: an intersection
-/// alone, a motorway.
+/// Between which edges the trips of `[trips]` are drawn: those of the largest set that all reach each other
+/// by car, or any edge and one that can be reached from it, for networks that are driven through: an
+/// intersection alone, a motorway.
 enum class TripEnds { connected, reachable };
 /// Where the demand of a scenario comes from.
 enum class DemandKind { flows, trips, measured };
@@ -268,10 +268,11 @@ struct Trips {
                         "assumed: the longest vehicle, a bus of 12 m, fits"},
             core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
                         "Longest straight line between the ends of a trip.", "none: no limit"},
-            core::Field{"ends", "", &S::ends, 0, 0,
-                        "connected: in the largest set of edges that reach each other; reachable: any edge and "
-                        "one that it leads to.",
-                        "connected"});
+            core::Field{
+                "ends", "", &S::ends, 0, 0,
+                "connected: in the largest set of edges that reach each other; reachable: any edge and "
+                "one that it leads to.",
+                "connected"});
     }
 };
 

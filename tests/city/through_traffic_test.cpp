@@ -114,15 +114,17 @@ TEST_F(ThroughTraffic, an_intersection_alone_is_driven_through_from_every_arm) {
 
 TEST_F(ThroughTraffic, a_motorway_is_driven_along_its_ramps_are_used_and_sites_are_reached) {
     const Findings findings = run(request({motorway_map()}));
-    EXPECT_THAT(findings.sites, AllOf(Contains(testing::Pair("hospital", 1)),
-                                      Contains(testing::Pair("fire_station", 1))));
+    EXPECT_THAT(findings.sites,
+                AllOf(Contains(testing::Pair("hospital", 1)), Contains(testing::Pair("fire_station", 1))));
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.trips.ends, scenario::TripEnds::reachable);
     const Routes found = routes();
     std::size_t ramps = 0;
     for (const Route& route : found.traffic) {
         EXPECT_GE(route.size(), 2U);
-        const auto is_ramp = [](const std::string& edge) { return edge.starts_with("2") || edge.starts_with("3"); };
+        const auto is_ramp = [](const std::string& edge) {
+            return edge.starts_with("2") || edge.starts_with("3");
+        };
         ramps += std::ranges::any_of(route, is_ramp) ? 1U : 0U;
     }
     EXPECT_GT(ramps, found.traffic.size() / 10);

@@ -108,6 +108,16 @@ TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line"));
 }
 
+TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {
+    write("town.osm", city::town_map());
+    const Ended relative = clearway({"import", "town.osm", "--name", "my folder/town"});
+    ASSERT_EQ(relative.code, 0) << relative.err;
+    EXPECT_THAT(relative.out, HasSubstr("Next: clearway check './my folder/town'\n"));
+    const std::string absolute = (folder() / "other").string();
+    EXPECT_THAT(clearway({"import", "town.osm", "--name", absolute}).out,
+                HasSubstr("Next: clearway check " + absolute + "\n"));
+}
+
 TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {
     write("page.osm", "<!DOCTYPE html><html></html>");
     const Ended ended = clearway({"import", "page.osm", "--name", "page"});

@@ -115,11 +115,12 @@ std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sit
         const roads::Point place = geography->point(site.place);
         const Nearest nearest = nearest_edge(network, edges.of(site.kind), place);
         if (nearest.metres > site_reach_m) {
-            left_out.add(nearest_edge(network, all, place).metres > site_reach_m
-                             ? "hospitals or stations away from the roads of the network"
-                             : "hospitals or stations at roads where no trip can start or end: other roads do "
-                               "not lead there, or back",
-                         site.name);
+            left_out.add(
+                nearest_edge(network, all, place).metres > site_reach_m
+                    ? "hospitals or stations away from the roads of the network"
+                    : "hospitals or stations at roads where no trip can start or end: other roads do "
+                      "not lead there, or back",
+                site.name);
             continue;
         }
         const std::string& edge = network.edge(nearest.edge).id;

@@ -36,7 +36,8 @@ struct Level {
     }
 };
 
-/// SUMO's summary says nothing of the speed (-1) where nobody is on the road: so speeds are weighted by who is.
+/// SUMO's summary says nothing of the speed (-1) where nobody is on the road: so speeds are weighted by who
+/// is.
 Level read_level(const std::filesystem::path& summary) {
     Level level;
     double rows = 0.0;
@@ -145,10 +146,11 @@ FoundLevel find_level(const Probe& probe, double most) {
 }
 
 std::string describe(const scenario::ScenarioConfig& config, const Level& level, const Findings& findings) {
-    const char* const places = config.trips.ends == scenario::TripEnds::reachable
-                                   ? "from where roads enter, or places drawn by length of road, to where they "
-                                     "lead"
-                                   : "between places drawn by length of road";
+    const char* const places =
+        config.trips.ends == scenario::TripEnds::reachable
+            ? "from where roads enter, or places drawn by length of road, to where they "
+              "lead"
+            : "between places drawn by length of road";
     const std::string speed =
         level.running > 0.0 ? fmt::format("mean speed {:.0f} % of the limits, {:.0f} % halting",
                                           100.0 * level.relative_speed, 100.0 * level.halting / level.running)
@@ -167,10 +169,11 @@ void choose_trips(Import& import, scenario::ScenarioConfig& config, const roads:
     const double share = import.findings.connected_share;
     if (share <= most_of_the_network) {
         config.trips.ends = scenario::TripEnds::reachable;
-        import.findings.changes.push_back(fmt::format(
-            "only {:.1f} % of the car edges reach each other, so trips go from any edge to one that it leads to "
-            "(trips.ends = \"reachable\")",
-            100.0 * share));
+        import.findings.changes.push_back(
+            fmt::format("only {:.1f} % of the car edges reach each other, so trips go from any edge to one "
+                        "that it leads to "
+                        "(trips.ends = \"reachable\")",
+                        100.0 * share));
     }
     if (!trip_edges(network, config.trips).empty()) return;
     throw core::InputError(core::Problem{

@@ -109,9 +109,8 @@ RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, cons
 }
 
 RouteEdges TripRoutes::traffic(const std::string& id) const {
-    return search(
-        {"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
-        [&](std::uint64_t counter) { return two_places(Purpose::demand, id, counter); });
+    return search({"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
+                  [&](std::uint64_t counter) { return two_places(Purpose::demand, id, counter); });
 }
 
 RouteEdges TripRoutes::emergency(const std::string& id, traffic::VehicleKind kind,

@@ -23,9 +23,10 @@ struct LeastLength {
 bool open_to_emergency(const roads::Network& network, const RouteEdges& route);
 
 /// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough and does
-/// not turn round, for nobody sets out in the wrong direction. With `trips.ends` = reachable, one end is drawn
-/// among the edges that the other leads to or comes from, and half of the weight lies on the edges at which
-/// traffic can only enter (or only leave) the network, by their lanes: so a ramp is used, however short.
+/// not turn round, for nobody sets out in the wrong direction. With `trips.ends` = reachable, one end is
+/// drawn among the edges that the other leads to or comes from, and half of the weight lies on the edges at
+/// which traffic can only enter (or only leave) the network, by their lanes: so a ramp is used, however
+/// short.
 class TripRoutes {
   public:
     /// Throws core::InputError when no edge is left for trips, and for sites at edges that are none.
