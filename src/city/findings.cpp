@@ -31,9 +31,10 @@ std::string to_text(const Findings& findings) {
         "{:.1f} km of "
         "lane\n  signals          {}\n  connected        {:.1f} % of the car edges reach each other\n  "
         "traffic drives   "
-        "on the {}\n",
+        "on the {}, {}\n",
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
-        findings.signals, 100.0 * findings.connected_share, findings.left_hand ? "left" : "right");
+        findings.signals, 100.0 * findings.connected_share, findings.left_hand ? "left" : "right",
+        findings.side_reason);
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
@@ -52,6 +53,7 @@ std::string to_json(const Findings& findings) {
                                    {"signals", findings.signals},
                                    {"connected_share", findings.connected_share},
                                    {"left_hand", findings.left_hand},
+                                   {"left_hand_reason", findings.side_reason},
                                    {"emergency_sites", findings.sites},
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},

@@ -13,8 +13,10 @@
 #include "city/detail/sumo_demand.hpp"
 #include "city/detail/survey.hpp"
 #include "city/detail/synthetic_demand.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/folder_name.hpp"
 #include "roads/crossings.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/picture.hpp"
@@ -56,19 +58,28 @@ class AsideFolder {
 
 void check_folder(const std::filesystem::path& folder) {
     const std::string name = folder.filename().string();
-    constexpr std::size_t longest = 100;
-    const bool has_control =
-        std::ranges::any_of(name, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; });
-    if (name.empty() || name.starts_with('.') || name.size() > longest || has_control ||
-        name.find(',') != std::string::npos)
+    if (!core::is_folder_name(name))
+        throw core::InputError(core::Problem{"--name", fmt::format("\"{}\" is no name for a scenario", name),
+                                             core::folder_name_rule, "choose another name"});
+    if (folder.string().find(',') != std::string::npos)
         throw core::InputError(
-            core::Problem{"--name", fmt::format("\"{}\" is no name for a scenario", name),
-                          "1 to 100 bytes without comma and control characters, not starting "
-                          "with a dot",
-                          "choose another name"});
+            core::Problem{folder.string(),
+                          "would lie in a folder with a comma in its path, which SUMO takes for a separator",
+                          "a path without commas", "import it in another folder"});
     if (std::filesystem::exists(folder))
         throw core::InputError(core::Problem{folder.string(), "exists already", "a new folder",
                                              "choose another name, or remove it"});
+}
+
+/// Another import of the name may have been quicker.
+void move_to(const std::filesystem::path& made, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::rename(made, folder, error);
+    if (!error) return;
+    if (std::filesystem::exists(folder))
+        throw core::InputError(core::Problem{folder.string(), "was made by another program in the meantime",
+                                             "a new folder", "choose another name, or remove it"});
+    throw core::write_error(folder, error.value());
 }
 
 void add_configuration(const std::filesystem::path& file, Import& import, Sources& sources) {
@@ -152,14 +163,13 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
     return network;
 }
 
-void add_pedestrians(Import& import, const roads::Network& network, scenario::ScenarioConfig& config) {
+/// `without_crossings`: what is said when there are none.
+void add_pedestrians(Import& import, const roads::Network& network, scenario::ScenarioConfig& config,
+                     const core::Problem& without_crossings) {
     const double per_hour = import.request.pedestrians_per_hour;
     if (per_hour <= 0.0) return;
     const std::vector<roads::Crossing> crossings = roads::crossings(network);
-    if (crossings.empty())
-        throw core::InputError(core::Problem{"--pedestrians", "the network has no crossing for pedestrians",
-                                             "a map, or a network with sidewalks and crossings",
-                                             "leave it out, or let netconvert guess crossings"});
+    if (crossings.empty()) throw core::InputError(without_crossings);
     const auto signalled = std::ranges::count_if(crossings, &roads::Crossing::has_signal);
     config.pedestrians.per_hour = per_hour;
     if (signalled == 0) config.pedestrians.crossings = scenario::Crossings::all;
@@ -170,35 +180,44 @@ void add_pedestrians(Import& import, const roads::Network& network, scenario::Sc
                                    : fmt::format(" with a signal, of {} in all", crossings.size())));
 }
 
-DrivingSide side_of(Import& import, const detail::MapContents& map) {
-    if (import.request.side != DrivingSide::by_country) return import.request.side;
-    if (!map.driving_side.empty()) return map.driving_side == "left" ? DrivingSide::left : DrivingSide::right;
-    const std::string land = detail::left_driving_land(map.centre);
-    if (!land.empty())
-        import.findings.changes.push_back(fmt::format(
-            "traffic drives on the left, as in {}; --driving-side right makes it drive on the right", land));
-    return land.empty() ? DrivingSide::right : DrivingSide::left;
+/// What the map does not say and what cannot be told from it.
+void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
+                 const detail::MapContents& map) {
+    for (const std::filesystem::path& file : maps)
+        if (const std::string remark = detail::overpass_remark(file); !remark.empty())
+            import.left_out.add("maps that Overpass did not finish",
+                                fmt::format("{}: {}", file.filename().string(), remark));
+    constexpr double least_km = 0.05;
+    if (map.unlimited_km >= least_km)
+        import.findings.changes.push_back(
+            fmt::format("the limit of {:.1f} km of the map's {:.1f} km of road is not on it: there it is the "
+                        "one of SUMO's "
+                        "types for towns, 50 km/h on main roads, 100 km/h on motorways",
+                        map.unlimited_km, map.car_roads_km));
 }
 
 void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                  scenario::ScenarioConfig& config) {
-    const std::filesystem::path extract = detail::extract_roads(maps, import.work, import.on_progress);
-    const detail::MapContents map = detail::read_map(extract);
-    if (map.roads == 0)
-        throw core::InputError(core::Problem{maps.front().string(), "is a map without roads",
-                                             "an OpenStreetMap extract with ways tagged highway",
-                                             "choose another extract, or a larger one"});
+    const auto [extract, map] = detail::extract_roads(maps, import.work, import.on_progress);
+    report_gaps(import, maps, map);
     import.on_progress("building the network", 0.0);
     const auto footways =
         import.request.pedestrians_per_hour > 0.0 ? detail::Footways::build : detail::Footways::none;
-    const std::filesystem::path built = detail::build_roads(
-        maps.front(), extract, {side_of(import, map), footways}, import.work, import.on_progress);
+    const detail::DrivingSideChoice choice = detail::choose_driving_side(import.request.side, map);
+    const std::filesystem::path built =
+        detail::build_roads(maps.front(), extract, {choice.side, footways}, import.work, import.on_progress);
     const roads::Network network = take_network(import, built);
+    import.findings.side_reason = choice.reason;
     std::filesystem::remove(built);
-    add_pedestrians(import, network, config);
+    add_pedestrians(
+        import, network, config,
+        {"--pedestrians",
+         "netconvert finds no place for a crossing: the map has none, and it guesses them at roads "
+         "of at most 50 km/h",
+         "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
-    config.emergency_sites =
-        detail::place_sites(map.sites, network, config.trips.minimum_edge_m, import.left_out);
+    detail::choose_trips(import, config, network);
+    config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
     for (const scenario::EmergencySite& site : config.emergency_sites)
         for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
             if (kind == site.kind) ++import.findings.sites[name];
@@ -208,7 +227,11 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
 void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
     import.on_progress("reading the network", 0.0);
     const roads::Network network = take_network(import, *sources.network);
-    add_pedestrians(import, network, config);
+    import.findings.side_reason = "as the network says";
+    add_pedestrians(
+        import, network, config,
+        {"--pedestrians", "the network has no crossing for pedestrians",
+         "a network with sidewalks and crossings", "leave it out, or let netconvert guess crossings"});
     config.network.attribution = fmt::format("from {}", sources.network->filename().string());
     const bool has_files = !sources.demand.routes.empty() || !sources.demand.additional.empty();
     import.on_progress("reading the demand", 0.0);
@@ -219,6 +242,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     }
     if (has_files)
         import.findings.changes.emplace_back("the files hold no vehicle for the road: demand is synthetic");
+    detail::choose_trips(import, config, network);
     detail::add_synthetic_demand(import, config, network);
 }
 
@@ -269,7 +293,7 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     core::write_atomically(import.scenario / "network.svg", scenario::network_picture(network, config.title));
     scenario::load((import.scenario / "scenario.toml").string());
     on_progress("done", 0.0);
-    std::filesystem::rename(import.scenario, folder);
+    move_to(import.scenario, folder);
     core::flush_folder(folder.parent_path());
     return findings;
 }

@@ -45,6 +45,7 @@ struct Findings {
     std::size_t signals = 0;
     double connected_share = 0.0;  ///< Of the car edges, those in the largest set that reach each other.
     bool left_hand = false;
+    std::string side_reason;              ///< Why traffic drives on that side.
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
     double vehicles_per_hour = 0.0;       ///< Human and automated ones, over the window of departures.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include "cli/run_plan.hpp"
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/files.hpp"
 #include "study/conditions.hpp"
 
 namespace clearway::cli {
@@ -64,6 +67,49 @@ Finding emergency_finding(const results::RunRecord& record) {
     const Grade grade = count == 0 || entered < count ? Grade::falls_short : Grade::ok;
     return {"emergency", grade,
             fmt::format("{} EVs with a route, {} entered, {} arrived by then", count, entered, arrived)};
+}
+
+/// Routes in what `prepare` wrote, and those of a single edge.
+struct RouteCount {
+    std::size_t all = 0;
+    std::size_t single = 0;
+
+    void add(const std::string& edges) {
+        ++all;
+        single += edges.find(' ') == std::string::npos ? 1 : 0;
+    }
+    bool mostly_single() const { return 2 * single > all; }
+};
+
+RouteCount traffic_routes(const std::string& xml) {
+    constexpr std::string_view mark = " edges=\"";
+    RouteCount count;
+    for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
+        const std::size_t start = at + mark.size();
+        count.add(xml.substr(start, xml.find('"', start) - start));
+    }
+    return count;
+}
+
+/// Rows end with the edges.
+RouteCount emergency_routes(const std::string& csv) {
+    RouteCount count;
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line))
+        count.add(line.substr(line.rfind(',') + 1));
+    return count;
+}
+
+/// Whoever drives one edge passes no junction, and so meets no signal and nobody who crosses.
+Finding routes_finding(const std::filesystem::path& demand) {
+    const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
+    const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
+    const bool is_short = traffic.mostly_single() || emergency.mostly_single();
+    return {"routes", is_short ? Grade::falls_short : Grade::ok,
+            fmt::format("{} of {} vehicles and {} of {} EVs drive a single edge, through no junction",
+                        traffic.single, traffic.all, emergency.single, emergency.all)};
 }
 
 std::vector<Finding> findings_of(const results::RunRecord& record, const results::RunTiming& timing,
@@ -151,6 +197,8 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     std::vector<Finding> findings;
     if (const auto record = store.read(key)) {
         findings = findings_of(*record, store.read_timing(key).value_or(results::RunTiming{}), wall_s);
+        const auto place = std::ranges::find(findings, "emergency", &Finding::name);
+        findings.insert(place + 1, routes_finding(store.scenario_folder(brief.name) / "demand" / "0"));
         std::filesystem::remove_all(options.folder);
     } else {
         findings = {

@@ -15,6 +15,7 @@
 #include "cli/interruption.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
+#include "core/process.hpp"
 #include "core/progress.hpp"
 
 namespace clearway::cli {
@@ -68,8 +69,11 @@ core::ExitCode import(Arguments& arguments) {
     if (arguments.printing == Printing::json) {
         fmt::print("{}", city::to_json(findings));
     } else {
-        fmt::print("{}picture: {}/network.svg\nNext: clearway check ./{}\n", city::to_text(findings),
-                   arguments.name, arguments.name);
+        // A name alone could be that of a scenario that comes with Clearway.
+        const std::filesystem::path& folder = arguments.request.folder;
+        const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
+        fmt::print("{}picture: {}/network.svg\nNext: {}\n", city::to_text(findings), folder.string(),
+                   core::shell_text({"clearway", "check", scenario}));
     }
     return core::ExitCode::ok;
 }

@@ -28,6 +28,10 @@ enum class CarFollowing { own, idm };
 /// A place that emergency vehicles start from or drive to.
 enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
+/// Between which edges the trips of `[trips]` are drawn: those of the largest set that all reach each other
+/// by car, or any edge and one that can be reached from it, for networks that are driven through: an
+/// intersection alone, a motorway.
+enum class TripEnds { connected, reachable };
 /// Where the demand of a scenario comes from.
 enum class DemandKind { flows, trips, measured };
 
@@ -41,6 +45,10 @@ constexpr auto spellings(IdmPreset) {
 constexpr auto spellings(Restriction) {
     return std::array{Spelling<Restriction>{Restriction::none, "none"},
                       Spelling<Restriction>{Restriction::largest_car_component, "largest_car_component"}};
+}
+constexpr auto spellings(TripEnds) {
+    return std::array{Spelling<TripEnds>{TripEnds::connected, "connected"},
+                      Spelling<TripEnds>{TripEnds::reachable, "reachable"}};
 }
 constexpr auto spellings(Access) {
     return std::array{Spelling<Access>{Access::own, "own"},
@@ -246,6 +254,7 @@ struct Trips {
     double emergency_minimum_length_m = 1000.0;
     double minimum_edge_m = 20.0;
     std::optional<double> maximum_distance_m;
+    TripEnds ends = TripEnds::connected;
 
     static constexpr auto fields() {
         using S = Trips;
@@ -258,7 +267,12 @@ struct Trips {
                         "Trips start and end on edges at least this long.",
                         "assumed: the longest vehicle, a bus of 12 m, fits"},
             core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
-                        "Longest straight line between the ends of a trip.", "none: no limit"});
+                        "Longest straight line between the ends of a trip.", "none: no limit"},
+            core::Field{
+                "ends", "", &S::ends, 0, 0,
+                "connected: in the largest set of edges that reach each other; reachable: any edge and "
+                "one that it leads to.",
+                "connected"});
     }
 };
 

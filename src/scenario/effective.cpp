@@ -28,11 +28,13 @@ std::string value_text(const Member& value) {
     }
 }
 
-/// Empty texts and empty optionals are the absence of a value.
+/// Empty texts and empty optionals are the absence of a value. So are connected ends of trips: configurations
+/// from before there were others keep their `configuration_hash`.
 template <class Member>
 bool is_absent(const Member& value) {
     if constexpr (std::is_same_v<Member, std::string>) return value.empty();
     if constexpr (std::is_same_v<Member, std::optional<double>>) return !value.has_value();
+    if constexpr (std::is_same_v<Member, TripEnds>) return value == TripEnds::connected;
     return false;
 }
 

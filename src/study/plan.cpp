@@ -1,15 +1,14 @@
 #include "study/plan.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/folder_name.hpp"
 #include "scenario/network.hpp"
 #include "study/detail/folder_lock.hpp"
 
@@ -22,20 +21,11 @@ using results::Engine;
 constexpr const char* network_name = "network";
 constexpr const char* scenario_file_name = "scenario.toml";
 
-/// Names become folders.
-bool is_folder_name(const std::string& name) {
-    const auto allowed = [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-               std::string_view("_-.+=").find(letter) != std::string_view::npos;
-    };
-    return !name.empty() && name.front() != '.' && std::ranges::all_of(name, allowed);
-}
-
 void check_name(const std::string& what, const std::string& name, std::set<std::string>& seen,
                 std::vector<core::Problem>& problems) {
-    if (!is_folder_name(name))
+    if (!core::is_folder_name(name))
         problems.push_back({what, fmt::format("\"{}\" cannot be the name of a folder", name),
-                            "letters, digits and _ - . + =, not starting with '.'", "Rename it"});
+                            core::folder_name_rule, "Rename it"});
     if (!seen.insert(name).second)
         problems.push_back(
             {what, fmt::format("\"{}\" is there twice", name), "each name once", "Rename one"});

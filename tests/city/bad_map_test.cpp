@@ -27,6 +27,47 @@ TEST_F(BadMap, an_empty_map) {
     EXPECT_THAT(refused("empty.osm", "<osm version='0.6'/>"), HasSubstr("is a map without roads"));
 }
 
+TEST_F(BadMap, a_map_without_nodes) {
+    const std::string map = town_map();
+    const std::size_t nodes = map.find("<node");
+    EXPECT_THAT(refused("ways.osm", map.substr(0, nodes) + map.substr(map.find("<way"))),
+                AllOf(HasSubstr("none of their nodes"), HasSubstr("out body; >; out skel qt;")));
+}
+
+TEST_F(BadMap, a_merge_names_the_map_that_is_cut_short) {
+    const std::string map = town_map();
+    EXPECT_THAT(refusal(request({write("whole.osm", map), write("cut.osm", map.substr(0, map.size() / 2))})),
+                AllOf(HasSubstr("/cut.osm: cannot be read"), Not(HasSubstr("map-"))));
+}
+
+TEST_F(BadMap, roads_too_short_for_any_trip) {
+    std::string map = "<osm version='0.6'>";
+    for (int id = 1; id <= 16; ++id)
+        map += fmt::format("<node id='{}' version='1' lat='{:.5f}' lon='{:.5f}'/>", id,
+                           51.0 + id / 4 * 0.0001, 13.0 + id % 4 * 0.00015);
+    for (int id = 1; id <= 16; ++id)
+        for (const int to : {id + 1, id + 4})
+            if (to <= 16 && (to == id + 4 || to % 4 != 0))
+                map += fmt::format(
+                    "<way id='{}' version='1'><nd ref='{}'/><nd ref='{}'/><tag k='highway' "
+                    "v='residential'/><tag k='name' v='{}'/></way>",
+                    100 * id + to, id, to, 100 * id + to);
+    EXPECT_THAT(refused("short.osm", map + "</osm>"),
+                AllOf(HasSubstr("short.osm: has no road of 20 m"), HasSubstr("larger extract"),
+                      Not(HasSubstr("minimum_edge_m"))));
+}
+
+TEST_F(BadMap, pedestrians_on_a_map_without_a_place_for_crossings) {
+    std::string map = town_map(13.0, 51.0, "primary");
+    for (std::size_t at = map.find("<tag k='name' v='Straße"); at != std::string::npos;
+         at = map.find("<tag k='name' v='Straße", at + 60))
+        map.insert(at, "<tag k='maxspeed' v='100'/>");
+    ImportRequest asked = request({write("fast.osm", map)});
+    asked.pedestrians_per_hour = 60.0;
+    EXPECT_THAT(refusal(asked), AllOf(HasSubstr("netconvert finds no place for a crossing"),
+                                      Not(HasSubstr("let netconvert guess"))));
+}
+
 TEST_F(BadMap, a_map_without_roads_for_cars) {
     EXPECT_THAT(refused("paths.osm", town_map(13.0, 51.0, "footway")), HasSubstr("no road for cars"));
     const std::filesystem::path ring = "/usr/share/sumo/tools/game/racing/spreewaldring.osm";
@@ -70,11 +111,33 @@ TEST_F(BadMap, a_bomb) {
 
 TEST_F(BadMap, a_name_that_is_taken_or_none) {
     const auto map = write("town.osm", town_map());
-    for (const char* const name : {".hidden", "a,b", "line\nbreak"})
+    for (const char* const name : {".hidden", "a,b", "line\nbreak", "Köln Süd", "a\"b"})
         EXPECT_THAT(refusal(request({map}, name)), HasSubstr("is no name for a scenario"));
     std::filesystem::create_directories(out() / "town");
     EXPECT_THROW(run(request({map})), core::InputError);
     EXPECT_TRUE(std::filesystem::is_empty(out() / "town"));
+}
+
+TEST_F(BadMap, a_name_that_another_import_took_in_the_meantime) {
+    const ImportRequest made = request({write("town.osm", town_map())});
+    const auto taken = [&](const std::string& stage, double) {
+        if (stage != "done") return;
+        std::filesystem::create_directories(made.folder);
+        core::write_atomically(made.folder / "scenario.toml", "");
+    };
+    try {
+        import(made, taken);
+        ADD_FAILURE() << "was imported";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("in the meantime"));
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out()), {}), 1);
+}
+
+TEST_F(BadMap, a_folder_with_a_comma_in_its_path) {
+    EXPECT_THAT(
+        refusal(request({write("town.osm", town_map())}, "a,b/town")),
+        AllOf(HasSubstr("a,b/town: would lie in a folder with a comma"), Not(HasSubstr("importing"))));
 }
 
 TEST_F(BadMap, a_network_of_an_unknown_version) {

@@ -88,6 +88,15 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     EXPECT_THAT(none.out, HasSubstr("0 EVs with a route"));
 }
 
+TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
+    write_line_scenario();
+    EXPECT_THAT(clearway({"check", "line"}).out, HasSubstr("ok       routes      0 of"));
+    write_line_scenario("to = \"second\"", "to = \"first\"");
+    const Ended ended = clearway({"check", "line"});
+    EXPECT_EQ(ended.code, 6) << ended.out << ended.err;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("short    routes"), HasSubstr("1 of 1 EVs drive a single edge")));
+}
+
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     write_line_scenario();
     const Ended failed = clearway({"check", "line", "--run-time-limit", "0.001"});
@@ -97,6 +106,16 @@ TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "runs/check-line/manifest.json"));
     EXPECT_EQ(clearway({"check", "line"}).code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line"));
+}
+
+TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {
+    write("town.osm", city::town_map());
+    const Ended relative = clearway({"import", "town.osm", "--name", "my folder/town"});
+    ASSERT_EQ(relative.code, 0) << relative.err;
+    EXPECT_THAT(relative.out, HasSubstr("Next: clearway check './my folder/town'\n"));
+    const std::string absolute = (folder() / "other").string();
+    EXPECT_THAT(clearway({"import", "town.osm", "--name", absolute}).out,
+                HasSubstr("Next: clearway check " + absolute + "\n"));
 }
 
 TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {

@@ -2,9 +2,21 @@
 
 #include <string>
 
+#include "city/detail/map_contents.hpp"
+#include "city/import.hpp"
 #include "roads/geography.hpp"
 
 namespace clearway::city::detail {
+
+/// On which side traffic drives, and why, in words.
+struct DrivingSideChoice {
+    DrivingSide side = DrivingSide::right;
+    std::string reason;
+};
+
+/// `asked` decides unless it is by_country; then the boundaries of the map that say so, when they agree; then
+/// the roads, when most of all roads say so, for single ones lie crosswise in interchanges; then the country.
+DrivingSideChoice choose_driving_side(DrivingSide asked, const MapContents& map);
 
 /// The land at a place where traffic drives on the left, empty where it drives on the right. By boxes of
 /// about a tenth of a degree, so a place within some 10 km of a border may be told wrong.

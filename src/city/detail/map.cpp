@@ -1,12 +1,11 @@
 #include "city/detail/map.hpp"
 
 #include <algorithm>
-#include <map>
-#include <unordered_map>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
-#include "city/detail/element.hpp"
+#include "city/detail/source.hpp"
 #include "city/detail/tool.hpp"
 #include "core/error.hpp"
 
@@ -14,143 +13,122 @@ namespace clearway::city::detail {
 
 namespace {
 
-using scenario::SiteKind;
-
-std::string tag(const Element& element, std::string_view key) {
-    for (const Element& child : element.children)
-        if (child.name == "tag" && child.text("k") == key) return child.text("v");
-    return {};
-}
-
-std::optional<SiteKind> site_kind(const Element& element) {
-    const std::string amenity = tag(element, "amenity");
-    if (amenity == "hospital") return SiteKind::hospital;
-    if (tag(element, "emergency") == "ambulance_station") return SiteKind::ambulance_station;
-    if (amenity == "fire_station") return SiteKind::fire_station;
-    return std::nullopt;
-}
-
-/// Places of nodes, by their ids, which a site or a road stands for.
-using Nodes = std::unordered_map<std::string, roads::Coordinates>;
-
-struct PendingSite {
-    std::size_t row;   ///< In MapContents::sites.
-    std::string node;  ///< That stands for it.
-};
-
-class MapReader {
-  public:
-    void take(const Element& element) {
-        if (element.name == "node") take_node(element);
-        if (element.name == "way") take_way(element);
-        if (element.name == "relation") take_relation(element);
-        const std::string side = tag(element, "driving_side");
-        if (side == "left" || side == "right") contents_.driving_side = side;
-    }
-
-    MapContents finish() {
-        for (const PendingSite& site : pending_) {
-            const auto node = nodes_.find(site.node);
-            if (node != nodes_.end()) {
-                contents_.sites[site.row].place = node->second;
-                known_[site.row] = true;
-            }
-        }
-        std::vector<MapSite> placed;
-        for (std::size_t row = 0; row < contents_.sites.size(); ++row)
-            if (known_[row]) placed.push_back(std::move(contents_.sites[row]));
-        contents_.sites = std::move(placed);
-        const auto count = static_cast<double>(std::max<std::size_t>(1, nodes_.size()));
-        contents_.centre = {longitude_sum_ / count, latitude_sum_ / count};
-        return std::move(contents_);
-    }
-
-  private:
-    void take_node(const Element& element) {
-        const auto longitude = number(element.text("lon"));
-        const auto latitude = number(element.text("lat"));
-        if (!longitude || !latitude) return;
-        const roads::Coordinates place{*longitude, *latitude};
-        longitude_sum_ += place.longitude_deg;
-        latitude_sum_ += place.latitude_deg;
-        nodes_[element.text("id")] = place;
-        if (const auto kind = site_kind(element)) {
-            contents_.sites.push_back({*kind, tag(element, "name"), place});
-            known_.push_back(true);
-        }
-    }
-
-    void take_way(const Element& element) {
-        const auto first =
-            std::ranges::find_if(element.children, [](const Element& child) { return child.name == "nd"; });
-        if (first == element.children.end()) return;
-        if (!tag(element, "highway").empty()) ++contents_.roads;
-        first_node_[element.text("id")] = first->text("ref");
-        if (const auto kind = site_kind(element))
-            add_pending(*kind, tag(element, "name"), first->text("ref"));
-    }
-
-    void take_relation(const Element& element) {
-        const auto kind = site_kind(element);
-        if (!kind) return;
-        for (const Element& member : element.children) {
-            if (member.name != "member" || member.text("type") != "way") continue;
-            const auto way = first_node_.find(member.text("ref"));
-            if (way != first_node_.end()) return add_pending(*kind, tag(element, "name"), way->second);
-        }
-    }
-
-    void add_pending(SiteKind kind, std::string name, std::string node) {
-        pending_.push_back({contents_.sites.size(), std::move(node)});
-        contents_.sites.push_back({kind, std::move(name), {}});
-        known_.push_back(false);
-    }
-
-    MapContents contents_;
-    std::vector<bool> known_;  ///< By site: its place is known.
-    std::vector<PendingSite> pending_;
-    Nodes nodes_;
-    std::unordered_map<std::string, std::string> first_node_;  ///< By way.
-    double longitude_sum_ = 0.0, latitude_sum_ = 0.0;
-};
-
 [[noreturn]] void refuse(const std::filesystem::path& map, const std::string& what, const std::string& cure) {
     throw core::InputError(core::Problem{map.string(), what, "an OpenStreetMap extract with roads", cure});
 }
 
-void run_osmium(std::vector<std::string> arguments, const std::filesystem::path& map,
-                const std::filesystem::path& log, const OnProgress& on_progress) {
-    arguments.insert(arguments.begin() + 1, {"--overwrite", "--no-progress"});
-    if (!succeeds({"osmium", std::move(arguments), log, "reading the map", "osmium-tool"}, on_progress))
-        refuse(map, fmt::format("cannot be read as a map, osmium says:\n{}", complaint(log)),
+/// Runs osmium on maps. It goes by the ends of names, so it gets links whose names say what the files are.
+class Osmium {
+  public:
+    Osmium(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
+           const OnProgress& on_progress)
+        : maps_(maps), folder_(folder), on_progress_(on_progress) {
+        for (std::size_t row = 0; row < maps.size(); ++row) {
+            links_.push_back(folder / fmt::format("map-{}.{}", row, map_format(maps[row])));
+            std::filesystem::create_symlink(std::filesystem::absolute(maps[row]), links_.back());
+        }
+    }
+
+    const std::vector<std::filesystem::path>& links() const { return links_; }
+    std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+
+    /// Whether it works out; `complaint` tells why not.
+    bool works(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin() + 1, {"--overwrite", "--no-progress"});
+        return succeeds({"osmium", std::move(arguments), log(), "reading the map", "osmium-tool"},
+                        on_progress_);
+    }
+    std::string complaint() const { return detail::complaint(log()); }
+
+    /// Throws core::InputError, with the map that osmium names, when it does not work out.
+    void run(std::vector<std::string> arguments) const {
+        if (works(std::move(arguments))) return;
+        const std::size_t row = blamed();
+        std::string text = complaint();
+        const std::string link = links_[row].string();
+        for (std::size_t at = text.find(link); at != std::string::npos; at = text.find(link))
+            text.replace(at, link.size(), maps_[row].filename().string());
+        refuse(maps_[row], fmt::format("cannot be read as a map, osmium says:\n{}", text),
                "it may be cut short: download it again");
+    }
+
+  private:
+    std::filesystem::path log() const { return folder_ / "osmium.log"; }
+
+    /// Of several maps, the first that osmium does not read: it says what is wrong, but not always where.
+    std::size_t blamed() const {
+        if (maps_.size() == 1) return 0;
+        for (std::size_t row = 0; row < maps_.size(); ++row)
+            if (!works({"cat", "-o", file("tried.osm.pbf").string(), links_[row].string()})) return row;
+        return 0;
+    }
+
+    const std::vector<std::filesystem::path>& maps_;
+    const std::filesystem::path& folder_;
+    const OnProgress& on_progress_;
+    std::vector<std::filesystem::path> links_;
+};
+
+std::filesystem::path merged(const Osmium& osmium) {
+    const std::filesystem::path whole = osmium.file("merged.osm.pbf");
+    const auto merge_of = [&](const std::vector<std::filesystem::path>& files) {
+        std::vector<std::string> arguments = {"merge", "-o", whole.string()};
+        for (const std::filesystem::path& file : files)
+            arguments.push_back(file.string());
+        return arguments;
+    };
+    if (osmium.works(merge_of(osmium.links()))) return whole;
+    if (osmium.complaint().find("out of order") == std::string::npos) {
+        osmium.run(merge_of(osmium.links()));
+        return whole;
+    }
+    // Overpass writes in the order of the query, often ways first.
+    std::vector<std::filesystem::path> sorted;
+    for (const std::filesystem::path& link : osmium.links()) {
+        sorted.push_back(osmium.file(fmt::format("sorted-{}.osm.pbf", sorted.size())));
+        osmium.run({"sort", "-s", "multipass", "-o", sorted.back().string(), link.string()});
+    }
+    osmium.run(merge_of(sorted));
+    return whole;
+}
+
+/// SUMO's types of roads, then those of towns in place of its 100 km/h on main roads.
+std::string type_files() {
+    const char* const set = std::getenv("SUMO_HOME");
+    const std::filesystem::path folder =
+        std::filesystem::path(set != nullptr && *set != '\0' ? set : "/usr/share/sumo") / "data" / "typemap";
+    std::string text;
+    for (const char* const name : {"osmNetconvert.typ.xml", "osmNetconvertUrbanDe.typ.xml"}) {
+        const std::filesystem::path file = folder / name;
+        if (!std::filesystem::exists(file))
+            throw core::EnvironmentError(fmt::format(
+                "no file {}. Set SUMO_HOME to SUMO's folder (Debian: /usr/share/sumo)", file.string()));
+        text += (text.empty() ? "" : ",") + file.string();
+    }
+    return text;
 }
 
 }  // namespace
 
-std::filesystem::path extract_roads(const std::vector<std::filesystem::path>& maps,
-                                    const std::filesystem::path& folder, const OnProgress& on_progress) {
-    const std::filesystem::path log = folder / "osmium.log";
-    std::filesystem::path whole = maps.front();
-    if (maps.size() > 1) {
-        whole = folder / "merged.osm.pbf";
-        std::vector<std::string> arguments = {"merge", "-o", whole.string()};
-        for (const std::filesystem::path& map : maps)
-            arguments.push_back(map.string());
-        run_osmium(std::move(arguments), maps.front(), log, on_progress);
-    }
-    const std::filesystem::path extract = folder / "extract.osm";
-    run_osmium({"tags-filter", "-o", extract.string(), whole.string(), "w/highway", "n/highway",
+Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
+                      const OnProgress& on_progress) {
+    const Osmium osmium(maps, folder, on_progress);
+    const std::filesystem::path whole = maps.size() > 1 ? merged(osmium) : osmium.links().front();
+    Extract extract{osmium.file("extract.osm"), {}};
+    osmium.run({"tags-filter", "-o", extract.file.string(), whole.string(), "w/highway", "n/highway",
                 "r/type=restriction", "nwr/amenity=hospital,fire_station", "nwr/emergency=ambulance_station",
-                "nwr/driving_side"},
-               maps.front(), log, on_progress);
+                "nwr/driving_side"});
+    extract.contents = read_map(extract.file);
+    if (!extract.contents.is_sorted) {
+        const std::filesystem::path sorted = osmium.file("sorted.osm");
+        osmium.run({"sort", "-o", sorted.string(), extract.file.string()});
+        extract = {sorted, read_map(sorted)};
+    }
+    if (extract.contents.roads == 0) refuse(maps.front(), "is a map without roads", "choose another extract");
+    if (extract.contents.nodes == 0)
+        refuse(maps.front(), "has roads, but none of their nodes, which say where they run",
+               "ask Overpass for them too: end the query with  out body; >; out skel qt;");
     return extract;
-}
-
-MapContents read_map(const std::filesystem::path& extract) {
-    MapReader reader;
-    for_each_element(extract, [&](Element&& element) { reader.take(element); });
-    return reader.finish();
 }
 
 std::filesystem::path build_roads(const std::filesystem::path& map, const std::filesystem::path& extract,
@@ -159,7 +137,7 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
     const std::filesystem::path network = folder / "network.net.xml";
     const std::filesystem::path log = folder / "netconvert.log";
     std::vector<std::string> arguments = {
-        "--osm-files", extract.string(), "--output-file", network.string(),
+        "--osm-files", extract.string(), "--output-file", network.string(), "--type-files", type_files(),
         // Nodes that only bend a road, and pieces below 5 m that a change of
         // name or limit cuts off: vehicles are longer than these edges.
         "--geometry.remove", "--geometry.remove.min-length", "5", "--junctions.join", "--roundabouts.guess",

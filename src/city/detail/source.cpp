@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -48,6 +50,37 @@ std::string first_element(std::string_view text) {
     }
 }
 
+/// The beginning of a file, unpacked.
+std::string head_of(PackedFile& stream) {
+    std::string head(std::size_t{1} << 16, '\0');
+    head.resize(stream.read(head));
+    return head;
+}
+
+bool is_pbf(std::string_view head) {
+    constexpr std::size_t block_header = 32;
+    return head.substr(0, block_header).find("OSMHeader") != std::string_view::npos;
+}
+
+/// The last bytes of a file, unpacked.
+std::string end_of(const std::filesystem::path& file) {
+    constexpr std::size_t enough = 4096;
+    PackedFile stream(file);
+    if (stream.packing() == Packing::none) {
+        std::ifstream plain(file, std::ios::binary);
+        const auto size = static_cast<std::uintmax_t>(std::filesystem::file_size(file));
+        plain.seekg(static_cast<std::streamoff>(size - std::min<std::uintmax_t>(size, enough)));
+        return {std::istreambuf_iterator<char>(plain), {}};
+    }
+    std::string end;
+    std::array<char, 1 << 16> buffer{};
+    while (const std::size_t count = stream.read(buffer)) {
+        end.append(buffer.data(), count);
+        if (end.size() > enough) end.erase(0, end.size() - enough);
+    }
+    return end;
+}
+
 bool has_name_of_configuration(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
     return extension == ".sumocfg" || extension == ".cfg";
@@ -58,12 +91,9 @@ bool has_name_of_configuration(const std::filesystem::path& file) {
 SourceKind kind_of(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
     PackedFile stream(file);
-    std::string head(std::size_t{1} << 16, '\0');
-    head.resize(stream.read(head));
+    const std::string head = head_of(stream);
     if (head.empty()) refuse(file, "is empty", "download it again");
-    constexpr std::size_t block_header = 32;
-    if (std::string_view(head).substr(0, block_header).find("OSMHeader") != std::string_view::npos)
-        return SourceKind::map;
+    if (is_pbf(head)) return SourceKind::map;
     if (head.starts_with("PK\x03\x04"))
         refuse(file, "is a zip archive", "unpack it and give the file inside");
     const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
@@ -83,6 +113,29 @@ SourceKind kind_of(const std::filesystem::path& file) {
     refuse(file,
            element.empty() ? "is neither XML nor a map" : fmt::format("has the root element <{}>", element),
            "");
+}
+
+std::string map_format(const std::filesystem::path& map) {
+    PackedFile stream(map);
+    const Packing packing = stream.packing();
+    if (is_pbf(head_of(stream))) {
+        if (packing == Packing::none) return "osm.pbf";
+        refuse(map, "is a PBF packed once more", "unpack it");
+    }
+    if (packing == Packing::none) return "osm";
+    return packing == Packing::gzip ? "osm.gz" : "osm.bz2";
+}
+
+std::string overpass_remark(const std::filesystem::path& map) {
+    constexpr std::string_view mark = "<remark>";
+    const std::string end = end_of(map);
+    const std::size_t open = end.rfind(mark);
+    if (open == std::string::npos) return {};
+    const std::size_t first = end.find_first_not_of(" \t\r\n", open + mark.size());
+    const std::size_t close = end.find("</remark>", open);
+    if (first == std::string::npos || close == std::string::npos || first >= close) return {};
+    const std::size_t last = end.find_last_not_of(" \t\r\n", close - 1);
+    return end.substr(first, last + 1 - first);
 }
 
 void refuse_bomb(const std::filesystem::path& file) {

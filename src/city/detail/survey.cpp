@@ -7,9 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "roads/reach.hpp"
+
 namespace clearway::city::detail {
 
 namespace {
+
+using scenario::SiteKind;
+
+constexpr double site_reach_m = 300.0;
 
 struct Nearest {
     core::EdgeIndex edge;
@@ -27,6 +33,34 @@ Nearest nearest_edge(const roads::Network& network, const std::vector<core::Edge
     }
     return nearest;
 }
+
+/// The edges at which sites may lie. In a network that is driven through, stations need a way onward and
+/// hospitals one that leads there; a kind that stands in for the other needs both.
+class SiteEdges {
+  public:
+    SiteEdges(const roads::Network& network, const scenario::Trips& trips, const std::vector<MapSite>& sites)
+        : stations_(trip_edges(network, trips)), hospitals_(stations_) {
+        if (trips.ends == scenario::TripEnds::connected) return;
+        const roads::Reach reach(network);
+        const bool has_hospital = std::ranges::any_of(sites, is_hospital);
+        const bool has_station = !std::ranges::all_of(sites, is_hospital);
+        const auto erase_ends = [&](std::vector<core::EdgeIndex>& edges, roads::Way way) {
+            std::erase_if(edges, [&](core::EdgeIndex edge) { return reach.is_end(edge, way); });
+        };
+        erase_ends(stations_, roads::Way::onward);
+        if (!has_hospital) erase_ends(stations_, roads::Way::back);
+        erase_ends(hospitals_, roads::Way::back);
+        if (!has_station) erase_ends(hospitals_, roads::Way::onward);
+    }
+    const std::vector<core::EdgeIndex>& of(SiteKind kind) const {
+        return kind == SiteKind::hospital ? hospitals_ : stations_;
+    }
+
+  private:
+    static bool is_hospital(const MapSite& site) { return site.kind == SiteKind::hospital; }
+
+    std::vector<core::EdgeIndex> stations_, hospitals_;
+};
 
 }  // namespace
 
@@ -59,20 +93,34 @@ double diagonal_m(const roads::Network& network) {
     return std::hypot(high.x_m - low.x_m, high.y_m - low.y_m);
 }
 
+std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const scenario::Trips& trips) {
+    std::vector<core::EdgeIndex> edges = trips.ends == scenario::TripEnds::reachable
+                                             ? roads::car_edges(network)
+                                             : roads::largest_car_component(network);
+    std::erase_if(edges,
+                  [&](core::EdgeIndex edge) { return network.edge(edge).length_m < trips.minimum_edge_m; });
+    return edges;
+}
+
 std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
-                                                 const roads::Network& network, double minimum_edge_m,
+                                                 const roads::Network& network, const scenario::Trips& trips,
                                                  LeftOut& left_out) {
-    constexpr double reach_m = 300.0;
     std::vector<scenario::EmergencySite> placed;
     const auto geography = roads::Geography::of(network.location());
     if (!geography) return placed;
-    std::vector<core::EdgeIndex> edges = roads::largest_car_component(network);
-    std::erase_if(edges, [&](core::EdgeIndex edge) { return network.edge(edge).length_m < minimum_edge_m; });
-    std::set<std::pair<scenario::SiteKind, std::string>> taken;
+    const SiteEdges edges(network, trips, sites);
+    const std::vector<core::EdgeIndex> all = roads::car_edges(network);
+    std::set<std::pair<SiteKind, std::string>> taken;
     for (const MapSite& site : sites) {
-        const Nearest nearest = nearest_edge(network, edges, geography->point(site.place));
-        if (nearest.metres > reach_m) {
-            left_out.add("hospitals or stations away from the roads of the network", site.name);
+        const roads::Point place = geography->point(site.place);
+        const Nearest nearest = nearest_edge(network, edges.of(site.kind), place);
+        if (nearest.metres > site_reach_m) {
+            left_out.add(
+                nearest_edge(network, all, place).metres > site_reach_m
+                    ? "hospitals or stations away from the roads of the network"
+                    : "hospitals or stations at roads where no trip can start or end: other roads do "
+                      "not lead there, or back",
+                site.name);
             continue;
         }
         const std::string& edge = network.edge(nearest.edge).id;

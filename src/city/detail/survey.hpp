@@ -15,11 +15,13 @@ void survey(const roads::Network& network, Findings& findings);
 /// Diagonal of the network's lanes, m.
 double diagonal_m(const roads::Network& network);
 
-/// The sites of a map at the nearest edge of the largest car-connected component, within 300 m of its start,
-/// end or bends; others are left out and counted. One site for each edge and kind. `minimum_edge_m`: shorter
-/// edges are not taken, for trips cannot start there.
+/// The edges on which trips may start and end. By `trips.ends`, not shorter than `trips.minimum_edge_m`.
+std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const scenario::Trips& trips);
+
+/// The sites of a map at the nearest edge on which such trips may start or end, within 300 m of its start,
+/// end or bends; others are left out and counted. One site for each edge and kind.
 std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
-                                                 const roads::Network& network, double minimum_edge_m,
+                                                 const roads::Network& network, const scenario::Trips& trips,
                                                  LeftOut& left_out);
 
 }  // namespace clearway::city::detail

@@ -8,6 +8,7 @@
 
 #include "city/detail/survey.hpp"
 #include "city/detail/tool.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "scenario/prepare.hpp"
 
@@ -35,6 +36,8 @@ struct Level {
     }
 };
 
+/// SUMO's summary says nothing of the speed (-1) where nobody is on the road: so speeds are weighted by who
+/// is.
 Level read_level(const std::filesystem::path& summary) {
     Level level;
     double rows = 0.0;
@@ -45,12 +48,13 @@ Level read_level(const std::filesystem::path& summary) {
         if (value("time") < probe_begin_s) return;
         ++rows;
         level.running += value("running");
-        level.relative_speed += value("meanSpeedRelative");
+        level.relative_speed += value("running") * std::max(0.0, value("meanSpeedRelative"));
         level.halting += value("halting");
         level.waiting += value("waiting");
     });
+    if (level.running > 0.0) level.relative_speed /= level.running;
     if (rows == 0.0) return level;
-    for (double* mean : {&level.running, &level.relative_speed, &level.halting, &level.waiting})
+    for (double* mean : {&level.running, &level.halting, &level.waiting})
         *mean /= rows;
     return level;
 }
@@ -141,17 +145,43 @@ FoundLevel find_level(const Probe& probe, double most) {
     return {std::round(most * share), {}};
 }
 
-std::string describe(double cars, const Level& level, const Findings& findings) {
+std::string describe(const scenario::ScenarioConfig& config, const Level& level, const Findings& findings) {
+    const char* const places =
+        config.trips.ends == scenario::TripEnds::reachable
+            ? "from where roads enter, or places drawn by length of road, to where they "
+              "lead"
+            : "between places drawn by length of road";
+    const std::string speed =
+        level.running > 0.0 ? fmt::format("mean speed {:.0f} % of the limits, {:.0f} % halting",
+                                          100.0 * level.relative_speed, 100.0 * level.halting / level.running)
+                            : "no speed to tell";
     return fmt::format(
-        "synthetic: {:.0f} cars in {:.0f} s between places drawn by length of road; after 12 to 15 minutes "
-        "{:.0f} on the road, {:.1f} a km of lane, mean speed {:.0f} % of the limits, {:.0f} % halting, "
-        "{:.0f} waiting "
-        "to enter",
-        cars, window_s, level.running, level.running / std::max(0.001, findings.lane_km),
-        100.0 * level.relative_speed, 100.0 * level.halting / std::max(1.0, level.running), level.waiting);
+        "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} a km of lane, "
+        "{}, {:.0f} waiting to enter",
+        config.demand.human + config.demand.automated, window_s, places, level.running,
+        level.running < 1.0 ? 1 : 0, level.running / std::max(0.001, findings.lane_km), speed, level.waiting);
 }
 
 }  // namespace
+
+void choose_trips(Import& import, scenario::ScenarioConfig& config, const roads::Network& network) {
+    constexpr double most_of_the_network = 0.5;
+    const double share = import.findings.connected_share;
+    if (share <= most_of_the_network) {
+        config.trips.ends = scenario::TripEnds::reachable;
+        import.findings.changes.push_back(
+            fmt::format("only {:.1f} % of the car edges reach each other, so trips go from any edge to one "
+                        "that it leads to "
+                        "(trips.ends = \"reachable\")",
+                        100.0 * share));
+    }
+    if (!trip_edges(network, config.trips).empty()) return;
+    throw core::InputError(core::Problem{
+        import.request.files.front().string(),
+        fmt::format("has no road of {:g} m between two junctions, on which a trip could start or end",
+                    config.trips.minimum_edge_m),
+        "roads for cars that reach each other", "choose another or a larger extract"});
+}
 
 void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, const roads::Network& network) {
     const double diagonal = diagonal_m(network);
@@ -175,7 +205,7 @@ void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, cons
     Findings& findings = import.findings;
     findings.vehicles_per_hour = cars * 3600.0 / window_s;
     findings.vehicles = {{"car", config.demand.human + config.demand.automated}};
-    findings.demand = describe(cars, level, findings);
+    findings.demand = describe(config, level, findings);
 }
 
 scenario::Prepared try_out(Import& import, scenario::ScenarioConfig& config) {

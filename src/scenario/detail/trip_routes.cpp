@@ -13,6 +13,7 @@ namespace clearway::scenario::detail {
 namespace {
 
 using core::Purpose;
+using roads::Way;
 
 /// Counters of the draws of one vehicle; origin and destination follow `first_trip` in pairs. Never
 /// renumbered.
@@ -54,7 +55,9 @@ bool open_to_emergency(const roads::Network& network, const RouteEdges& route) {
 }
 
 TripRoutes::TripRoutes(const DemandContext& context) : context_(context) {
-    for (const core::EdgeIndex edge : roads::largest_car_component(context.network)) {
+    const bool anywhere = context.config.trips.ends == TripEnds::reachable;
+    for (const core::EdgeIndex edge :
+         anywhere ? roads::car_edges(context.network) : roads::largest_car_component(context.network)) {
         const float length_m = context.network.edge(edge).length_m;
         if (length_m < context.config.trips.minimum_edge_m) continue;
         edges_.push_back(edge);
@@ -64,6 +67,7 @@ TripRoutes::TripRoutes(const DemandContext& context) : context_(context) {
         throw core::InputError(core::Problem{context.config.where("trips.minimum_edge_m"),
                                              "leaves no edge for trips to start and end on",
                                              "shorter than the longest edge", "lower it"});
+    if (anywhere) reachable_.emplace(context.network, edges_);
     read_sites();
 }
 
@@ -92,7 +96,7 @@ RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, cons
     const roads::Network& network = context_.network;
     for (std::uint64_t attempt = 0; attempt < most_draws; ++attempt) {
         const Ends ends = draw(TripDraw::first_trip + 2 * attempt);
-        if (too_far(ends)) continue;
+        if (!ends.from.exists() || !ends.to.exists() || too_far(ends)) continue;
         auto route = roads::fastest_route(network, ends.from, ends.to);
         if (route && roads::route_length(network, *route).value >= least.metres &&
             !turns_round(network, *route) && (!for_emergency || open_to_emergency(network, *route)))
@@ -105,34 +109,46 @@ RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, cons
 }
 
 RouteEdges TripRoutes::traffic(const std::string& id) const {
-    return search(
-        {"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
-        [&](std::uint64_t counter) {
-            return Ends{place(Purpose::demand, id, counter), place(Purpose::demand, id, counter + 1)};
-        });
+    return search({"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
+                  [&](std::uint64_t counter) { return two_places(Purpose::demand, id, counter); });
 }
 
 RouteEdges TripRoutes::emergency(const std::string& id, traffic::VehicleKind kind,
                                  const LeastLength& least) const {
-    const auto anywhere = [&](std::uint64_t counter) { return place(Purpose::emergency, id, counter); };
     if (stations_.empty())
-        return search(least, true, [&](std::uint64_t counter) {
-            return Ends{anywhere(counter), anywhere(counter + 1)};
-        });
+        return search(least, true,
+                      [&](std::uint64_t counter) { return two_places(Purpose::emergency, id, counter); });
     const bool is_fire_engine = kind == traffic::VehicleKind::fire_engine;
     const auto& stations = is_fire_engine ? fire_stations_ : stations_;
     const bool to_hospital =
         !is_fire_engine &&
         context_.random.uniform(Purpose::emergency, core::vehicle_key(id).value, TripDraw::leg) >= 0.5;
     return search(least, true, [&](std::uint64_t counter) {
-        return to_hospital ? Ends{anywhere(counter), site(hospitals_, id, counter + 1)}
-                           : Ends{site(stations, id, counter), anywhere(counter + 1)};
+        if (to_hospital) {
+            const core::EdgeIndex to = site(hospitals_, id, counter + 1);
+            return Ends{other_place(to, Way::back, {Purpose::emergency, id, counter}), to};
+        }
+        const core::EdgeIndex from = site(stations, id, counter);
+        return Ends{from, other_place(from, Way::onward, {Purpose::emergency, id, counter + 1})};
     });
 }
 
-core::EdgeIndex TripRoutes::place(Purpose purpose, const std::string& id, std::uint64_t counter) const {
-    const double at_m =
-        context_.random.uniform(purpose, core::vehicle_key(id).value, counter) * reached_m_.back();
+TripRoutes::Ends TripRoutes::two_places(Purpose purpose, const std::string& id, std::uint64_t counter) const {
+    const Draw first{purpose, id, counter};
+    const core::EdgeIndex from = reachable_ ? reachable_->origin(uniform(first)) : place(first);
+    return {from, other_place(from, Way::onward, {purpose, id, counter + 1})};
+}
+
+core::EdgeIndex TripRoutes::other_place(core::EdgeIndex end, Way way, const Draw& draw) const {
+    return reachable_ ? reachable_->other_end(end, way, uniform(draw)) : place(draw);
+}
+
+double TripRoutes::uniform(const Draw& draw) const {
+    return context_.random.uniform(draw.purpose, core::vehicle_key(draw.id).value, draw.counter);
+}
+
+core::EdgeIndex TripRoutes::place(const Draw& draw) const {
+    const double at_m = uniform(draw) * reached_m_.back();
     const auto row = std::upper_bound(reached_m_.begin(), reached_m_.end(), at_m) - reached_m_.begin();
     return edges_[std::min<std::size_t>(row, edges_.size() - 1)];
 }

@@ -7,6 +7,7 @@
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/reachable_ends.hpp"
 
 namespace clearway::scenario::detail {
 
@@ -22,7 +23,10 @@ struct LeastLength {
 bool open_to_emergency(const roads::Network& network, const RouteEdges& route);
 
 /// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough and does
-/// not turn round, for nobody sets out in the wrong direction.
+/// not turn round, for nobody sets out in the wrong direction. With `trips.ends` = reachable, one end is
+/// drawn among the edges that the other leads to or comes from, and half of the weight lies on the edges at
+/// which traffic can only enter (or only leave) the network, by their lanes: so a ramp is used, however
+/// short.
 class TripRoutes {
   public:
     /// Throws core::InputError when no edge is left for trips, and for sites at edges that are none.
@@ -41,7 +45,16 @@ class TripRoutes {
     };
     template <class DrawEnds>
     RouteEdges search(const LeastLength& least, bool for_emergency, const DrawEnds& draw) const;
-    core::EdgeIndex place(core::Purpose purpose, const std::string& id, std::uint64_t counter) const;
+    struct Draw {
+        core::Purpose purpose;
+        const std::string& id;  ///< Of the vehicle.
+        std::uint64_t counter;
+    };
+    Ends two_places(core::Purpose purpose, const std::string& id, std::uint64_t counter) const;
+    /// The end of a trip whose first end is `end`.
+    core::EdgeIndex other_place(core::EdgeIndex end, roads::Way way, const Draw& draw) const;
+    core::EdgeIndex place(const Draw& draw) const;
+    double uniform(const Draw& draw) const;
     core::EdgeIndex site(const std::vector<core::EdgeIndex>& sites, const std::string& id,
                          std::uint64_t counter) const;
     bool too_far(const Ends& ends) const;
@@ -50,6 +63,7 @@ class TripRoutes {
     const DemandContext& context_;
     std::vector<core::EdgeIndex> edges_;
     std::vector<double> reached_m_;
+    std::optional<ReachableEnds> reachable_;
     std::vector<core::EdgeIndex> stations_, fire_stations_, hospitals_;
 };
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace clearway::core {
+
+/// Whether a text may name a scenario, a condition or a run: all become folders, words of shells and files of
+/// SUMO, which takes commas and blanks for separators. ASCII letters, digits and `_-.+=`, not starting with
+/// `.`, at most 100 bytes, for names of files are longer than it and must stay below 255.
+bool is_folder_name(std::string_view name);
+
+/// The rule in words, for messages.
+constexpr const char* folder_name_rule = "1 to 100 letters, digits and _ - . + =, not starting with '.'";
+
+}  // namespace clearway::core
