@@ -134,7 +134,7 @@ TEST_F(SumoScenario, a_configuration_with_relative_lists_packed_files_and_what_c
     setenv("SUMO_HOME", "/usr/share/sumo", 0);
     EXPECT_EQ(findings.vehicles.at("car"), 21);
     EXPECT_THAT(findings.left_out,
-                AllOf(Contains(HasSubstr("<person>")), Contains(HasSubstr("<inductionLoop>")),
+                AllOf(Contains("1 persons who do not walk (walker)"), Contains(HasSubstr("<inductionLoop>")),
                       Contains(HasSubstr("<poly>")), Contains(HasSubstr("scale = 2"))));
     EXPECT_THAT(core::read_file(out() / "town" / "additional.add.xml"),
                 AllOf(HasSubstr("busStop"), Not(HasSubstr("inductionLoop"))));

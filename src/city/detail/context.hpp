@@ -8,6 +8,15 @@
 
 namespace clearway::city::detail {
 
+/// Departures that a scenario takes, times of the route files.
+struct Window {
+    double begin_s = 0.0;
+    double length_s = 0.0;
+
+    double end_s() const { return begin_s + length_s; }
+    bool holds(double depart_s) const { return depart_s >= begin_s && depart_s <= end_s(); }
+};
+
 /// What the steps of one import share.
 struct Import {
     const ImportRequest& request;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "city/detail/person_plan.hpp"
 #include "core/ids.hpp"
 #include "core/random.hpp"
 
@@ -15,6 +16,7 @@ namespace clearway::city::detail {
 namespace {
 
 constexpr const char* default_type = "DEFAULT_VEHTYPE";
+constexpr const char* default_person_type = "DEFAULT_PEDTYPE";
 
 /// What a vehicle keeps of its attributes; id, type, depart and route are set anew.
 constexpr std::array kept_attributes = {"departLane",  "departPos",   "departSpeed",  "departPosLat",
@@ -25,9 +27,12 @@ bool is_traffic(const std::string& name) {
     return name == "vehicle" || name == "trip" || name == "flow";
 }
 
-/// Elements that stand for people and goods.
-bool is_transportable(const std::string& name) {
-    return name == "person" || name == "personFlow" || name == "container" || name == "containerFlow";
+bool is_person(const std::string& name) {
+    return name == "person" || name == "personFlow";
+}
+
+bool is_container(const std::string& name) {
+    return name == "container" || name == "containerFlow";
 }
 
 /// Uniform in [0, 1) from an id and a counter, the same wherever it is drawn.
@@ -76,7 +81,9 @@ std::vector<Element> DemandReader::read(const std::filesystem::path& file) {
 bool DemandReader::take(Element& element, const std::filesystem::path& file) {
     if (is_traffic(element.name)) {
         pending_.push_back({std::move(element), file});
-    } else if (is_transportable(element.name)) {
+    } else if (is_person(element.name)) {
+        pending_persons_.push_back({std::move(element), file});
+    } else if (is_container(element.name)) {
         left_out_.add(fmt::format("<{}>, which Clearway has no place for", element.name), element.text("id"));
     } else if (element.name == "vType") {
         take_type(element);
@@ -123,12 +130,10 @@ void DemandReader::take_distribution(const Element& element, std::map<std::strin
 }
 
 Demand DemandReader::finish() {
-    for (const Pending& pending : pending_) {
-        if (pending.element.name == "flow")
-            resolve_flow(pending);
-        else
-            resolve(pending);
-    }
+    for (const Pending& pending : pending_)
+        resolve(pending, [&](const std::string& id, double depart_s) { add(pending, id, depart_s); });
+    for (const Pending& pending : pending_persons_)
+        resolve_person(pending);
     if (!problems_.empty()) throw core::InputError(problems_);
     std::set<std::string> used;
     for (const RoadUser& vehicle : demand_.vehicles)
@@ -137,23 +142,31 @@ Demand DemandReader::finish() {
     return std::move(demand_);
 }
 
-void DemandReader::resolve(const Pending& pending) {
+void DemandReader::resolve(const Pending& pending, const Take& take) {
     const Element& element = pending.element;
+    if (element.name == "flow" || element.name == "personFlow") return resolve_flow(pending, take);
     const auto depart_s = time_s(element.text("depart"));
-    if (depart_s) return add(pending, element.text("id"), *depart_s);
+    if (depart_s) return take(element.text("id"), *depart_s);
     const std::string& word = element.text("depart");
     if (word == "triggered" || word == "containerTriggered" || word == "split")
         return left_out_.add("vehicles that wait for passengers or goods", element.text("id"));
-    if (word == "now") return add(pending, element.text("id"), times_.begin_s);
+    if (word == "now") return take(element.text("id"), times_.begin_s);
     problem(fmt::format("{}:{}", pending.file.string(), element.line), element.text("id"),
             fmt::format("depart is \"{}\"", word), "a time in s, or h:mm:ss");
 }
 
-void DemandReader::resolve_flow(const Pending& pending) {
+void DemandReader::resolve_flow(const Pending& pending, const Take& take) {
     const std::string place = fmt::format("{}:{}", pending.file.string(), pending.element.line);
     std::size_t row = 0;
     for (const double depart_s : departures(pending.element, place))
-        add(pending, fmt::format("{}.{}", pending.element.text("id"), row++), depart_s);
+        take(fmt::format("{}.{}", pending.element.text("id"), row++), depart_s);
+}
+
+void DemandReader::resolve_person(const Pending& pending) {
+    const Element& person = pending.element;
+    if (const auto reason = reason_not_to_walk(person))
+        return left_out_.add((person.name == "personFlow" ? "flows of " : "") + *reason, person.text("id"));
+    resolve(pending, [&](const std::string& id, double depart_s) { add_person(pending, id, depart_s); });
 }
 
 std::vector<double> DemandReader::departures(const Element& flow, const std::string& place) {
@@ -169,7 +182,9 @@ std::vector<double> DemandReader::departures(const Element& flow, const std::str
             times.push_back(begin_s + row * period_s);
     };
     const std::string& period = flow.text("period");
-    const std::string& hourly = flow.has("vehsPerHour") ? flow.text("vehsPerHour") : flow.text("perHour");
+    std::string hourly = flow.text("perHour");
+    for (const char* const name : {"vehsPerHour", "personsPerHour"})
+        if (flow.has(name)) hourly = flow.text(name);
     if (period.starts_with("exp(")) {
         const double rate = number(period.substr(4, period.find(')') - 4)).value_or(0.0);
         std::uint64_t draw = 0;
@@ -189,7 +204,7 @@ std::vector<double> DemandReader::departures(const Element& flow, const std::str
     } else if (count && *count > 0.0) {
         regular((end_s - begin_s) / *count);
     } else if (!number(hourly) && !count) {
-        problem(place, id, "is a flow without a rate", "number, period, vehsPerHour or probability");
+        problem(place, id, "is a flow without a rate", "number, period, perHour or probability");
     }
     return times;
 }
@@ -200,17 +215,77 @@ void DemandReader::add(const Pending& pending, const std::string& id, double dep
     vehicle.id = id;
     vehicle.depart_s = depart_s;
     vehicle.place = fmt::format("{}:{}", pending.file.string(), source.line);
-    if (id.empty()) return problem(vehicle.place, id, "has no id");
-    const auto [earlier, is_new] = places_.emplace(id, vehicle.place);
-    if (!is_new)
-        return problem(vehicle.place, id, fmt::format("occurs twice, first at {}", earlier->second),
-                       "one vehicle for each id");
+    if (!note_id(id, vehicle.place, places_)) return;
     vehicle.element.name = "vehicle";
     for (const char* const name : kept_attributes)
         if (source.has(name)) vehicle.element.set(name, source.text(name));
     for (const Element& child : source.children)
         if (child.name == "stop" || child.name == "param") vehicle.element.children.push_back(child);
     if (set_type(source, vehicle) && set_way(source, vehicle)) demand_.vehicles.push_back(std::move(vehicle));
+}
+
+void DemandReader::add_person(const Pending& pending, const std::string& id, double depart_s) {
+    const Element& source = pending.element;
+    Person person;
+    person.id = id;
+    person.depart_s = depart_s;
+    person.element = walking_person(source);
+    person.place = fmt::format("{}:{}", pending.file.string(), source.line);
+    if (!note_id(id, person.place, person_places_) || !set_type(source, person)) return;
+    for (Element& stage : person.element.children)
+        if (stage.name == "walk" && !set_edges(stage, person)) return;
+    demand_.persons.push_back(std::move(person));
+}
+
+bool DemandReader::note_id(const std::string& id, const std::string& place,
+                           std::map<std::string, std::string>& places) {
+    if (id.empty()) {
+        problem(place, id, "has no id");
+        return false;
+    }
+    const auto [earlier, is_new] = places.emplace(id, place);
+    if (!is_new)
+        problem(place, id, fmt::format("occurs twice, first at {}", earlier->second), "each id once");
+    return is_new;
+}
+
+bool DemandReader::set_type(const Element& source, Person& person) {
+    person.type = source.has("type") ? source.text("type") : default_person_type;
+    const auto choice = type_choices_.find(person.type);
+    if (choice != type_choices_.end()) person.type = chosen(choice->second, person.id);
+    if (demand_.person_types.contains(person.type)) return true;
+    const auto own = demand_.types.find(person.type);
+    if (own == demand_.types.end() && person.type != default_person_type) {
+        problem(person.place, person.id,
+                fmt::format("has the type \"{}\", which is not defined", person.type),
+                "a vType of the route and additional files");
+        return false;
+    }
+    Element type;
+    type.name = "vType";
+    type.set("id", person.type);
+    if (own != demand_.types.end()) type = own->second;
+    if (!type.has("vClass")) {
+        // SUMO takes such a type for a car's, warns, and people walk at 200 km/h.
+        if (own != demand_.types.end()) demand_.types_made_pedestrian.insert(person.type);
+        type.set("vClass", "pedestrian");
+    }
+    if (type.text("vClass") != "pedestrian") {
+        left_out_.add("persons of a class that does not walk", person.id);
+        return false;
+    }
+    demand_.person_types[person.type] = std::move(type);
+    return true;
+}
+
+/// Replaces the id of a route by its edges.
+bool DemandReader::set_edges(Element& walk, const Person& person) {
+    if (!walk.has("route")) return true;
+    const Element* const route = find_route(walk.text("route"), person.id, person.place);
+    if (route == nullptr) return false;
+    walk.remove("route");
+    walk.set("edges", route->text("edges"));
+    return true;
 }
 
 bool DemandReader::set_type(const Element& source, RoadUser& vehicle) {
@@ -238,16 +313,8 @@ bool DemandReader::set_way(const Element& source, RoadUser& vehicle) {
     for (const Element& child : source.children)
         if (child.name == "route") route = &child;
     if (source.has("route")) {
-        std::string id = source.text("route");
-        const auto choice = route_choices_.find(id);
-        if (choice != route_choices_.end()) id = chosen(choice->second, vehicle.id);
-        const auto found = routes_.find(id);
-        if (found == routes_.end()) {
-            problem(vehicle.place, vehicle.id, fmt::format("has the route \"{}\", which is not defined", id),
-                    "a route of the route and additional files");
-            return false;
-        }
-        route = &found->second;
+        route = find_route(source.text("route"), vehicle.id, vehicle.place);
+        if (route == nullptr) return false;
     }
     if (route != nullptr) {
         vehicle.edges = words(route->text("edges"));
@@ -267,6 +334,16 @@ bool DemandReader::set_way(const Element& source, RoadUser& vehicle) {
         vehicle.edges.push_back(std::move(edge));
     vehicle.edges.push_back(source.text("to"));
     return true;
+}
+
+const Element* DemandReader::find_route(std::string id, const std::string& user, const std::string& place) {
+    const auto choice = route_choices_.find(id);
+    if (choice != route_choices_.end()) id = chosen(choice->second, user);
+    const auto found = routes_.find(id);
+    if (found != routes_.end()) return &found->second;
+    problem(place, user, fmt::format("has the route \"{}\", which is not defined", id),
+            "a route of the route and additional files");
+    return nullptr;
 }
 
 std::string DemandReader::chosen(const Choice& choice, const std::string& id) const {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,10 +24,22 @@ struct RoadUser {
     std::string place;  ///< `city.rou.xml:12`
 };
 
+/// Somebody who walks.
+struct Person {
+    std::string id;
+    std::string type;  ///< Of `Demand::person_types`.
+    double depart_s = 0.0;
+    Element element;    ///< As `walking_person` makes it; walks have edges, or ends to find a way between.
+    std::string place;  ///< `city.rou.xml:12`
+};
+
 /// The demand of route and additional files, one vehicle each, as SUMO would make them.
 struct Demand {
     std::vector<RoadUser> vehicles;               ///< In the order of the files; flows in order of departure.
     std::map<std::string, Element> types;         ///< `<vType>` by id; those of distributions too.
+    std::vector<Person> persons;                  ///< Likewise.
+    std::map<std::string, Element> person_types;  ///< By id, all of class pedestrian.
+    std::set<std::string> types_made_pedestrian;  ///< Of them, those that named no class.
     std::vector<std::filesystem::path> unsorted;  ///< Files whose vehicles do not stand by departure.
 };
 
@@ -49,10 +63,10 @@ struct FlowTimes {
     double end_s = 3600.0;
 };
 
-/// Collects vehicles, trips, flows, routes, types and their distributions from SUMO's files. What only SUMO
-/// could draw while it runs (the member of a distribution, the departures of a flow by probability) is drawn
-/// by the vehicle's id. What has no place on the road is counted in `left_out`: persons, containers, vehicles
-/// that wait for them.
+/// Collects vehicles, trips, flows, persons who only walk, routes, types and their distributions from SUMO's
+/// files. What only SUMO could draw while it runs (the member of a distribution, the departures of a flow by
+/// probability) is drawn by the id of the vehicle or person. The rest is counted in `left_out`: persons who
+/// ride, containers, vehicles that wait for them.
 class DemandReader {
   public:
     DemandReader(FlowTimes times, LeftOut& left_out) : times_(times), left_out_(left_out) {}
@@ -77,11 +91,19 @@ class DemandReader {
     bool take(Element& element, const std::filesystem::path& file);
     void take_type(const Element& element);
     void take_distribution(const Element& element, std::map<std::string, Choice>& choices);
-    void resolve(const Pending& pending);
-    void resolve_flow(const Pending& pending);
+    /// Takes the id and the departure in s of one vehicle or person of those that an element stands for.
+    using Take = std::function<void(const std::string&, double)>;
+    void resolve(const Pending& pending, const Take& take);
+    void resolve_flow(const Pending& pending, const Take& take);
+    void resolve_person(const Pending& pending);
+    void add_person(const Pending& pending, const std::string& id, double depart_s);
+    bool set_type(const Element& source, Person& person);
+    bool set_edges(Element& walk, const Person& person);
     void add(const Pending& pending, const std::string& id, double depart_s);
+    bool note_id(const std::string& id, const std::string& place, std::map<std::string, std::string>& places);
     bool set_way(const Element& source, RoadUser& vehicle);
     bool set_type(const Element& source, RoadUser& vehicle);
+    const Element* find_route(std::string id, const std::string& user, const std::string& place);
     std::vector<double> departures(const Element& flow, const std::string& place);
     std::string chosen(const Choice& choice, const std::string& id) const;
     void problem(const std::string& place, const std::string& id, std::string what, std::string allowed = "");
@@ -90,10 +112,12 @@ class DemandReader {
     LeftOut& left_out_;
     Demand demand_;
     std::vector<Pending> pending_;
+    std::vector<Pending> pending_persons_;
     std::map<std::string, Element> routes_;
     std::map<std::string, Choice> type_choices_;
     std::map<std::string, Choice> route_choices_;
-    std::map<std::string, std::string> places_;  ///< By vehicle id.
+    std::map<std::string, std::string> places_;         ///< By vehicle id.
+    std::map<std::string, std::string> person_places_;  ///< By person id.
     std::vector<core::Problem> problems_;
 };
 

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/markup.hpp"
 #include "roads/xml_stream.hpp"
 
@@ -77,6 +79,19 @@ std::string Element::xml(int depth) const {
 void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take) {
     TreeHandler handler(take);
     roads::stream_xml(file, handler);
+}
+
+void shift_stops(Element& user, double begin_s) {
+    for (Element& stop : user.children) {
+        for (const char* const name : {"until", "arrival", "started", "ended"}) {
+            const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
+            if (at_s) stop.set(name, fmt::format("{:.2f}", std::max(0.0, *at_s - begin_s)));
+        }
+    }
+}
+
+std::string file_text(const char* root, const std::string& content) {
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{0}>\n{1}</{0}>\n", root, content);
 }
 
 std::optional<double> number(std::string_view text) {

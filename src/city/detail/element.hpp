@@ -30,6 +30,12 @@ struct Element {
 /// time. Throws core::InputError as roads::stream_xml does.
 void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take);
 
+/// Takes `begin_s` from the times at which the `<stop>` of a vehicle or person end.
+void shift_stops(Element& user, double begin_s);
+
+/// A whole file of SUMO with `content` in its root.
+std::string file_text(const char* root, const std::string& content);
+
 /// Seconds of SUMO's time texts: `12.5`, `1:00:00`, `1:01:00:00`. Nothing for other texts.
 std::optional<double> time_s(std::string_view text);
 /// The whole of `text` as a finite number.

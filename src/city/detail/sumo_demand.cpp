@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "city/detail/sumo_persons.hpp"
+#include "city/detail/walks.hpp"
 #include "city/detail/ways.hpp"
 #include "core/files.hpp"
 #include "roads/route.hpp"
@@ -43,12 +45,6 @@ const char* kind_of_class(std::string_view vehicle_class) {
         if (name == vehicle_class) return kind;
     return "other";
 }
-
-/// Departures that a scenario takes.
-struct Window {
-    double begin_s = 0.0;
-    double length_s = 0.0;
-};
 
 constexpr double usual_window_s = 1200.0;
 constexpr double long_demand_s = 7200.0;
@@ -93,18 +89,9 @@ Window choose_window(const std::vector<RoadUser>& vehicles, const SumoFiles& fil
     return {begin_s, std::clamp(std::ceil(end_s - begin_s), shortest_s, usual_window_s)};
 }
 
-void shift_times(Element& element, double begin_s) {
-    for (Element& stop : element.children) {
-        for (const char* const name : {"until", "arrival", "started", "ended"}) {
-            const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
-            if (at_s) stop.set(name, fmt::format("{:.2f}", std::max(0.0, *at_s - begin_s)));
-        }
-    }
-}
-
 std::string vehicle_xml(RoadUser& vehicle, double begin_s) {
     Element element = std::move(vehicle.element);
-    shift_times(element, begin_s);
+    shift_stops(element, begin_s);
     Element route;
     route.name = "route";
     route.set("edges", fmt::format("{}", fmt::join(vehicle.edges, " ")));
@@ -164,10 +151,6 @@ std::vector<Element> read_files(const SumoFiles& files, DemandReader& reader) {
     return others;
 }
 
-std::string file_text(const char* root, const std::string& content) {
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{0}>\n{1}</{0}>\n", root, content);
-}
-
 scenario::Measured describe_types(Import& import, const Demand& demand,
                                   const std::vector<RoadUser>& vehicles) {
     scenario::Measured measured;
@@ -190,6 +173,18 @@ scenario::Measured describe_types(Import& import, const Demand& demand,
     return measured;
 }
 
+/// Takes out who cannot drive or walk as the files say. Where they are to be refused, all are, together.
+void take_out_bad(Import& import, Demand& demand, const roads::Network& network,
+                  const std::vector<Element>& additional) {
+    std::vector<core::Problem> problems = take_out_bad_vehicles(demand, network, import.left_out);
+    const bool has_traffic = !demand.vehicles.empty() || !problems.empty();
+    std::vector<core::Problem> of_persons;
+    if (has_traffic) of_persons = take_out_bad_persons(demand, network, additional, import.left_out);
+    problems.insert(problems.end(), of_persons.begin(), of_persons.end());
+    if (import.request.bad_vehicles == BadVehicles::refuse && !problems.empty())
+        throw core::InputError(std::move(problems));
+}
+
 void set_times(const Window& window, scenario::ScenarioConfig& config) {
     config.time.window_s = window.length_s;
     constexpr double longest_warm_up_s = 900.0;
@@ -210,18 +205,20 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     for (const std::filesystem::path& file : demand.unsorted)
         findings.changes.push_back(fmt::format("{} is sorted by departure; SUMO would have dropped vehicles",
                                                file.filename().string()));
-    find_ways(demand, network, network_file, import.request.bad_vehicles, import.left_out, import.work,
-              import.on_progress);
+    take_out_bad(import, demand, network, others);
+    find_ways(import, demand, network_file);
     const std::string additional = additional_xml(others, import.left_out);
-    if (demand.vehicles.empty()) return false;
+    if (demand.vehicles.empty()) {
+        for (const Person& person : demand.persons)
+            import.left_out.add("persons, for no vehicle goes with them", person.id);
+        return false;
+    }
 
     const Window window = choose_window(demand.vehicles, files, import);
     std::vector<RoadUser>& vehicles = demand.vehicles;
     std::ranges::stable_sort(vehicles, {}, &RoadUser::depart_s);
     const std::size_t all = vehicles.size();
-    std::erase_if(vehicles, [&](const RoadUser& vehicle) {
-        return vehicle.depart_s < window.begin_s || vehicle.depart_s > window.begin_s + window.length_s;
-    });
+    std::erase_if(vehicles, [&](const RoadUser& vehicle) { return !window.holds(vehicle.depart_s); });
     if (vehicles.empty())
         throw core::InputError(core::Problem{
             "--begin",
@@ -231,7 +228,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
         findings.changes.push_back(fmt::format(
             "of {} vehicles the {} that depart from {:.0f} s to {:.0f} s are taken; --begin chooses "
             "another time",
-            all, vehicles.size(), window.begin_s, window.begin_s + window.length_s));
+            all, vehicles.size(), window.begin_s, window.end_s()));
 
     for (const RoadUser& vehicle : vehicles)
         ++findings.vehicles[kind_of_class(demand.types.at(vehicle.type).text("vClass"))];
@@ -246,6 +243,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
         config.measured->additional = {"additional.add.xml"};
     }
     set_times(window, config);
+    add_persons(import, demand, network, window, config);
     config.demand = {};
     config.demand.emergency = 6;
     std::string routes;

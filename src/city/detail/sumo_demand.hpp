@@ -17,8 +17,9 @@ struct SumoFiles {
 };
 
 /// Turns them into the measured demand of `config`: traffic.rou.xml (one vehicle each, sorted, times from the
-/// scenario's begin), types.add.xml and additional.add.xml in the scenario's folder. False, and nothing done,
-/// when there is no vehicle in them. Throws core::InputError for demand that cannot be used.
+/// scenario's begin), types.add.xml, additional.add.xml and persons.rou.xml in the scenario's folder. False,
+/// and nothing done, when there is no vehicle in them. Throws core::InputError for demand that cannot be
+/// used.
 bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Network& network,
                      const std::filesystem::path& network_file, scenario::ScenarioConfig& config);
 

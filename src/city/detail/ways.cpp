@@ -7,14 +7,11 @@
 #include <fmt/format.h>
 
 #include "city/detail/tool.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 
 namespace clearway::city::detail {
 
 namespace {
-
-constexpr std::size_t named_problems = 20;
 
 bool joins(const roads::Network& network, core::EdgeIndex from, core::EdgeIndex to) {
     for (std::uint32_t lane = 0; lane < network.edge(from).lane_count; ++lane)
@@ -40,10 +37,8 @@ std::optional<std::string> fault_of(const roads::Network& network, const RoadUse
 /// Trips with the same ends and type share a way.
 using TripKey = std::pair<std::string, std::vector<std::string>>;
 
-std::map<TripKey, std::vector<std::string>> ways_of_trips(const Demand& demand,
-                                                          const std::filesystem::path& network_file,
-                                                          const std::filesystem::path& folder,
-                                                          const OnProgress& on_progress) {
+std::map<TripKey, std::vector<std::string>> ways_of_trips(const Import& import, const Demand& demand,
+                                                          const std::filesystem::path& network_file) {
     std::map<TripKey, std::vector<std::string>> ways;
     for (const RoadUser& vehicle : demand.vehicles)
         if (vehicle.is_trip) ways[{vehicle.type, vehicle.edges}];
@@ -70,9 +65,9 @@ std::map<TripKey, std::vector<std::string>> ways_of_trips(const Demand& demand,
         xml += trip.xml();
         rows.push_back(&way);
     }
-    const std::filesystem::path trips = folder / "trips.xml";
-    const std::filesystem::path found = folder / "ways.xml";
-    const std::filesystem::path log = folder / "duarouter.log";
+    const std::filesystem::path trips = import.work / "trips.xml";
+    const std::filesystem::path found = import.work / "ways.xml";
+    const std::filesystem::path log = import.work / "duarouter.log";
     core::write_atomically(trips, xml + "</routes>\n");
     const Tool tool{
         "duarouter",
@@ -81,7 +76,7 @@ std::map<TripKey, std::vector<std::string>> ways_of_trips(const Demand& demand,
         log,
         "finding ways",
         "sumo"};
-    if (!succeeds(tool, on_progress))
+    if (!succeeds(tool, import.on_progress))
         throw core::InputError(core::Problem{"the trips", fmt::format("duarouter says:\n{}", complaint(log)),
                                              "trips between edges of the network", ""});
     for_each_element(found, [&](Element&& vehicle) {
@@ -93,10 +88,8 @@ std::map<TripKey, std::vector<std::string>> ways_of_trips(const Demand& demand,
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size): demand, network twice, what to do with the bad ones, and where
-void find_ways(Demand& demand, const roads::Network& network, const std::filesystem::path& network_file,
-               BadVehicles bad_vehicles, LeftOut& left_out, const std::filesystem::path& folder,
-               const OnProgress& on_progress) {
+std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
+                                                 LeftOut& left_out) {
     std::vector<core::Problem> problems;
     std::erase_if(demand.vehicles, [&](const RoadUser& vehicle) {
         const auto fault = fault_of(network, vehicle);
@@ -109,12 +102,16 @@ void find_ways(Demand& demand, const roads::Network& network, const std::filesys
                  "correct the route, or leave such vehicles out with --leave-out-bad-vehicles"});
         return true;
     });
-    if (bad_vehicles == BadVehicles::refuse && !problems.empty()) throw core::InputError(std::move(problems));
-    const auto ways = ways_of_trips(demand, network_file, folder, on_progress);
+    return problems;
+}
+
+void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file) {
+    const auto ways = ways_of_trips(import, demand, network_file);
     std::erase_if(demand.vehicles, [&](RoadUser& vehicle) {
         if (!vehicle.is_trip) return false;
         vehicle.edges = ways.at({vehicle.type, vehicle.edges});
-        if (vehicle.edges.empty()) left_out.add("trips without any way between their ends", vehicle.id);
+        if (vehicle.edges.empty())
+            import.left_out.add("trips without any way between their ends", vehicle.id);
         return vehicle.edges.empty();
     });
 }
