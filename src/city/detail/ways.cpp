@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "city/detail/stop.hpp"
 #include "city/detail/tool.hpp"
 #include "core/files.hpp"
 
@@ -13,37 +15,72 @@ namespace clearway::city::detail {
 
 namespace {
 
-bool joins(const roads::Network& network, core::EdgeIndex from, core::EdgeIndex to) {
-    for (std::uint32_t lane = 0; lane < network.edge(from).lane_count; ++lane)
-        for (const roads::Connection& way : network.connections_from(network.lane_of(from, lane)))
-            if (network.lane(way.to).edge == to) return true;
-    return false;
-}
-
 /// What is wrong with the way of a vehicle, if anything is.
-std::optional<std::string> fault_of(const roads::Network& network, const RoadUser& vehicle) {
+std::optional<std::string> fault_of(const roads::Network& network, const ClassAccess& access,
+                                    const RoadUser& vehicle, const std::string& vehicle_class) {
+    const char* const named_class = vehicle_class.empty() ? "passenger" : vehicle_class.c_str();
     std::optional<core::EdgeIndex> before;
     for (const std::string& id : vehicle.edges) {
         const auto edge = network.find_edge(id);
         if (!edge || network.edge(*edge).internal) return fmt::format("the network has no edge \"{}\"", id);
-        if (before && !vehicle.is_trip && *before != *edge && !joins(network, *before, *edge))
-            return fmt::format("its route has a gap: nothing leads from edge \"{}\" to \"{}\"",
-                               network.edge(*before).id, id);
+        if (!access.opens(*edge, vehicle_class))
+            return fmt::format("edge \"{}\" is closed to its class, {}", id, named_class);
+        if (before && !vehicle.is_trip && *before != *edge && !access.joins(*before, *edge, vehicle_class))
+            return fmt::format("its route has a gap: nothing leads from edge \"{}\" to \"{}\"{}",
+                               network.edge(*before).id, id,
+                               access.joins(*before, *edge, "ignoring")
+                                   ? fmt::format(" for its class, {}", named_class)
+                                   : "");
         before = edge;
     }
     return std::nullopt;
 }
 
 /// Trips with the same ends and type share a way.
-using TripKey = std::pair<std::string, std::vector<std::string>>;
+using TripKey = std::pair<std::string, std::string>;
+using Ways = std::map<TripKey, std::vector<std::string>>;
 
-std::map<TripKey, std::vector<std::string>> ways_of_trips(const Import& import, const Demand& demand,
-                                                          const std::filesystem::path& network_file) {
-    std::map<TripKey, std::vector<std::string>> ways;
-    for (const RoadUser& vehicle : demand.vehicles)
-        if (vehicle.is_trip) ways[{vehicle.type, vehicle.edges}];
-    if (ways.empty()) return ways;
-    std::string xml = "<routes>\n";
+TripKey key_of(const RoadUser& vehicle) {
+    return {vehicle.type, vehicle.trip.xml()};
+}
+
+/// The edges of a trip's stops become edges that its way must pass, in the order of the stops.
+void pass_stops(RoadUser& vehicle, const StopEdges& stops) {
+    const std::vector<std::string> vias = words(vehicle.trip.text("via"));
+    std::vector<std::string> passed = vias;
+    std::string last = vehicle.trip.text("from");
+    for (const Element& stop : vehicle.element.children) {
+        if (stop.name != "stop") continue;
+        const std::string edge = stops.edge_of(stop);
+        if (!edge.empty() && edge != last && std::ranges::find(vias, edge) == vias.end())
+            passed.push_back(edge);
+        if (!edge.empty()) last = edge;
+    }
+    if (last == vehicle.trip.text("to") && !passed.empty() && passed.back() == last) passed.pop_back();
+    if (passed.size() > vias.size()) vehicle.trip.set("via", fmt::format("{}", fmt::join(passed, " ")));
+}
+
+/// Writes the zones that trips may name; answers the options that go with them.
+std::vector<std::string> zone_options(const Import& import, const std::vector<Element>& additional) {
+    std::string zones;
+    for (const Element& element : additional) {
+        if (element.name == "taz") zones += element.xml();
+        if (element.name != "tazs") continue;
+        for (const Element& zone : element.children)
+            zones += zone.xml();
+    }
+    std::vector<std::string> options = {"--junction-taz"};
+    if (zones.empty()) return options;
+    const std::filesystem::path file = import.work / "zones.xml";
+    core::write_atomically(file, file_text("additional", zones));
+    options.insert(options.end(), {"--additional-files", file.string()});
+    return options;
+}
+
+/// The file for duarouter; `rows` gets the ways in the order of its trips.
+std::string trips_text(const Demand& demand, const std::map<TripKey, Element>& trips, Ways& ways,
+                       std::vector<std::vector<std::string>*>& rows) {
+    std::string xml;
     std::map<std::string, std::string> type_numbers;
     for (const auto& [id, type] : demand.types) {
         Element numbered = type;
@@ -51,31 +88,37 @@ std::map<TripKey, std::vector<std::string>> ways_of_trips(const Import& import, 
         numbered.set("id", type_numbers[id]);
         xml += numbered.xml();
     }
-    std::vector<std::vector<std::string>*> rows;
-    for (auto& [key, way] : ways) {
-        Element trip;
-        trip.name = "trip";
-        trip.attributes = {{"id", std::to_string(rows.size())},
-                           {"type", type_numbers[key.first]},
-                           {"depart", "0"},
-                           {"from", key.second.front()},
-                           {"to", key.second.back()}};
-        if (key.second.size() > 2)
-            trip.set("via", fmt::format("{}", fmt::join(key.second.begin() + 1, key.second.end() - 1, " ")));
+    for (const auto& [key, ends] : trips) {
+        Element trip = ends;
+        trip.set("id", std::to_string(rows.size()));
+        trip.set("type", type_numbers[key.first]);
+        trip.set("depart", "0");
         xml += trip.xml();
-        rows.push_back(&way);
+        rows.push_back(&ways[key]);
     }
-    const std::filesystem::path trips = import.work / "trips.xml";
+    return file_text("routes", xml);
+}
+
+Ways ways_of_trips(const Import& import, const Demand& demand, const std::filesystem::path& network_file,
+                   const std::vector<Element>& additional) {
+    std::map<TripKey, Element> trips;
+    for (const RoadUser& vehicle : demand.vehicles)
+        if (vehicle.is_trip) trips.try_emplace(key_of(vehicle), vehicle.trip);
+    Ways ways;
+    if (trips.empty()) return ways;
+    std::vector<std::vector<std::string>*> rows;
+    const std::filesystem::path file = import.work / "trips.xml";
     const std::filesystem::path found = import.work / "ways.xml";
     const std::filesystem::path log = import.work / "duarouter.log";
-    core::write_atomically(trips, xml + "</routes>\n");
-    const Tool tool{
-        "duarouter",
-        {"--net-file", network_file.string(), "--route-files", trips.string(), "--output-file",
-         found.string(), "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
-        log,
-        "finding ways",
-        "sumo"};
+    core::write_atomically(file, trips_text(demand, trips, ways, rows));
+    Tool tool{"duarouter",
+              {"--net-file", network_file.string(), "--route-files", file.string(), "--output-file",
+               found.string(), "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
+              log,
+              "finding ways",
+              "sumo"};
+    for (std::string& option : zone_options(import, additional))
+        tool.arguments.push_back(std::move(option));
     if (!succeeds(tool, import.on_progress))
         throw core::InputError(core::Problem{"the trips", fmt::format("duarouter says:\n{}", complaint(log)),
                                              "trips between edges of the network", ""});
@@ -86,16 +129,22 @@ std::map<TripKey, std::vector<std::string>> ways_of_trips(const Import& import, 
     return ways;
 }
 
+/// `town.rou.xml:3: bus` of the vehicle `bus.12` of a flow.
+std::string flow_of(const RoadUser& vehicle) {
+    return fmt::format("{}: {}", vehicle.place, without_number(vehicle.id));
+}
+
 }  // namespace
 
 std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
-                                                 LeftOut& left_out) {
+                                                 const ClassAccess& access, LeftOut& left_out) {
     std::vector<core::Problem> problems;
+    std::set<std::pair<std::string, std::string>> named;
     std::erase_if(demand.vehicles, [&](const RoadUser& vehicle) {
-        const auto fault = fault_of(network, vehicle);
+        const auto fault = fault_of(network, access, vehicle, demand.types.at(vehicle.type).text("vClass"));
         if (!fault) return false;
         left_out.add("vehicles that cannot drive their route", fmt::format("{}: {}", vehicle.id, *fault));
-        if (problems.size() < named_problems)
+        if (problems.size() < named_problems && named.insert({flow_of(vehicle), *fault}).second)
             problems.push_back(
                 {fmt::format("{}: \"{}\"", vehicle.place, vehicle.id), *fault,
                  "edges of the network that lead into each other",
@@ -105,11 +154,15 @@ std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Ne
     return problems;
 }
 
-void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file) {
-    const auto ways = ways_of_trips(import, demand, network_file);
+void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file,
+               const std::vector<Element>& additional) {
+    const StopEdges stops(additional);
+    for (RoadUser& vehicle : demand.vehicles)
+        if (vehicle.is_trip) pass_stops(vehicle, stops);
+    const Ways ways = ways_of_trips(import, demand, network_file, additional);
     std::erase_if(demand.vehicles, [&](RoadUser& vehicle) {
         if (!vehicle.is_trip) return false;
-        vehicle.edges = ways.at({vehicle.type, vehicle.edges});
+        vehicle.edges = ways.at(key_of(vehicle));
         if (vehicle.edges.empty())
             import.left_out.add("trips without any way between their ends", vehicle.id);
         return vehicle.edges.empty();

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "city/detail/class_access.hpp"
 #include "city/detail/context.hpp"
 #include "city/detail/demand_reader.hpp"
 #include "core/error.hpp"
@@ -13,13 +14,16 @@ namespace clearway::city::detail {
 /// Problems that a message names of one kind; the others are like them.
 constexpr std::size_t named_problems = 20;
 
-/// Takes out the vehicles that cannot drive as they say, over edges that the network has and that join, and
-/// counts them in `left_out`. Answers them as problems, up to `named_problems`, for who refuses them.
+/// Takes out the vehicles that cannot drive as they say, over edges that the network has, that join and that
+/// their class may use, and counts them in `left_out`. Answers them as problems, up to `named_problems` and one
+/// of a flow, for who refuses them.
 std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
-                                                 LeftOut& left_out);
+                                                 const ClassAccess& access, LeftOut& left_out);
 
-/// Finds a way for every trip, with duarouter: the fastest at free flow that the trip's type may use. Trips
-/// without any are left out, as SUMO does with option ignore-route-errors.
-void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file);
+/// Finds a way for every trip, with duarouter: the fastest at free flow that the trip's type may use, over the
+/// edges of its stops. `additional` are the elements of additional files, with the stops and zones that trips
+/// name. Trips without any way are left out, as SUMO does with option ignore-route-errors.
+void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file,
+               const std::vector<Element>& additional);
 
 }  // namespace clearway::city::detail
