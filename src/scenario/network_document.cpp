@@ -167,8 +167,8 @@ void NetworkDocument::begin_programs_at(double begin_s) {
         if (cycle_s <= 0.0) continue;
         const double offset_s = std::fmod(program.attribute("offset").as_double() - begin_s, cycle_s);
         program.remove_attribute("offset");
-        program.append_attribute("offset")
-            .set_value(fmt::format("{:.2f}", offset_s < 0.0 ? offset_s + cycle_s : offset_s).c_str());
+        program.append_attribute("offset").set_value(
+            fmt::format("{:.2f}", offset_s < 0.0 ? offset_s + cycle_s : offset_s).c_str());
     }
 }
 

@@ -20,23 +20,48 @@ constexpr const char* usual_sumo_home = "/usr/share/sumo";
 /// Options that only show, write or say something, or say how a run is computed: their loss changes no
 /// traffic. Exact names: `max-depart-delay` is not `delay`.
 bool is_harmless(const std::string& option) {
-    constexpr std::array<std::string_view, 37> names = {
-        "verbose",          "v",          "no-warnings",       "W",
-        "warnings",         "aggregate-warnings", "suppress-warnings", "print-options",
-        "log",              "l",          "message-log",       "error-log",
-        "no-step-log",      "step-log",   "step-log.period",   "no-duration-log",
-        "duration-log.disable", "duration-log.statistics", "duration-log", "start",
-        "S",                "quit-on-end", "Q",                "delay",
-        "d",                "breakpoints", "demo",             "D",
-        "human-readable-time", "seed",    "random",            "threads",
-        "precision",        "precision.geo", "remote-port",    "num-clients",
-        "language"};
-    constexpr std::array<std::string_view, 9> parts = {"output",     "gui",          "xml-validation",
-                                                       "game",       "osg",          "view",
-                                                       "save-state", "device.ssm",   "device.fcd"};
+    constexpr std::array<std::string_view, 37> names = {"verbose",
+                                                        "v",
+                                                        "no-warnings",
+                                                        "W",
+                                                        "warnings",
+                                                        "aggregate-warnings",
+                                                        "suppress-warnings",
+                                                        "print-options",
+                                                        "log",
+                                                        "l",
+                                                        "message-log",
+                                                        "error-log",
+                                                        "no-step-log",
+                                                        "step-log",
+                                                        "step-log.period",
+                                                        "no-duration-log",
+                                                        "duration-log.disable",
+                                                        "duration-log.statistics",
+                                                        "duration-log",
+                                                        "start",
+                                                        "S",
+                                                        "quit-on-end",
+                                                        "Q",
+                                                        "delay",
+                                                        "d",
+                                                        "breakpoints",
+                                                        "demo",
+                                                        "D",
+                                                        "human-readable-time",
+                                                        "seed",
+                                                        "random",
+                                                        "threads",
+                                                        "precision",
+                                                        "precision.geo",
+                                                        "remote-port",
+                                                        "num-clients",
+                                                        "language"};
+    constexpr std::array<std::string_view, 9> parts = {
+        "output", "gui", "xml-validation", "game", "osg", "view", "save-state", "device.ssm", "device.fcd"};
     return std::ranges::find(names, option) != names.end() ||
-           std::ranges::any_of(
-               parts, [&](std::string_view part) { return option.find(part) != std::string::npos; });
+           std::ranges::any_of(parts,
+                               [&](std::string_view part) { return option.find(part) != std::string::npos; });
 }
 
 /// `${NAME}` replaced by the environment, as SUMO does.
@@ -89,10 +114,10 @@ class ConfigurationReader {
         const std::optional<double> begin_s = configuration_.begin_s;
         const std::optional<double> end_s = configuration_.end_s;
         if (end_s && *end_s >= 0.0 && *end_s <= begin_s.value_or(0.0))
-            problems_.push_back({file_.string(),
-                                 fmt::format("ends at {} s, before its begin at {} s", *end_s,
-                                             begin_s.value_or(0.0)),
-                                 "an end after the begin", "correct begin or end"});
+            problems_.push_back(
+                {file_.string(),
+                 fmt::format("ends at {} s, before its begin at {} s", *end_s, begin_s.value_or(0.0)),
+                 "an end after the begin", "correct begin or end"});
         if (!problems_.empty()) throw core::InputError(problems_);
         return std::move(configuration_);
     }

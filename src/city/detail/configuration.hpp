@@ -14,7 +14,7 @@ struct Configuration {
     std::vector<std::filesystem::path> additional;  ///< In order.
     std::optional<double> begin_s;
     std::optional<double> end_s;
-    double scale = 1.0;             ///< How many of each vehicle there are.
+    double scale = 1.0;  ///< How many of each vehicle there are.
     bool ignores_route_errors = false;
     std::vector<std::string> other_options;  ///< Set there, and not taken over: `time-to-teleport = 60`.
 };

@@ -37,8 +37,8 @@ bool is_container(const std::string& name) {
     return name == "container" || name == "containerFlow";
 }
 
-constexpr std::array ends_of_trips = {"from", "to", "via", "fromTaz", "toTaz", "fromJunction", "toJunction",
-                                      "viaJunctions"};
+constexpr std::array ends_of_trips = {"from",  "to",           "via",        "fromTaz",
+                                      "toTaz", "fromJunction", "toJunction", "viaJunctions"};
 
 /// Before the ids of vehicles that Clearway's own have too.
 constexpr const char* imported_prefix = "imported.";
@@ -155,8 +155,9 @@ Demand DemandReader::finish() {
 void DemandReader::report_types() {
     for (const auto& [id, newer] : newer_classes_) {
         if (!demand_.types.contains(id) && !demand_.person_types.contains(id)) continue;
-        demand_.changes.push_back(fmt::format("type \"{}\" of class {}, which SUMO 1.15 does not know, gets class {}",
-                                              id, newer, older_class(newer)));
+        demand_.changes.push_back(
+            fmt::format("type \"{}\" of class {}, which SUMO 1.15 does not know, gets class {}", id, newer,
+                        older_class(newer)));
     }
 }
 
@@ -340,7 +341,8 @@ std::optional<Element> DemandReader::inline_route(const Element& source, const R
         const bool has_last = last && *last >= 0.0 && *last < static_cast<double>(ids.size());
         const std::string id =
             has_last ? ids[static_cast<std::size_t>(*last)] : inside.draw(child.text("id"), vehicle.id);
-        const auto own = std::ranges::find_if(routes, [&](const Element& route) { return route.text("id") == id; });
+        const auto own =
+            std::ranges::find_if(routes, [&](const Element& route) { return route.text("id") == id; });
         if (own != routes.end()) return *own;
         const Element* const named = find_route(id, vehicle.id, vehicle.place);
         return named == nullptr ? Element{} : *named;
@@ -350,6 +352,10 @@ std::optional<Element> DemandReader::inline_route(const Element& source, const R
 
 bool DemandReader::set_trip(const Element& source, RoadUser& vehicle) {
     const auto has_any = [&](auto... names) { return (source.has(names) || ...); };
+    if (source.has("from") && !has_any("to", "toTaz", "toJunction", "via")) {
+        vehicle.edges = {source.text("from")};  // SUMO lets it drive this edge.
+        return true;
+    }
     if (!has_any("from", "fromTaz", "fromJunction") || !has_any("to", "toTaz", "toJunction")) {
         left_out_.add("vehicles without a way: they name no end", vehicle.id);
         return false;

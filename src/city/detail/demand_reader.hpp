@@ -53,8 +53,8 @@ struct Demand {
 
 /// Collects vehicles, trips, flows, persons who only walk, routes, types and their distributions from SUMO's
 /// files. What only SUMO could draw while it runs (the member of a distribution, the departures of a flow by
-/// probability, who comes twice by a scale) is drawn by the id of the vehicle or person. The rest is counted in `left_out`: persons who
-/// ride, containers, vehicles that wait for them.
+/// probability, who comes twice by a scale) is drawn by the id of the vehicle or person. The rest is counted
+/// in `left_out`: persons who ride, containers, vehicles that wait for them.
 class DemandReader {
   public:
     /// `scale` is SUMO's option: how many of each vehicle and person there are.
@@ -107,7 +107,7 @@ class DemandReader {
     std::map<std::string, std::string> newer_classes_;  ///< By type, where it had one.
     Distributions type_choices_{"vTypes"};
     Distributions route_choices_{"routes"};
-    std::size_t renamed_ = 0;  ///< Vehicles that had the ids of Clearway's own.
+    std::size_t renamed_ = 0;                           ///< Vehicles that had the ids of Clearway's own.
     std::map<std::string, std::string> places_;         ///< By vehicle id.
     std::map<std::string, std::string> person_places_;  ///< By person id.
     std::vector<core::Problem> problems_;

@@ -73,8 +73,12 @@ bool Element::has(std::string_view attribute) const {
 }
 
 void Element::set(std::string_view attribute, std::string value) {
-    remove(attribute);
-    attributes.emplace_back(attribute, std::move(value));
+    const auto found =
+        std::ranges::find_if(attributes, [&](const auto& each) { return each.first == attribute; });
+    if (found != attributes.end())
+        found->second = std::move(value);
+    else
+        attributes.emplace_back(attribute, std::move(value));
 }
 
 void Element::remove(std::string_view attribute) {

@@ -83,8 +83,8 @@ SourceKind kind_of(const std::filesystem::path& file) {
     // SUMO does not look at the root of these; what is in them says what it is.
     if (is_one_of(element, {"routes", "trips", "flows", "vehicles", "persons", "demand"}))
         return SourceKind::routes;
-    if (is_one_of(element, {"additional", "additionals", "add", "a", "tllogics", "tls", "pois", "polys", "shapes",
-                            "tazs", "vtypes", "stops", "detectors", "rerouters", "vehicletypes"}))
+    if (is_one_of(element, {"additional", "additionals", "add", "a", "tllogics", "tls", "pois", "polys",
+                            "shapes", "tazs", "vtypes", "stops", "detectors", "rerouters", "vehicletypes"}))
         return SourceKind::additional;
     if (element == "configuration" || element == "sumoconfiguration" || has_name_of_configuration(file))
         return SourceKind::configuration;

@@ -65,4 +65,11 @@ std::string StopEdges::edge_of(const Element& stop) const {
     return {};
 }
 
+std::optional<std::string> StopEdges::unknown_place(const Element& stop) const {
+    for (const char* const kind : kinds)
+        if (!stop.text(kind).empty() && !edges_.contains({kind, stop.text(kind)}))
+            return fmt::format("{} \"{}\"", kind, stop.text(kind));
+    return std::nullopt;
+}
+
 }  // namespace clearway::city::detail

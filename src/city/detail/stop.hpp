@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +22,10 @@ void end_waiting(Element& vehicle, LeftOut& left_out);
 class StopEdges {
   public:
     explicit StopEdges(const std::vector<Element>& additional);
-    /// The edge of a `<stop>`; empty when nothing says it.
+    /// The edge of a `<stop>`; empty when nothing says it, or when it names a place that is not there.
     std::string edge_of(const Element& stop) const;
+    /// The place that a `<stop>` names and nobody defines, in words: `busStop "market"`. Else nothing.
+    std::optional<std::string> unknown_place(const Element& stop) const;
 
   private:
     std::map<std::pair<std::string, std::string>, std::string> edges_;  ///< By kind and id.

@@ -136,9 +136,9 @@ double emergency_length_m(const Demand& demand, const roads::Network& network, c
     }
     std::vector<double>& lengths_m = of_cars_m.empty() ? of_others_m : of_cars_m;
     if (lengths_m.empty())
-        throw core::InputError(core::Problem{
-            "the demand", "has no vehicle whose route emergency vehicles may drive",
-            "one whose edges are open to class passenger or emergency", "add such a vehicle"});
+        throw core::InputError(
+            core::Problem{"the demand", "has no vehicle whose route emergency vehicles may drive",
+                          "one whose edges are open to class passenger or emergency", "add such a vehicle"});
     std::ranges::sort(lengths_m, std::greater<>());
     return std::floor(std::min(wanted_m, lengths_m[std::min(enough, lengths_m.size()) - 1]));
 }
@@ -179,7 +179,8 @@ scenario::Measured describe_types(Import& import, const Demand& demand) {
 /// Takes out who cannot drive or walk as the files say. Where they are to be refused, all are, together.
 void take_out_bad(Import& import, Demand& demand, const roads::Network& network, const ClassAccess& access,
                   const std::vector<Element>& additional) {
-    std::vector<core::Problem> problems = take_out_bad_vehicles(demand, network, access, import.left_out);
+    std::vector<core::Problem> problems =
+        take_out_bad_vehicles(demand, network, access, additional, import.left_out);
     const bool has_traffic = !demand.vehicles.empty() || !problems.empty();
     std::vector<core::Problem> of_persons;
     if (has_traffic) of_persons = take_out_bad_persons(demand, network, additional, import.left_out);
@@ -200,8 +201,8 @@ void set_times(const Window& window, scenario::ScenarioConfig& config) {
     const std::vector<std::string> lines = import.left_out.lines();
     throw core::InputError(core::Problem{
         import.request.files.front().string(),
-        fmt::format("no vehicle of its demand can be used{}{}", lines.empty() ? "" : "; left out: ",
-                    fmt::join(lines, "; ")),
+        fmt::format("no vehicle of its demand can be used{}{}",
+                    lines.empty() ? "" : "; left out: ", fmt::join(lines, "; ")),
         "vehicles, trips or flows that depart in the time of the configuration",
         "give them routes first, with od2trips, jtrrouter or duarouter; or import the network alone, for a "
         "synthetic demand"});
@@ -262,7 +263,8 @@ void add_additional(Import& import, const std::vector<Element>& elements, const 
 /// Without vehicles to go with, nothing is kept.
 void leave_out_all(Import& import, const Demand& demand, const std::vector<Element>& others) {
     for (const Element& element : others)
-        import.left_out.add(fmt::format("<{}>, for no vehicle goes with it", element.name), element.text("id"));
+        import.left_out.add(fmt::format("<{}>, for no vehicle goes with it", element.name),
+                            element.text("id"));
     for (const Person& person : demand.persons)
         import.left_out.add("persons, for no vehicle goes with them", person.id);
 }

@@ -15,26 +15,55 @@ namespace clearway::city::detail {
 
 namespace {
 
-/// What is wrong with the way of a vehicle, if anything is.
-std::optional<std::string> fault_of(const roads::Network& network, const ClassAccess& access,
-                                    const RoadUser& vehicle, const std::string& vehicle_class) {
-    const char* const named_class = vehicle_class.empty() ? "passenger" : vehicle_class.c_str();
-    std::optional<core::EdgeIndex> before;
-    for (const std::string& id : vehicle.edges) {
-        const auto edge = network.find_edge(id);
-        if (!edge || network.edge(*edge).internal) return fmt::format("the network has no edge \"{}\"", id);
-        if (!access.opens(*edge, vehicle_class))
-            return fmt::format("edge \"{}\" is closed to its class, {}", id, named_class);
-        if (before && !vehicle.is_trip && *before != *edge && !access.joins(*before, *edge, vehicle_class))
-            return fmt::format("its route has a gap: nothing leads from edge \"{}\" to \"{}\"{}",
-                               network.edge(*before).id, id,
-                               access.joins(*before, *edge, "ignoring")
-                                   ? fmt::format(" for its class, {}", named_class)
-                                   : "");
-        before = edge;
+/// What is wrong, in words; nothing where all is well.
+using Fault = std::optional<std::string>;
+
+/// Looks for what keeps a vehicle from driving as it says.
+class WayCheck {
+  public:
+    WayCheck(const roads::Network& network, const ClassAccess& access, const std::vector<Element>& additional)
+        : network_(network), access_(access), stops_(additional) {}
+
+    Fault fault_of(const RoadUser& vehicle, const std::string& vehicle_class) const {
+        if (auto fault = fault_of_edges(vehicle, vehicle_class)) return fault;
+        for (const Element& stop : vehicle.element.children) {
+            if (stop.name != "stop") continue;
+            if (const auto place = stops_.unknown_place(stop))
+                return fmt::format("stops at {}, which nobody defines", *place);
+            const std::string edge = stops_.edge_of(stop);
+            if (!vehicle.is_trip && !edge.empty() &&
+                std::ranges::find(vehicle.edges, edge) == vehicle.edges.end())
+                return fmt::format("stops on edge \"{}\", which its route does not pass", edge);
+        }
+        return std::nullopt;
     }
-    return std::nullopt;
-}
+
+  private:
+    Fault fault_of_edges(const RoadUser& vehicle, const std::string& vehicle_class) const {
+        const char* const named_class = vehicle_class.empty() ? "passenger" : vehicle_class.c_str();
+        std::optional<core::EdgeIndex> before;
+        for (const std::string& id : vehicle.edges) {
+            const auto edge = network_.find_edge(id);
+            if (!edge || network_.edge(*edge).internal)
+                return fmt::format("the network has no edge \"{}\"", id);
+            if (!access_.opens(*edge, vehicle_class))
+                return fmt::format("edge \"{}\" is closed to its class, {}", id, named_class);
+            if (before && !vehicle.is_trip && *before != *edge &&
+                !access_.joins(*before, *edge, vehicle_class))
+                return fmt::format("its route has a gap: nothing leads from edge \"{}\" to \"{}\"{}",
+                                   network_.edge(*before).id, id,
+                                   access_.joins(*before, *edge, "ignoring")
+                                       ? fmt::format(" for its class, {}", named_class)
+                                       : "");
+            before = edge;
+        }
+        return std::nullopt;
+    }
+
+    const roads::Network& network_;
+    const ClassAccess& access_;
+    StopEdges stops_;
+};
 
 /// Trips with the same ends and type share a way.
 using TripKey = std::pair<std::string, std::string>;
@@ -111,12 +140,13 @@ Ways ways_of_trips(const Import& import, const Demand& demand, const std::filesy
     const std::filesystem::path found = import.work / "ways.xml";
     const std::filesystem::path log = import.work / "duarouter.log";
     core::write_atomically(file, trips_text(demand, trips, ways, rows));
-    Tool tool{"duarouter",
-              {"--net-file", network_file.string(), "--route-files", file.string(), "--output-file",
-               found.string(), "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
-              log,
-              "finding ways",
-              "sumo"};
+    Tool tool{
+        "duarouter",
+        {"--net-file", network_file.string(), "--route-files", file.string(), "--output-file", found.string(),
+         "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
+        log,
+        "finding ways",
+        "sumo"};
     for (std::string& option : zone_options(import, additional))
         tool.arguments.push_back(std::move(option));
     if (!succeeds(tool, import.on_progress))
@@ -137,11 +167,13 @@ std::string flow_of(const RoadUser& vehicle) {
 }  // namespace
 
 std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
-                                                 const ClassAccess& access, LeftOut& left_out) {
+                                                 const ClassAccess& access,
+                                                 const std::vector<Element>& additional, LeftOut& left_out) {
+    const WayCheck check(network, access, additional);
     std::vector<core::Problem> problems;
     std::set<std::pair<std::string, std::string>> named;
     std::erase_if(demand.vehicles, [&](const RoadUser& vehicle) {
-        const auto fault = fault_of(network, access, vehicle, demand.types.at(vehicle.type).text("vClass"));
+        const auto fault = check.fault_of(vehicle, demand.types.at(vehicle.type).text("vClass"));
         if (!fault) return false;
         left_out.add("vehicles that cannot drive their route", fmt::format("{}: {}", vehicle.id, *fault));
         if (problems.size() < named_problems && named.insert({flow_of(vehicle), *fault}).second)

@@ -110,8 +110,8 @@ class MeasuredReader {
                vehicle_class == VehicleClass::human;
     }
 
-    /// SUMO ends at a vehicle that departs faster than its driver would drive, and this driver is another than
-    /// that of the file.
+    /// SUMO ends at a vehicle that departs faster than its driver would drive, and this driver is another
+    /// than that of the file.
     void limit_depart_speed(pugi::xml_node vehicle, double factor) const {
         pugi::xml_attribute speed = vehicle.attribute("departSpeed");
         char* end = nullptr;
@@ -159,9 +159,9 @@ class MeasuredReader {
         const bool has_sites = !context_.config.emergency_sites.empty();
         if (long_routes_.empty()) long_routes_ = std::move(long_other_routes_);
         if (count > 0 && !has_sites && long_routes_.empty())
-            throw core::InputError(core::Problem{context_.config.where("measured.emergency_minimum_length_m"),
-                                                 "no measured route that emergency vehicles may drive is that long", "shorter",
-                                                 "lower it"});
+            throw core::InputError(core::Problem{
+                context_.config.where("measured.emergency_minimum_length_m"),
+                "no measured route that emergency vehicles may drive is that long", "shorter", "lower it"});
         std::optional<TripRoutes> trips;
         if (count > 0 && has_sites) trips.emplace(context_);
         for (int number = 0; number < count; ++number) {
