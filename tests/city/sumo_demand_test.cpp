@@ -139,15 +139,18 @@ TEST_F(SumoDemand, scales_of_the_configuration_and_of_types_multiply_vehicles_an
 }
 
 TEST_F(SumoDemand, times_of_additional_files_count_from_the_begin_of_the_scenario) {
-    run(configured(
-        flow("begin='25200' end='25800' number='30'"), "<begin value='7:00:00'/><end value='7:10:00'/>",
-        "<rerouter id='r' edges='first'><interval begin='0' end='100'><closingReroute id='side'/></interval>"
-        "<interval begin='25000' end='25500'><closingReroute id='side'/></interval></rerouter>"
-        "<variableSpeedSign id='s' lanes='first_0'><step time='0' speed='1'/><step time='25000' "
-        "speed='5'/><step time='25300' speed='9'/></variableSpeedSign>"));
+    run(configured(flow("begin='25200' end='25800' number='30'"),
+                   "<begin value='7:00:00'/><end value='7:10:00'/>",
+                   "<rerouter id='r' edges='first' vTypes='DEFAULT_VEHTYPE'><interval begin='0' "
+                   "end='100'><closingReroute id='side'/></interval>"
+                   "<interval begin='25000' end='25500'><closingReroute id='side'/></interval></rerouter>"
+                   "<variableSpeedSign id='s' lanes='first_0'><step time='0' speed='1'/><step time='25000' "
+                   "speed='5'/><step time='25300' speed='9'/></variableSpeedSign>"));
     const std::string text = additional_file();
-    EXPECT_THAT(text, AllOf(HasSubstr("begin=\"0.00\" end=\"300.00\""), HasSubstr("time=\"100.00\""),
-                            HasSubstr("time=\"0.00\" speed=\"5\""), Not(HasSubstr("25"))));
+    EXPECT_THAT(text, AllOf(HasSubstr("begin=\"0.00\" end=\"300.00\""),
+                            HasSubstr("vTypes=\"human.DEFAULT_VEHTYPE automated.DEFAULT_VEHTYPE\""),
+                            HasSubstr("time=\"100.00\""), HasSubstr("time=\"0.00\" speed=\"5\""),
+                            Not(HasSubstr("25"))));
     EXPECT_EQ(count(text, "<interval"), 1U);
     EXPECT_EQ(count(text, "<step"), 2U);
 }
@@ -213,6 +216,19 @@ TEST_F(SumoDemand, types_of_newer_classes_get_an_older_one) {
     EXPECT_THAT(findings.changes, Not(Contains(HasSubstr("drone"))));
 }
 
+TEST_F(SumoDemand, vehicles_of_a_newer_class_on_lanes_of_that_class_are_left_out) {
+    std::string text = core::read_file(line_network());
+    text.insert(text.find("<lane id=\"side_0\"") + 5, " allow=\"subway\"");
+    const Findings findings =
+        run(request({write("rails.net.xml", text),
+                     write("line.rou.xml",
+                           "<routes><vType id='u' vClass='subway'/><vehicle id='v' type='u' "
+                           "depart='1'><route edges='side'/></vehicle>" +
+                               cars(9) + "</routes>")}));
+    EXPECT_THAT(findings.left_out, Contains(HasSubstr("v: edge \"side\" is closed to its class")));
+    EXPECT_EQ(vehicles(), 9U);
+}
+
 TEST_F(SumoDemand, a_configuration_may_hold_its_values_as_text) {
     line_network();
     write("line.rou.xml", "<routes>" + cars(9) + "</routes>");
@@ -243,16 +259,29 @@ TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
     const Findings findings =
         run(configured(cars(9),
                        "<max-depart-delay value='5'/><time-to-teleport value='60'/><lateral-resolution "
-                       "value='1'/><step-length value='0.5'/><mesosim value='off'/><delay value='9'/>"
+                       "value='1'/><step-length value='0.5'/><time-to-teleport.highways value='0'/><mesosim "
+                       "value='off'/><delay value='9'/>"
                        "<tripinfo-output value='x'/>"));
     EXPECT_THAT(findings.left_out,
-                Contains("4 options of the configuration that are not taken over (max-depart-delay = 5, "
-                         "time-to-teleport = 60, lateral-resolution = 1, step-length = 0.5)"));
+                Contains("5 options of the configuration that are not taken over (max-depart-delay = 5, "
+                         "time-to-teleport = 60, lateral-resolution = 1, step-length = 0.5, "
+                         "time-to-teleport.highways = 0)"));
 }
 
 TEST_F(SumoDemand, a_scenario_without_cars_has_emergency_vehicles_on_the_routes_of_others) {
     run(line_with("<vType id='t' vClass='truck'/>" + flow("type='t' begin='0' end='100' number='20'")));
     EXPECT_EQ(prepared().emergency.size(), 6U);
+}
+
+TEST_F(SumoDemand, a_scenario_without_any_route_for_emergency_vehicles_is_refused_with_the_reason) {
+    std::string text = core::read_file(line_network());
+    for (const std::string lane : {"second_0", "second_1"})
+        text.insert(text.find("<lane id=\"" + lane + "\"") + 5, " allow=\"tram\"");
+    EXPECT_THAT(refusal(request({write("rails.net.xml", text),
+                                 write("line.rou.xml",
+                                       "<routes><vType id='t' vClass='tram'/><vehicle id='v' type='t' "
+                                       "depart='1'><route edges='second'/></vehicle></routes>")})),
+                HasSubstr("no vehicle whose route emergency vehicles may drive"));
 }
 
 TEST_F(SumoDemand, the_way_of_a_trip_passes_its_stops) {

@@ -140,7 +140,7 @@ class ConfigurationReader {
             configuration_.scale = *number(value);
         else if (name == "ignore-route-errors")
             configuration_.ignores_route_errors = is_true(value);
-        else if (!is_harmless(name) && !is_false(value))
+        else if (!is_harmless(name) && (number(value) || !is_false(value)))
             configuration_.other_options.push_back(fmt::format("{} = {}", name, value));
     }
 

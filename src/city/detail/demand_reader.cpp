@@ -155,6 +155,7 @@ Demand DemandReader::finish() {
 void DemandReader::report_types() {
     for (const auto& [id, newer] : newer_classes_) {
         if (!demand_.types.contains(id) && !demand_.person_types.contains(id)) continue;
+        demand_.types_made_older.insert(id);
         demand_.changes.push_back(
             fmt::format("type \"{}\" of class {}, which SUMO 1.15 does not know, gets class {}", id, newer,
                         older_class(newer)));

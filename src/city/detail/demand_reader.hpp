@@ -47,6 +47,7 @@ struct Demand {
     std::map<std::string, Element> person_types;  ///< By id, all of class pedestrian.
     std::set<std::string> types_made_pedestrian;  ///< Of them, those that named no class.
     std::vector<std::filesystem::path> unsorted;  ///< Files whose vehicles do not stand by departure.
+    std::set<std::string> types_made_older;       ///< Of `types`, those of classes that SUMO 1.15 has not.
     bool names_vehicles = false;                  ///< Also such that are left out.
     std::vector<std::string> changes;             ///< What the demand has other than the files, in words.
 };

@@ -176,6 +176,8 @@ std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Ne
         const auto fault = check.fault_of(vehicle, demand.types.at(vehicle.type).text("vClass"));
         if (!fault) return false;
         left_out.add("vehicles that cannot drive their route", fmt::format("{}: {}", vehicle.id, *fault));
+        // Its ways may be lanes that were taken from its class: that cannot be corrected in the files.
+        if (demand.types_made_older.contains(vehicle.type)) return true;
         if (problems.size() < named_problems && named.insert({flow_of(vehicle), *fault}).second)
             problems.push_back(
                 {fmt::format("{}: \"{}\"", vehicle.place, vehicle.id), *fault,
