@@ -38,6 +38,7 @@ std::string to_text(const Findings& findings) {
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
+    if (findings.persons > 0) text += fmt::format("  persons          {} walk\n", findings.persons);
     text += list_text("Changed:", findings.changes);
     text += list_text("Left out:", findings.left_out);
     return text;
@@ -57,6 +58,7 @@ std::string to_json(const Findings& findings) {
                                    {"emergency_sites", findings.sites},
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},
+                                   {"persons", findings.persons},
                                    {"demand", findings.demand},
                                    {"changes", findings.changes},
                                    {"left_out", findings.left_out}};

@@ -1,6 +1,9 @@
 #include "city/import.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -86,9 +89,13 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
     const detail::Configuration configuration = detail::read_configuration(file);
     sources.network = configuration.network;
     sources.demand = {configuration.routes, configuration.additional, configuration.begin_s,
-                      configuration.end_s};
+                      configuration.end_s, configuration.scale};
+    if (configuration.scale != 1.0)
+        import.findings.changes.push_back(fmt::format(
+            "option scale of the configuration: there are {:g} of each vehicle", configuration.scale));
     for (const std::string& option : configuration.other_options)
-        import.left_out.add("options of the configuration that are not taken over", option);
+        import.left_out.add("options of the configuration that are not taken over", option,
+                            detail::LeftOut::all);
 }
 
 Sources sort_files(Import& import, bool& leaves_out_bad_vehicles) {
@@ -224,6 +231,36 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     detail::add_synthetic_demand(import, config, network);
 }
 
+/// `text` with the user's names for what an import makes: places of additional files, ids of types.
+std::string in_own_words(std::string text, const Import& import) {
+    const std::string made = (import.scenario / "additional.add.xml").string();
+    for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1)) {
+        const char* const end = text.c_str() + at + made.size();
+        const unsigned long line = *end == ':' ? std::strtoul(end + 1, nullptr, 10) : 0;
+        const auto place = import.additional.places.upper_bound(line);
+        if (place == import.additional.places.begin()) continue;
+        const std::size_t digits = fmt::formatted_size(":{}", line);
+        text.replace(at, made.size() + digits, std::prev(place)->second);
+    }
+    for (const char* const prefix : {"'human.", "'automated."})
+        for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + 1))
+            text.replace(at, std::strlen(prefix), "'");
+    return text;
+}
+
+void try_out_demand(Import& import, scenario::ScenarioConfig& config) {
+    try {
+        detail::try_out(import, config);
+    } catch (const core::InputError& error) {
+        std::vector<core::Problem> problems = error.problems();
+        for (core::Problem& problem : problems) {
+            problem.where = in_own_words(problem.where, import);
+            problem.what = in_own_words(problem.what, import);
+        }
+        throw core::InputError(std::move(problems));
+    }
+}
+
 void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
     import.on_progress("reading the network", 0.0);
     const roads::Network network = take_network(import, *sources.network);
@@ -237,7 +274,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     import.on_progress("reading the demand", 0.0);
     if (has_files &&
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
-        detail::try_out(import, config);
+        try_out_demand(import, config);
         return;
     }
     if (has_files)

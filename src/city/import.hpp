@@ -15,7 +15,8 @@ namespace clearway::city {
 /// On which side of the road traffic drives; `by_country` looks at the map.
 enum class DrivingSide : std::uint8_t { by_country, right, left };
 
-/// What becomes of vehicles that cannot drive as a route file says: an unknown edge, edges that do not join.
+/// What becomes of vehicles that cannot drive, and persons who cannot walk, as a route file says: an unknown
+/// edge, edges that do not join, an edge that is closed to pedestrians.
 enum class BadVehicles : std::uint8_t { refuse, leave_out };
 
 struct ImportRequest {
@@ -49,6 +50,7 @@ struct Findings {
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
     double vehicles_per_hour = 0.0;       ///< Human and automated ones, over the window of departures.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
+    std::size_t persons = 0;              ///< Who walk as the scenario's own files say, in the window.
     std::string demand;                   ///< Where the demand comes from and how busy it is, in words.
     std::vector<std::string> changes;
     std::vector<std::string> left_out;

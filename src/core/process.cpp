@@ -93,6 +93,7 @@ std::string quoted(const std::string& word) {
         dup2(output, STDOUT_FILENO);
         dup2(output, STDERR_FILENO);
     }
+    if (!command.folder.empty() && chdir(command.folder.c_str()) != 0) _exit(127);
     execvpe(command.program.c_str(), arguments, environment);
     _exit(127);
 }

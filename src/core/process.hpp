@@ -18,6 +18,8 @@ struct Command {
     std::map<std::string, std::string> environment = {};  ///< Added to, or replacing, the parent's.
     std::filesystem::path output =
         {};  ///< Both streams go to this file (created, truncated); empty: inherited.
+    std::filesystem::path folder =
+        {};  ///< Where it works; empty: inherited. Exit code 127 when it is not there.
 };
 
 /// How a child ended.

@@ -159,7 +159,7 @@ LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepL
         .loop = loop_config_of(condition),
         .siren = config_.siren,
         .friction = config_.road.friction,
-        .has_pedestrians = config_.pedestrians.walk()};
+        .has_pedestrians = config_.has_pedestrians()};
     ClosedLoop loop(*session_, make_machinery(condition, surroundings), surroundings.loop, recorder_,
                     listener);
     loop.run(core::Seconds(prepared_.time.horizon_s));

@@ -28,10 +28,11 @@ struct Lane {
     float length_m = 0.0F;     ///< As SUMO states it; may differ from the length of `shape`.
     float speed_limit_mps = 0.0F;
     float width_m = 3.2F;
-    bool allows_cars = true;       ///< vClass passenger may use it.
-    bool allows_emergency = true;  ///< vClass emergency may use it.
-    std::vector<Point> shape;      ///< At least two points.
-    float shape_length_m = 0.0F;   ///< Length of `shape`; positions along the lane are stretched to it.
+    bool allows_cars = true;         ///< vClass passenger may use it.
+    bool allows_emergency = true;    ///< vClass emergency may use it.
+    bool allows_pedestrians = true;  ///< vClass pedestrian may use it.
+    std::vector<Point> shape;        ///< At least two points.
+    float shape_length_m = 0.0F;     ///< Length of `shape`; positions along the lane are stretched to it.
     std::uint32_t first_connection = 0;
     std::uint32_t connection_count = 0;
 };
@@ -47,7 +48,8 @@ struct Edge {
     std::uint32_t lane_count = 0;
     float length_m = 0.0F;
     bool internal = false;
-    bool crossing = false;  ///< For pedestrians; such an edge is internal.
+    bool crossing = false;      ///< For pedestrians; such an edge is internal.
+    bool walking_area = false;  ///< Where sidewalks and crossings of a junction meet; internal.
     int priority = 0;
 };
 

@@ -48,6 +48,11 @@ void on_end(void* user, const XML_Char* element) {
     job.guarded([&] { job.handler.end(element); });
 }
 
+void on_text(void* user, const XML_Char* text, int length) {
+    auto& job = *static_cast<Job*>(user);
+    job.guarded([&] { job.handler.characters({text, static_cast<std::size_t>(length)}); });
+}
+
 [[noreturn]] void fail_unreadable(const std::filesystem::path& file, const std::string& reason) {
     throw core::InputError({file.string(), "cannot be read: " + reason, "",
                             "Check that the file exists, is readable and is complete"});
@@ -91,6 +96,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     Job job{parser.get(), handler, nullptr};
     XML_SetUserData(parser.get(), &job);
     XML_SetElementHandler(parser.get(), on_start, on_end);
+    XML_SetCharacterDataHandler(parser.get(), on_text);
     for (bool at_end = false; !at_end;) {
         void* buffer = XML_GetBuffer(parser.get(), chunk_bytes);
         if (buffer == nullptr) throw std::bad_alloc();

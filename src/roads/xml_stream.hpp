@@ -35,6 +35,8 @@ class XmlHandler {
     /// `line` is that of the element's first letter, from 1. Whatever this throws leaves `stream_xml`.
     virtual void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) = 0;
     virtual void end(std::string_view element) = 0;
+    /// A part of the text between elements; one text may come in several parts. Ignored by default.
+    virtual void characters(std::string_view) {}
 };
 
 /// Reads an XML file, packed with gzip or not, through `handler` with a fixed amount of memory. Throws

@@ -83,6 +83,7 @@ void read_measured(TableReader& root, Reading& reading, ScenarioConfig& config) 
     reader.read(measured);
     reader.texts("routes", measured.routes);
     reader.texts("additional", measured.additional);
+    reader.texts("persons", measured.persons);
     read_list(reader, "type", reading, measured.types);
     read_subtable(reader, "own_types", reading, measured.own_types);
     reader.finish();
@@ -147,6 +148,10 @@ void set_key(toml::table& root, const std::string& dotted, const std::string& va
 DemandKind ScenarioConfig::demand_kind() const {
     if (measured) return DemandKind::measured;
     return flows.empty() ? DemandKind::trips : DemandKind::flows;
+}
+
+bool ScenarioConfig::has_pedestrians() const {
+    return pedestrians.walk() || (measured && !measured->persons.empty());
 }
 
 std::string ScenarioConfig::where(const std::string& key) const {

@@ -367,6 +367,8 @@ struct Measured {
     double emergency_minimum_length_m = 1000.0;
     std::vector<std::string> routes;
     std::vector<std::string> additional;
+    /// Route files of `<person>` who walk, with their types. They are the same in every condition.
+    std::vector<std::string> persons;
     std::vector<MeasuredType> types;
     std::optional<OwnTypes> own_types;
 
@@ -409,6 +411,8 @@ struct ScenarioConfig {
         origins;  ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
 
     DemandKind demand_kind() const;
+    /// Whether people walk, measured or drawn. In solo runs they do not.
+    bool has_pedestrians() const;
     /// Place of a key for messages: file, line and column, or the option that set it, or the key alone.
     std::string where(const std::string& key) const;
 };

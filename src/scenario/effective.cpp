@@ -68,6 +68,8 @@ std::string tables(const char* name, const std::vector<Struct>& rows) {
 std::string measured_text(const Measured& measured) {
     std::string text = fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n", members(measured),
                                    text_array(measured.routes), text_array(measured.additional));
+    // Only where there are any, so that older configurations keep their `configuration_hash`.
+    if (!measured.persons.empty()) text += fmt::format("persons = {}\n", text_array(measured.persons));
     if (measured.own_types) text += "\n[measured.own_types]\n" + members(*measured.own_types);
     return text + tables("measured.type", measured.types);
 }
@@ -88,6 +90,7 @@ std::vector<std::string> own_files(const ScenarioConfig& config) {
     if (config.measured) {
         files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());
         files.insert(files.end(), config.measured->additional.begin(), config.measured->additional.end());
+        files.insert(files.end(), config.measured->persons.begin(), config.measured->persons.end());
         if (config.measured->own_types) files.push_back(config.measured->own_types->file);
     }
     std::erase_if(files, [](const std::string& file) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -155,6 +156,19 @@ void NetworkDocument::scale_speeds(const std::function<double(const std::string&
             pugi::xml_attribute speed = lane.attribute("speed");
             speed.set_value(fmt::format("{:.4f}", speed.as_double() * factor).c_str());
         }
+    }
+}
+
+void NetworkDocument::begin_programs_at(double begin_s) {
+    for (pugi::xml_node program : document_.document_element().children("tlLogic")) {
+        double cycle_s = 0.0;
+        for (const pugi::xml_node phase : program.children("phase"))
+            cycle_s += phase.attribute("duration").as_double();
+        if (cycle_s <= 0.0) continue;
+        const double offset_s = std::fmod(program.attribute("offset").as_double() - begin_s, cycle_s);
+        program.remove_attribute("offset");
+        program.append_attribute("offset").set_value(
+            fmt::format("{:.2f}", offset_s < 0.0 ? offset_s + cycle_s : offset_s).c_str());
     }
 }
 

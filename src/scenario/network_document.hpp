@@ -36,6 +36,8 @@ class NetworkDocument {
     std::set<std::string> edges() const;
     /// Multiplies the limit of each lane with the factor of its edge, those inside junctions included.
     void scale_speeds(const std::function<double(const std::string& edge)>& factor_of);
+    /// Shifts the offsets of signal programs, so that at time 0 they stand where they stood at `begin_s`.
+    void begin_programs_at(double begin_s);
     std::string text() const;
 
   private:

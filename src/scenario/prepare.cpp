@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/measured_persons.hpp"
 #include "scenario/detail/pedestrians.hpp"
 #include "scenario/vehicle_types.hpp"
 
@@ -63,6 +64,8 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     const std::string types = vehicle_types_xml(config);
     const std::string routes = routes_xml(demand.vehicles);
     const std::string emergency = emergency_csv(demand.emergency);
+    const bool has_persons = config.measured && !config.measured->persons.empty();
+    const std::string persons = has_persons ? detail::measured_persons_xml(context, demand) : "";
     const std::string pedestrians = config.pedestrians.walk() ? detail::pedestrians_xml(context) : "";
     core::make_folder(folder);
     core::write_atomically(folder / "vehicle_types.add.xml", types);
@@ -72,9 +75,11 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     Prepared prepared;
     prepared.network_file = network.file;
     prepared.route_files = {folder / "traffic.rou.xml"};
-    if (!pedestrians.empty()) {
-        prepared.route_files.push_back(folder / "pedestrians.rou.xml");
-        core::write_atomically(prepared.route_files.back(), pedestrians);
+    for (const auto& [name, content] :
+         {std::pair{"persons.rou.xml", &persons}, std::pair{"pedestrians.rou.xml", &pedestrians}}) {
+        if (content->empty()) continue;
+        prepared.route_files.push_back(folder / name);
+        core::write_atomically(prepared.route_files.back(), *content);
     }
     prepared.additional_files = additional_files(config);
     prepared.additional_files.insert(prepared.additional_files.begin(), folder / "vehicle_types.add.xml");
@@ -83,7 +88,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     prepared.emergency = std::move(demand.emergency);
     prepared.time = config.time;
     prepared.simulator_seed = simulator_seed(context.random);
-    prepared.demand_hash = core::content_hash(types + routes + emergency + pedestrians);
+    prepared.demand_hash = core::content_hash(types + routes + emergency + persons + pedestrians);
     return prepared;
 }
 

@@ -15,7 +15,8 @@ namespace clearway::scenario {
 /// What SUMO needs for one replication.
 struct Prepared {
     std::filesystem::path network_file;
-    /// Human and automated vehicles, by departure; then pedestrians, where there are any.
+    /// Human and automated vehicles, by departure; then, where there are any, the persons of measured demand
+    /// and the drawn pedestrians.
     std::vector<std::filesystem::path> route_files;
     std::vector<std::filesystem::path>
         additional_files;  ///< Vehicle types first, then what the demand refers to.
@@ -33,8 +34,8 @@ struct Prepared {
 /// tells where they are. A pure function of configuration, network, seed and replication: equal arguments
 /// give equal bytes, whatever else was prepared, and a vehicle keeps its departure, route and driver when
 /// others are added. Throws core::InputError with every unknown edge, unreachable destination and unknown
-/// measured type, and for pedestrians in a network without crossings; core::EnvironmentError when `folder`
-/// cannot be written.
+/// measured type, for persons who cannot walk as they are to, and for pedestrians in a network without
+/// crossings; core::EnvironmentError when `folder` cannot be written.
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder);
 

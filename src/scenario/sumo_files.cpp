@@ -46,18 +46,21 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
     const Prepared prepared = prepare(config, network, seed, replication, folder);
     core::write_atomically(folder / "network.net.xml", core::read_file(prepared.network_file));
     core::write_atomically(folder / "emergency.rou.xml", emergency_xml(prepared.emergency));
+    std::string routes = "traffic.rou.xml,emergency.rou.xml";
+    for (std::size_t row = 1; row < prepared.route_files.size(); ++row)  // after traffic.rou.xml
+        routes += "," + prepared.route_files[row].filename().string();
     const std::string additional = copied(prepared.additional_files, folder);
     core::write_atomically(
         folder / "run.sumocfg",
         fmt::format(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<configuration>\n"
             "    <net-file value=\"network.net.xml\"/>\n"
-            "    <route-files value=\"traffic.rou.xml,emergency.rou.xml\"/>\n"
+            "    <route-files value=\"{}\"/>\n"
             "    <additional-files value=\"{}\"/>\n    <begin value=\"0\"/>\n    <end value=\"{}\"/>\n"
             "    <step-length value=\"{}\"/>\n    <seed value=\"{}\"/>\n"
             "    <time-to-teleport value=\"{}\"/>\n    <xml-validation value=\"never\"/>\n"
             "    <collision.action value=\"warn\"/>\n</configuration>\n",
-            additional, prepared.time.horizon_s, prepared.time.step_length_s, prepared.simulator_seed,
+            routes, additional, prepared.time.horizon_s, prepared.time.step_length_s, prepared.simulator_seed,
             prepared.time.time_to_teleport_s.value_or(300.0)));
 }
 

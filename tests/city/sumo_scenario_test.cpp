@@ -3,8 +3,7 @@
 #include <zlib.h>
 
 #include "roads/network.hpp"
-#include "scenario/prepare.hpp"
-#include "town.hpp"
+#include "sumo_line.hpp"
 
 namespace clearway::city {
 namespace {
@@ -16,32 +15,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::Pair;
-
-class SumoScenario : public ImportTest {
-  protected:
-    /// Imports the straight road with the content of a route file.
-    ImportRequest line_with(const std::string& routes) const {
-        return request({line_network(), write("line.rou.xml", "<routes>" + routes + "</routes>")});
-    }
-    static std::string car(const std::string& id, double depart_s,
-                           const std::string& edges = "first second") {
-        return fmt::format("<vehicle id='{}' depart='{}'><route edges='{}'/></vehicle>", id, depart_s, edges);
-    }
-    static std::string cars(int count) {
-        std::string text;
-        for (int number = 0; number < count; ++number)
-            text += car(fmt::format("car{}", number), 2.0 * number);
-        return text;
-    }
-    scenario::Prepared prepared(const std::string& name = "town") const {
-        const scenario::ScenarioConfig config = scenario::load((out() / name).string());
-        const scenario::BuiltNetwork network = scenario::build_network(config, folder() / "built");
-        return scenario::prepare(config, network, core::StudySeed{1}, core::Replication{0},
-                                 folder() / "demand");
-    }
-    std::string traffic() const { return core::read_file(folder() / "demand" / "traffic.rou.xml"); }
-    std::string types() const { return core::read_file(folder() / "demand" / "vehicle_types.add.xml"); }
-};
 
 TEST_F(SumoScenario, a_share_of_the_cars_is_automated_by_their_ids) {
     run(line_with("<vType id='slow' maxSpeed='10' sigma='0.7'/>" + cars(60) +
@@ -128,14 +101,14 @@ TEST_F(SumoScenario, a_configuration_with_relative_lists_packed_files_and_what_c
         "sub dir/run.sumocfg",
         "<configuration><input><net-file value='net.xml'/><route-files value='a.rou.xml, b.rou.xml.gz'/>"
         "<additional-files value='more.add.xml'/></input><time><begin value='0'/><end value='50'/></time>"
-        "<processing><scale value='2'/></processing></configuration>");
+        "<processing><max-depart-delay value='2'/></processing></configuration>");
     unsetenv("SUMO_HOME");
     const Findings findings = run(request({configuration}));
     setenv("SUMO_HOME", "/usr/share/sumo", 0);
     EXPECT_EQ(findings.vehicles.at("car"), 21);
     EXPECT_THAT(findings.left_out,
-                AllOf(Contains(HasSubstr("<person>")), Contains(HasSubstr("<inductionLoop>")),
-                      Contains(HasSubstr("<poly>")), Contains(HasSubstr("scale = 2"))));
+                AllOf(Contains("1 persons who do not walk (walker)"), Contains(HasSubstr("<inductionLoop>")),
+                      Contains(HasSubstr("<poly>")), Contains(HasSubstr("max-depart-delay = 2"))));
     EXPECT_THAT(core::read_file(out() / "town" / "additional.add.xml"),
                 AllOf(HasSubstr("busStop"), Not(HasSubstr("inductionLoop"))));
 }

@@ -49,6 +49,46 @@ TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
     EXPECT_TRUE(core::run(sumo).ok()) << read("sumo.log");
 }
 
+TEST_F(CityTest, a_scenario_of_sumo_is_imported_checked_and_run_with_its_persons) {
+    const core::Command netgenerate{
+        "netgenerate",
+        {"--grid", "--grid.number", "3", "--grid.length", "200", "--default-junction-type", "traffic_light",
+         "--sidewalks.guess", "--crossings.guess", "-o", (folder() / "grid.net.xml").string()},
+        {},
+        folder() / "netgenerate.log"};
+    ASSERT_TRUE(core::run(netgenerate).ok());
+    std::string routes = "<routes>";
+    for (int number = 0; number < 20; ++number)
+        routes += fmt::format(
+            "<vehicle id='{0}' depart='{1}'><route edges='A0A1 A1A2 A2B2'/></vehicle><person id='{0}' "
+            "depart='{1}'><walk from='A0A1' to='B1B2'/></person>",
+            number, 3 * number);
+    write("town.rou.xml", routes +
+                              "<person id='rider' depart='9'><ride lines='ANY' from='A0A1' to='A1A2'/>"
+                              "</person></routes>");
+    write(
+        "run.sumocfg",
+        "<configuration><net-file value='grid.net.xml'/><route-files value='town.rou.xml'/></configuration>");
+    const Ended import = clearway({"import", "run.sumocfg", "--name", "town"});
+    ASSERT_EQ(import.code, 0) << import.err;
+    EXPECT_THAT(import.out,
+                AllOf(HasSubstr("persons          20 walk"), HasSubstr("1 persons who ride (rider)")));
+    EXPECT_EQ(nlohmann::json::parse(read("town/import.json")).at("persons"), 20);
+    const Ended check = clearway({"check", "./town"});
+    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    const Ended run = clearway(
+        {"run", "./town", "--seeds", "1", "--no-solo", "--policy", "corridor", "--record", "--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const char* const name : {"baseline", "custom"})
+        EXPECT_EQ(nlohmann::json::parse(read(fmt::format("out/runs/town/{}/00000/run.json", name)))
+                      .at("metrics")
+                      .at("pedestrian_count"),
+                  20)
+            << name;
+    ASSERT_EQ(clearway({"trajectories", "out/town/custom/0", "--out", "ways"}).code, 0);
+    EXPECT_THAT(read("ways/sumo/run.sumocfg"), HasSubstr("emergency.rou.xml,persons.rou.xml"));
+}
+
 // It fills slowly: judged after seven minutes it took half as many cars again, and jammed after twelve.
 TEST_F(CityTest, the_demand_of_an_import_does_not_jam_a_town_that_fills_slowly) {
     const std::string sumo_home =

@@ -60,6 +60,14 @@ TEST_F(ProcessTest, BothStreamsGoToTheFileWhichIsTruncated) {
     EXPECT_EQ(output_of(shell("echo out; echo err >&2")), "out\nerr\n");
 }
 
+TEST_F(ProcessTest, WorksInItsFolderOrNotAtAll) {
+    Command command = shell("pwd -P");
+    command.folder = std::filesystem::canonical(folder_.path());
+    EXPECT_EQ(output_of(command), command.folder.string() + "\n");
+    command.folder /= "nosuch";
+    EXPECT_EQ(run(command).code, 127);
+}
+
 TEST_F(ProcessTest, ArgumentsReachTheProgramUnchanged) {
     EXPECT_EQ(output_of({.program = "printf", .arguments = {"%s|", "a b", "$HOME", "*", "", "\"q\""}}),
               "a b|$HOME|*||\"q\"|");

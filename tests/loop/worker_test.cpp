@@ -12,6 +12,7 @@
 #include "loop/closed_loop.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
+#include "loop/walked_scenario.hpp"
 #include "sumo/waiting_sumo.hpp"
 
 namespace clearway {
@@ -137,6 +138,22 @@ TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {
     EXPECT_EQ(record_of(folder, "intersection", "solo").metrics.pedestrian_count, 0U);
 }
 
+TEST(Worker, MeetsThePersonsOfAScenarioAlikeInEveryConditionAndNotAlone) {
+    const test::WalkedScenario scenario;
+    const test::StudyFolder folder(scenario.folder(), {}, {baseline, clearing, solo});
+    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
+    ASSERT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+    for (const char* const name : {"baseline", "corridor"}) {
+        const metrics::RunMetrics run = record_of(folder, "walked", name).metrics;
+        EXPECT_EQ(run.pedestrian_count, static_cast<std::uint64_t>(test::WalkedScenario::persons)) << name;
+        EXPECT_EQ(run.pedestrians_unfinished, 0U) << name;
+        EXPECT_GT(run.pedestrian_time_loss_s.value_or(0.0), 5.0) << name;
+        EXPECT_EQ(run.emergency_pedestrian_collisions, 0U) << name;
+        EXPECT_EQ(run.emergency_arrived, 3U) << name;
+    }
+    EXPECT_EQ(record_of(folder, "walked", "solo").metrics.pedestrian_count, 0U);
+}
+
 /// Counts letters that turn green, in states that Clearway set, while somebody walks on a crossing in the
 /// way.
 class CrossingWatch : public loop::StepListener {
@@ -170,13 +187,9 @@ class CrossingWatch : public loop::StepListener {
     std::vector<std::string> before_;
 };
 
-TEST(Worker, GivesNoGreenAcrossACrossingThatSomebodyIsStillOn) {
-    scenario::Options slow;
-    slow.variant = scenario::Variant::dense;
-    slow.road_limit_kmh = 70.0;
-    slow.pedestrians = 600.0;
-    slow.settings = {{"pedestrians.speed_mean_mps", "0.8"}};
-    const test::StudyFolder folder("intersection", slow, {clearing});
+/// libsumo holds one simulation a process, so each scenario has a process of its own: a test.
+void expect_no_green_across_people(const std::string& scenario, const scenario::Options& options) {
+    const test::StudyFolder folder(scenario, options, {clearing});
     const sumo::Session* session = nullptr;
     loop::UnitRun run(folder.unit(0), folder.path() / "demand", folder.path() / "here",
                       [&](sumo::SessionConfig config) {
@@ -188,6 +201,20 @@ TEST(Worker, GivesNoGreenAcrossACrossingThatSomebodyIsStillOn) {
     run.record(clearing, watch);
     EXPECT_GT(watch.greens, 5);
     EXPECT_EQ(watch.greens_with_pedestrians, 0);
+}
+
+TEST(Worker, GivesNoGreenAcrossACrossingThatSomebodyIsStillOn) {
+    scenario::Options slow;
+    slow.variant = scenario::Variant::dense;
+    slow.road_limit_kmh = 70.0;
+    slow.pedestrians = 600.0;
+    slow.settings = {{"pedestrians.speed_mean_mps", "0.8"}};
+    expect_no_green_across_people("intersection", slow);
+}
+
+TEST(Worker, GivesNoGreenAcrossACrossingThatAPersonOfTheScenarioIsStillOn) {
+    const test::WalkedScenario scenario;
+    expect_no_green_across_people(scenario.folder(), {});
 }
 
 TEST(Worker, BelievesTheTrueGraphUnderPerfectSensing) {
@@ -244,9 +271,9 @@ void expect_equal_without_fork(const std::string& scenario, const scenario::Opti
     EXPECT_FALSE(record.traffic.approaches.empty());
     EXPECT_FALSE(record.traffic.recovery.empty());
     EXPECT_FALSE(record.traffic.journeys.empty());
-    EXPECT_EQ(record.traffic.journeys, forked.store().read_journeys({scenario, "repaired", 0}));
+    const results::RunKey key{alone.unit(0).scenario, "repaired", 0};
+    EXPECT_EQ(record.traffic.journeys, forked.store().read_journeys(key));
     alone.store().write(record, timing);
-    const results::RunKey key{scenario, "repaired", 0};
     EXPECT_GT(alone.store().read(key)->metrics.leases_issued, 0U);
     EXPECT_EQ(stored_bytes(alone.store(), key), stored_bytes(forked.store(), key));
 }
@@ -259,6 +286,11 @@ TEST(Worker, EqualsARunWithoutForkAmongPedestrians) {
     scenario::Options walked;
     walked.pedestrians = 300.0;
     expect_equal_without_fork("city", walked);
+}
+
+TEST(Worker, EqualsARunWithoutForkAmongThePersonsOfAScenario) {
+    const test::WalkedScenario scenario;
+    expect_equal_without_fork(scenario.folder(), {});
 }
 
 TEST(Worker, EqualsARunWithoutForkInBologna) {

@@ -317,6 +317,38 @@ TEST_F(Config, bad_pedestrians_say_where_and_what) {
     EXPECT_EQ(only_problem("", options).where, "--pedestrians");
 }
 
+constexpr const char* measured_line =
+    "[measured]\nroutes = [\"line.nod.xml\"]\npersons = [\"walkers.rou.xml\"]\n";
+
+TEST_F(Config, measured_persons_are_pedestrians_and_part_of_the_scenario) {
+    write("walkers.rou.xml", "<routes/>");
+    const ScenarioConfig config = load_text(measured_line);
+    EXPECT_TRUE(config.has_pedestrians());
+    EXPECT_FALSE(config.pedestrians.walk()) << "no crossings are built for them";
+    const std::string before = scenario_hash(config);
+    write("walkers.rou.xml", "<routes></routes>");
+    EXPECT_NE(scenario_hash(config), before);
+    store(config, folder() / "stored");
+    EXPECT_EQ(to_toml(load((folder() / "stored").string())), to_toml(config));
+}
+
+TEST_F(Config, without_measured_persons_the_effective_configuration_is_as_it_was) {
+    const ScenarioConfig config = load_text("[measured]\nroutes = [\"line.nod.xml\"]\npersons = []\n");
+    EXPECT_FALSE(config.has_pedestrians());
+    EXPECT_EQ(to_toml(config).find("persons"), std::string::npos);
+    EXPECT_FALSE(load("bologna").has_pedestrians());
+}
+
+TEST_F(Config, a_missing_file_of_persons_is_named_with_its_key_and_cure) {
+    const core::Problem problem = only_problem(measured_line);
+    EXPECT_THAT(problem.where, EndsWith("scenario.toml:8:1: measured.persons"));
+    EXPECT_THAT(problem.what, AllOf(HasSubstr("no file"), EndsWith("walkers.rou.xml")));
+    EXPECT_EQ(problem.allowed, "an existing file");
+    EXPECT_THAT(problem.cure, HasSubstr("relative to this scenario's folder"));
+    EXPECT_THAT(only_problem("[measured]\nperson = []\nroutes = [\"line.nod.xml\"]\n").cure,
+                HasSubstr("persons"));
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

@@ -337,6 +337,68 @@ TEST_F(CustomDemand, measured_types_must_be_listed) {
     EXPECT_THAT(found[1].what, HasSubstr("no edge \"third\""));
 }
 
+TEST_F(CustomDemand, measured_persons_go_by_departure_within_the_window_under_ids_of_their_own) {
+    write("cars.rou.xml",
+          "<routes><vehicle id=\"person.b\" type=\"car\" depart=\"0\"><route edges=\"first "
+          "second\"/></vehicle></routes>");
+    write("walkers.rou.xml",
+          "<routes><vType id=\"car\" vClass=\"pedestrian\"/>"
+          "<person id=\"b\" type=\"car\" depart=\"9.5\"><walk edges=\"first side\"/></person>"
+          "<person id=\"a\" type=\"car\" depart=\"2\"><walk edges=\"first\"/><stop edge=\"first\" "
+          "duration=\"1\"/></person>"
+          "<person id=\"late\" type=\"car\" depart=\"99\"><walk edges=\"first\"/></person></routes>");
+    const std::string measured =
+        "[time]\nwindow_s = 10.0\nwarm_up_s = 0.0\n[measured]\n"
+        "routes = [\"cars.rou.xml\"]\n[[measured.type]]\nid = \"car\"\n";
+    const auto made = [&](const std::string& text) {
+        return prepared(write("scenario.toml", line_head + text).string());
+    };
+    const Prepared alone = made(measured);
+    std::string walked = measured;
+    walked.insert(walked.find("[[measured.type]]"), "persons = [\"walkers.rou.xml\"]\n");
+    const Prepared among = made(walked);
+    EXPECT_EQ(alone.route_files.size(), 1U);
+    ASSERT_EQ(among.route_files.size(), 2U);
+    EXPECT_EQ(core::read_file(among.route_files[0]), core::read_file(alone.route_files[0]));
+    EXPECT_NE(among.demand_hash, alone.demand_hash);
+    const std::string text = core::read_file(among.route_files[1]);
+    EXPECT_THAT(text, HasSubstr("<vType id=\"person.car\" vClass=\"pedestrian\""));
+    const std::size_t first = text.find("<person id=\"person.a\" type=\"person.car\" depart=\"2\"");
+    EXPECT_LT(first, text.find("<person id=\"person.person.b\" type=\"person.car\" depart=\"9.5\""));
+    EXPECT_EQ(text.find("late"), std::string::npos);
+}
+
+TEST_F(CustomDemand, measured_persons_who_cannot_walk_are_refused_together) {
+    write("cars.rou.xml",
+          "<routes><vehicle id=\"c\" type=\"car\" depart=\"0\"><route edges=\"first "
+          "second\"/></vehicle></routes>");
+    const auto person = [](const std::string& id, const std::string& plan, const std::string& rest) {
+        return "<person id=\"" + id + "\" type=\"" + rest + ">" + plan + "</person>";
+    };
+    const std::string walk = "<walk edges=\"first\"/>";
+    const std::string now = "t\" depart=\"0\"";
+    write("walkers.rou.xml",
+          "<routes><vType id=\"t\" vClass=\"pedestrian\"/>" + person("a", walk, "t\" depart=\"soon\"") +
+              person("b", walk, now) + person("b", walk, now) + person("c", walk, "x\" depart=\"0\"") +
+              person("d", "<ride lines=\"x\"/>" + walk, now) + person("e", "<walk from=\"first\"/>", now) +
+              person("f", "<walk edges=\"third\"/>", now) +
+              person("g", "<walk edges=\"first side second first\"/>", now) + person("h", "", now) +
+              "<personFlow id=\"i\"/></routes>");
+    const auto found = problems(
+        "[measured]\nroutes = [\"cars.rou.xml\"]\npersons = [\"walkers.rou.xml\"]\n"
+        "[[measured.type]]\nid = \"car\"\n");
+    std::string text;
+    for (const core::Problem& problem : found)
+        text += problem.where.substr(problem.where.rfind(": ") + 2) + " " + problem.what + "\n";
+    EXPECT_EQ(text,
+              "person \"a\" depart is \"soon\"\nperson \"b\" occurs twice\n"
+              "person \"c\" type \"x\" is not defined\nperson \"d\" has a <ride>\n"
+              "person \"e\" has a walk without edges\n"
+              "person \"f\" the network has no edge \"third\"\n"
+              "person \"g\" its walk has a gap: nobody gets from edge \"side\" to \"second\" on foot\n"
+              "person \"h\" does not walk\npersonFlow \"i\" is a <personFlow>\n");
+}
+
 TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {
     const ScenarioConfig config = load("merge");
     const BuiltNetwork network = build_network(config, folder() / "merge");

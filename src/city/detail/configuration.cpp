@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,14 +17,51 @@ namespace {
 /// What a set SUMO_HOME would say on Debian.
 constexpr const char* usual_sumo_home = "/usr/share/sumo";
 
-/// Options that only show, write or say something: their loss changes no traffic.
+/// Options that only show, write or say something, or say how a run is computed: their loss changes no
+/// traffic. Exact names: `max-depart-delay` is not `delay`.
 bool is_harmless(const std::string& option) {
-    constexpr std::array parts = {
-        "output",      "log",    "gui",        "xml-validation", "verbose", "warnings", "start",    "quit",
-        "delay",       "game",   "osg",        "human-readable", "seed",    "threads",  "step-log", "view",
-        "breakpoints", "report", "remote-port"};
-    return std::ranges::any_of(parts,
-                               [&](const char* part) { return option.find(part) != std::string::npos; });
+    constexpr std::array<std::string_view, 37> names = {"verbose",
+                                                        "v",
+                                                        "no-warnings",
+                                                        "W",
+                                                        "warnings",
+                                                        "aggregate-warnings",
+                                                        "suppress-warnings",
+                                                        "print-options",
+                                                        "log",
+                                                        "l",
+                                                        "message-log",
+                                                        "error-log",
+                                                        "no-step-log",
+                                                        "step-log",
+                                                        "step-log.period",
+                                                        "no-duration-log",
+                                                        "duration-log.disable",
+                                                        "duration-log.statistics",
+                                                        "duration-log",
+                                                        "start",
+                                                        "S",
+                                                        "quit-on-end",
+                                                        "Q",
+                                                        "delay",
+                                                        "d",
+                                                        "breakpoints",
+                                                        "demo",
+                                                        "D",
+                                                        "human-readable-time",
+                                                        "seed",
+                                                        "random",
+                                                        "threads",
+                                                        "precision",
+                                                        "precision.geo",
+                                                        "remote-port",
+                                                        "num-clients",
+                                                        "language"};
+    constexpr std::array<std::string_view, 9> parts = {
+        "output", "gui", "xml-validation", "game", "osg", "view", "save-state", "device.ssm", "device.fcd"};
+    return std::ranges::find(names, option) != names.end() ||
+           std::ranges::any_of(parts,
+                               [&](std::string_view part) { return option.find(part) != std::string::npos; });
 }
 
 /// `${NAME}` replaced by the environment, as SUMO does.
@@ -55,36 +93,57 @@ class ConfigurationReader {
     void take(const Element& element) {
         for (const Element& child : element.children)
             take(child);
-        const std::string& value = element.has("value") ? element.text("value") : element.text("v");
+        std::string value = element.has("value") ? element.text("value") : element.text("v");
+        if (value.empty()) value = element.content;
         if (value.empty()) return;
         const std::string& name = element.name;
-        if (name == "net-file" || name == "net" || name == "n") {
-            const auto files = list(value, element);
-            if (!files.empty()) configuration_.network = files.front();
-        } else if (name == "route-files" || name == "routes" || name == "r") {
+        if (name == "net-file" || name == "net" || name == "n")
+            take_network(list(value, element), element);
+        else if (name == "route-files" || name == "routes" || name == "r")
             configuration_.routes = list(value, element);
-        } else if (name == "additional-files" || name == "additional" || name == "a") {
+        else if (name == "additional-files" || name == "additional" || name == "a")
             configuration_.additional = list(value, element);
-        } else if (name == "begin" || name == "b") {
-            configuration_.begin_s = time_s(value);
-        } else if (name == "end" || name == "e") {
-            configuration_.end_s = time_s(value);
-        } else if (name == "ignore-route-errors") {
-            configuration_.ignores_route_errors = value != "false" && value != "0";
-        } else if (!is_harmless(name)) {
-            configuration_.other_options.push_back(fmt::format("{} = {}", name, value));
-        }
+        else
+            take_option(name, value);
     }
 
     Configuration finish() {
         if (configuration_.network.empty() && problems_.empty())
             problems_.push_back(
                 {file_.string(), "names no network", "a net-file", "give the files themselves"});
+        const std::optional<double> begin_s = configuration_.begin_s;
+        const std::optional<double> end_s = configuration_.end_s;
+        if (end_s && *end_s >= 0.0 && *end_s <= begin_s.value_or(0.0))
+            problems_.push_back(
+                {file_.string(),
+                 fmt::format("ends at {} s, before its begin at {} s", *end_s, begin_s.value_or(0.0)),
+                 "an end after the begin", "correct begin or end"});
         if (!problems_.empty()) throw core::InputError(problems_);
         return std::move(configuration_);
     }
 
   private:
+    void take_network(const std::vector<std::filesystem::path>& files, const Element& element) {
+        if (files.empty()) return;
+        if (files.size() > 1 || !configuration_.network.empty())
+            problems_.push_back({fmt::format("{}:{}: {}", file_.string(), element.line, element.name),
+                                 "is a second network", "one network", "remove one"});
+        configuration_.network = files.front();
+    }
+
+    void take_option(const std::string& name, const std::string& value) {
+        if (name == "begin" || name == "b")
+            configuration_.begin_s = time_s(value);
+        else if (name == "end" || name == "e")
+            configuration_.end_s = time_s(value);
+        else if (name == "scale" && number(value).value_or(-1.0) >= 0.0)
+            configuration_.scale = *number(value);
+        else if (name == "ignore-route-errors")
+            configuration_.ignores_route_errors = is_true(value);
+        else if (!is_harmless(name) && (number(value) || !is_false(value)))
+            configuration_.other_options.push_back(fmt::format("{} = {}", name, value));
+    }
+
     std::vector<std::filesystem::path> list(const std::string& value, const Element& element) {
         // A name with blanks is one name where it is a file.
         std::vector<std::string> names = words(expanded(value), ",");

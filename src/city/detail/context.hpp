@@ -2,11 +2,21 @@
 
 #include <filesystem>
 
+#include "city/detail/additional.hpp"
 #include "city/detail/demand_reader.hpp"
 #include "city/import.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::city::detail {
+
+/// Departures that a scenario takes, times of the route files.
+struct Window {
+    double begin_s = 0.0;
+    double length_s = 0.0;
+
+    double end_s() const { return begin_s + length_s; }
+    bool holds(double depart_s) const { return depart_s >= begin_s && depart_s < end_s(); }
+};
 
 /// What the steps of one import share.
 struct Import {
@@ -16,6 +26,7 @@ struct Import {
     std::filesystem::path work;      ///< For what is thrown away.
     Findings findings = {};
     LeftOut left_out = {};
+    Additional additional = {};  ///< What additional.add.xml holds.
 };
 
 }  // namespace clearway::city::detail

@@ -1,8 +1,12 @@
 #include "city/detail/element.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
 
 #include "core/markup.hpp"
 #include "roads/xml_stream.hpp"
@@ -26,10 +30,19 @@ class TreeHandler : public roads::XmlHandler {
         });
     }
 
+    void characters(std::string_view part) override {
+        constexpr std::string_view blanks = " \t\r\n";
+        if (open_.empty()) return;
+        std::string& content = open_.back().content;
+        if (content.empty()) part.remove_prefix(std::min(part.find_first_not_of(blanks), part.size()));
+        content += part;
+    }
+
     void end(std::string_view) override {
         if (--depth_ == 0) return;
         Element closed = std::move(open_.back());
         open_.pop_back();
+        closed.content.erase(closed.content.find_last_not_of(" \t\r\n") + 1);
         if (open_.empty()) return take_(std::move(closed));
         open_.back().children.push_back(std::move(closed));
     }
@@ -39,6 +52,12 @@ class TreeHandler : public roads::XmlHandler {
     std::vector<Element> open_;
     int depth_ = 0;
 };
+
+bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    return std::ranges::find(words, lower) != words.end();
+}
 
 }  // namespace
 
@@ -54,8 +73,12 @@ bool Element::has(std::string_view attribute) const {
 }
 
 void Element::set(std::string_view attribute, std::string value) {
-    remove(attribute);
-    attributes.emplace_back(attribute, std::move(value));
+    const auto found =
+        std::ranges::find_if(attributes, [&](const auto& each) { return each.first == attribute; });
+    if (found != attributes.end())
+        found->second = std::move(value);
+    else
+        attributes.emplace_back(attribute, std::move(value));
 }
 
 void Element::remove(std::string_view attribute) {
@@ -77,6 +100,27 @@ std::string Element::xml(int depth) const {
 void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take) {
     TreeHandler handler(take);
     roads::stream_xml(file, handler);
+}
+
+void shift_stops(Element& user, double begin_s) {
+    for (Element& stop : user.children) {
+        for (const char* const name : {"until", "arrival", "started", "ended"}) {
+            const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
+            if (at_s) stop.set(name, fmt::format("{:.2f}", std::max(0.0, *at_s - begin_s)));
+        }
+    }
+}
+
+std::string file_text(const char* root, const std::string& content) {
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{0}>\n{1}</{0}>\n", root, content);
+}
+
+bool is_true(std::string_view text) {
+    return is_one_of(text, {"1", "yes", "true", "on", "x", "t"});
+}
+
+bool is_false(std::string_view text) {
+    return is_one_of(text, {"0", "no", "false", "off", "-", "f"});
 }
 
 std::optional<double> number(std::string_view text) {

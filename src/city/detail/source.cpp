@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -81,6 +82,10 @@ std::string end_of(const std::filesystem::path& file) {
     return end;
 }
 
+bool is_one_of(const std::string& element, std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, element) != names.end();
+}
+
 bool has_name_of_configuration(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
     return extension == ".sumocfg" || extension == ".cfg";
@@ -105,8 +110,11 @@ SourceKind kind_of(const std::filesystem::path& file) {
                "the download failed: open the file in a browser to see why, and download it again");
     if (element == "osm") return SourceKind::map;
     if (element == "net") return SourceKind::network;
-    if (element == "routes" || element == "trips") return SourceKind::routes;
-    if (element == "additional" || element == "additionals" || element == "add")
+    // SUMO does not look at the root of these; what is in them says what it is.
+    if (is_one_of(element, {"routes", "trips", "flows", "vehicles", "persons", "demand"}))
+        return SourceKind::routes;
+    if (is_one_of(element, {"additional", "additionals", "add", "a", "tllogics", "tls", "pois", "polys",
+                            "shapes", "tazs", "vtypes", "stops", "detectors", "rerouters", "vehicletypes"}))
         return SourceKind::additional;
     if (element == "configuration" || element == "sumoconfiguration" || has_name_of_configuration(file))
         return SourceKind::configuration;

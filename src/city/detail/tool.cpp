@@ -38,6 +38,8 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
     command.program = tool.program;
     command.arguments = tool.arguments;
     command.output = tool.log;
+    // Their files are the import's, by whole path; what they write without one belongs there too.
+    if (tool.program == "sumo" || tool.program == "duarouter") command.folder = tool.log.parent_path();
     const core::Child child = core::start(command);
     ChildGuard guard(child);
     std::optional<core::Exit> exit;

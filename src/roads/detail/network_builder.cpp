@@ -155,6 +155,7 @@ void NetworkBuilder::read_edge(const XmlAttributes& attributes) {
     const std::string_view function = attributes.find("function").value_or("");
     edge.internal = is_inside_junction(function);
     edge.crossing = function == "crossing";
+    edge.walking_area = function == "walkingarea";
     if (!edge.internal) {
         edge.from_junction = text(attributes, "from");
         edge.to_junction = text(attributes, "to");
@@ -184,6 +185,7 @@ void NetworkBuilder::read_lane(const XmlAttributes& attributes) {
     const detail::Permissions allowed = detail::permissions_of(attributes);
     lane.allows_cars = allowed.cars;
     lane.allows_emergency = allowed.emergency;
+    lane.allows_pedestrians = allowed.pedestrians;
     lane.shape = shape(attributes);
     lane.shape_length_m = length_of(lane.shape);
     const auto row = static_cast<std::uint32_t>(network_.lanes_.size());

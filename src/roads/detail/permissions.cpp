@@ -6,10 +6,11 @@ namespace clearway::roads::detail {
 namespace {
 
 Permissions listed(std::string_view classes) {
-    Permissions result{false, false};
+    Permissions result{false, false, false};
     for_each_word(classes, ' ', [&](std::string_view word) {
         result.cars |= word == "passenger" || word == "all";
         result.emergency |= word == "emergency" || word == "all";
+        result.pedestrians |= word == "pedestrian" || word == "all";
     });
     return result;
 }
@@ -22,7 +23,7 @@ Permissions permissions_of(const XmlAttributes& attributes) {
     const auto disallow = attributes.find("disallow");
     if (!disallow) return {};
     const Permissions forbidden = listed(*disallow);
-    return {!forbidden.cars, !forbidden.emergency};
+    return {!forbidden.cars, !forbidden.emergency, !forbidden.pedestrians};
 }
 
 }  // namespace clearway::roads::detail

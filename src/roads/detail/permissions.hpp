@@ -8,6 +8,7 @@ namespace clearway::roads::detail {
 struct Permissions {
     bool cars = true;       ///< vClass passenger.
     bool emergency = true;  ///< vClass emergency.
+    bool pedestrians = true;
 };
 
 /// SUMO's rule: `allow` alone counts when it is there, else everybody but those of `disallow`.

@@ -207,6 +207,8 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
         check_file(config, "measured.routes", path, problems);
     for (const std::string& path : measured.additional)
         check_file(config, "measured.additional", path, problems);
+    for (const std::string& path : measured.persons)
+        check_file(config, "measured.persons", path, problems);
     if (measured.own_types) {
         require_text(config, "measured.own_types.file", measured.own_types->file, problems);
         check_file(config, "measured.own_types.file", measured.own_types->file, problems);

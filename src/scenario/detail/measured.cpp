@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -72,7 +73,7 @@ class MeasuredReader {
         const auto type = types_.find(vehicle.attribute("type").value());
         if (type == types_.end()) return unknown_type(file, id, vehicle.attribute("type").value());
         const MeasuredType& listed = *type->second;
-        if (!note_route(vehicle, file, id, listed.kind == "car" && listed.access == Access::own)) return;
+        if (!note_route(vehicle, file, id, listed)) return;
         add(vehicle, id, depart_s, listed);
     }
 
@@ -87,9 +88,10 @@ class MeasuredReader {
         set_type(vehicle, type, planned.vehicle_class);
         vehicle.remove_attribute("color");
         if (!keeps_driver(planned.vehicle_class)) {
+            const double factor = speed_factor(context_, id, planned.vehicle_class);
             vehicle.remove_attribute("speedFactor");
-            vehicle.append_attribute("speedFactor")
-                .set_value(fmt::format("{:.4f}", speed_factor(context_, id, planned.vehicle_class)).c_str());
+            vehicle.append_attribute("speedFactor").set_value(fmt::format("{:.4f}", factor).c_str());
+            if (measured_.own_types) limit_depart_speed(vehicle, factor);
         }
         planned.xml = element_text(vehicle);
         demand_.vehicles.push_back(std::move(planned));
@@ -108,10 +110,25 @@ class MeasuredReader {
                vehicle_class == VehicleClass::human;
     }
 
-    /// Checks the route's edges; remembers it for emergency vehicles when `for_emergency`. False after a
-    /// problem.
+    /// SUMO ends at a vehicle that departs faster than its driver would drive, and this driver is another
+    /// than that of the file.
+    void limit_depart_speed(pugi::xml_node vehicle, double factor) const {
+        pugi::xml_attribute speed = vehicle.attribute("departSpeed");
+        char* end = nullptr;
+        const double speed_mps = std::strtod(speed.value(), &end);
+        if (!speed || end == speed.value() || *end != '\0') return;
+        const std::string edges = vehicle.child("route").attribute("edges").value();
+        const auto edge = context_.network.find_edge(edges.substr(0, edges.find(' ')));
+        double slowest_mps = std::numeric_limits<double>::infinity();
+        for (std::uint32_t number = 0; number < context_.network.edge(*edge).lane_count; ++number)
+            slowest_mps = std::min<double>(
+                slowest_mps, context_.network.lane(context_.network.lane_of(*edge, number)).speed_limit_mps);
+        if (speed_mps > factor * slowest_mps) speed.set_value("max");
+    }
+
+    /// Checks the route's edges; remembers it for emergency vehicles. False after a problem.
     bool note_route(pugi::xml_node vehicle, const std::filesystem::path& file, const std::string& id,
-                    bool for_emergency) {
+                    const MeasuredType& type) {
         const std::string edges = vehicle.child("route").attribute("edges").value();
         std::istringstream words(edges);
         RouteEdges route;
@@ -128,20 +145,23 @@ class MeasuredReader {
             problem(file, id, "has no route inside", "<route edges=\"...\"/>");
             return false;
         }
-        if (for_emergency && emergency_routes_.insert(edges).second &&
+        if (type.access != Access::own) return true;
+        auto& seen = type.kind == "car" ? car_routes_ : other_routes_;
+        if (seen.insert(edges).second &&
             roads::route_length(context_.network, route).value >= measured_.emergency_minimum_length_m &&
             open_to_emergency(context_.network, route))
-            long_routes_.push_back(std::move(route));
+            (type.kind == "car" ? long_routes_ : long_other_routes_).push_back(std::move(route));
         return true;
     }
 
     void add_emergency() {
         const int count = context_.config.demand.emergency;
         const bool has_sites = !context_.config.emergency_sites.empty();
+        if (long_routes_.empty()) long_routes_ = std::move(long_other_routes_);
         if (count > 0 && !has_sites && long_routes_.empty())
-            throw core::InputError(core::Problem{context_.config.where("measured.emergency_minimum_length_m"),
-                                                 "no measured route of a car is that long", "shorter",
-                                                 "lower it"});
+            throw core::InputError(core::Problem{
+                context_.config.where("measured.emergency_minimum_length_m"),
+                "no measured route that emergency vehicles may drive is that long", "shorter", "lower it"});
         std::optional<TripRoutes> trips;
         if (count > 0 && has_sites) trips.emplace(context_);
         for (int number = 0; number < count; ++number) {
@@ -182,8 +202,10 @@ class MeasuredReader {
     const Measured& measured_;
     std::map<std::string, const MeasuredType*> types_;
     std::set<std::string> unknown_types_;
-    std::set<std::string> emergency_routes_;
-    std::vector<RouteEdges> long_routes_;
+    std::set<std::string> car_routes_;
+    std::set<std::string> other_routes_;
+    std::vector<RouteEdges> long_routes_;        ///< For emergency vehicles: those of cars,
+    std::vector<RouteEdges> long_other_routes_;  ///< or, where no car has one, of any vehicle.
     std::vector<core::Problem> problems_;
     PlannedDemand demand_;
 };
