@@ -118,7 +118,7 @@ Action configure_import(CLI::App& app) {
         ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
     app.add_flag_callback(
         "--leave-out-bad-vehicles", [&request] { request.bad_vehicles = city::BadVehicles::leave_out; },
-        "Leave out vehicles with unknown edges or gaps in their route [refuse]");
+        "Leave out vehicles and persons with unknown edges or gaps on their way [refuse]");
     add_json_option(app, arguments->printing, "the findings");
     return [arguments](const Invocation&) { return import(*arguments); };
 }
