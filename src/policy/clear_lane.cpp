@@ -128,12 +128,14 @@ class Way {
         return best;
     }
 
-    /// The nearest automated vehicle that is a little behind on the wanted lane drops back.
+    /// Who is nearest behind on the wanted lane drops back, if automated.
     void open_beside(core::LaneIndex wanted) {
         const traffic::BelievedVehicle* nearest = nullptr;
         for (const traffic::BelievedVehicle& vehicle : view_.belief().vehicles) {
             const double behind_m = emergency_.state.lane_position_m - vehicle.state.lane_position_m;
-            if (vehicle.state.lane != wanted || behind_m < 0.0 || behind_m > config_.beside_m) continue;
+            if (vehicle.key == emergency_.key || vehicle.state.lane != wanted || behind_m < 0.0 ||
+                behind_m > config_.beside_m)
+                continue;
             if (nearest == nullptr || vehicle.state.lane_position_m > nearest->state.lane_position_m)
                 nearest = &vehicle;
         }

@@ -1,7 +1,9 @@
 #include "policy/detail/gap_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace clearway::policy::detail {
 
@@ -13,11 +15,12 @@ const traffic::VehicleInfo& info_of(const View& view, const traffic::BelievedVeh
     return info != nullptr ? *info : unknown;
 }
 
-/// Vehicles on a lane, the rearmost first.
-std::vector<const traffic::BelievedVehicle*> vehicles_on(const View& view, core::LaneIndex lane) {
+/// Vehicles on a lane, the rearmost first. `own` is left out: what others believe of it may lag behind.
+std::vector<const traffic::BelievedVehicle*> vehicles_on(const View& view, core::LaneIndex lane,
+                                                         core::VehicleKey own) {
     std::vector<const traffic::BelievedVehicle*> on_lane;
     for (const traffic::BelievedVehicle& vehicle : view.belief().vehicles)
-        if (vehicle.state.lane == lane) on_lane.push_back(&vehicle);
+        if (vehicle.state.lane == lane && vehicle.key != own) on_lane.push_back(&vehicle);
     std::ranges::sort(on_lane, {}, [](const auto* vehicle) { return vehicle->state.lane_position_m; });
     return on_lane;
 }
@@ -26,13 +29,13 @@ std::vector<const traffic::BelievedVehicle*> vehicles_on(const View& view, core:
 
 std::optional<Gap> nearest_gap(const View& view, const traffic::BelievedVehicle& vehicle,
                                core::LaneIndex lane, const Headways& headways) {
-    const std::vector<const traffic::BelievedVehicle*> on_lane = vehicles_on(view, lane);
+    const std::vector<const traffic::BelievedVehicle*> on_lane = vehicles_on(view, lane, vehicle.key);
+    if (on_lane.empty()) return Gap{};
     const traffic::VehicleInfo& own = info_of(view, vehicle);
     std::optional<Gap> best;
     for (std::size_t row = 0; row <= on_lane.size(); ++row) {
         const traffic::BelievedVehicle* const behind = row > 0 ? on_lane[row - 1] : nullptr;
         const traffic::BelievedVehicle* const before = row < on_lane.size() ? on_lane[row] : nullptr;
-        if (behind == nullptr && before == nullptr) return Gap{};
         Gap gap{0.0, (before != nullptr ? before : behind)->state.speed_mps, behind};
         double nearest_m = -std::numeric_limits<double>::infinity();
         double farthest_m = std::numeric_limits<double>::infinity();

@@ -11,7 +11,8 @@ namespace clearway::policy::detail {
 /// them.
 struct Gap {
     double shift_m = 0.0;  ///< How far the vehicle must move relative to that lane's traffic to be beside it.
-    double flow_mps = 0.0;  ///< Speed of that traffic: of who drives behind the gap, else before it.
+    /// Speed of that traffic, of who drives before the gap, else behind it, m/s; 0 on an empty lane.
+    double flow_mps = 0.0;
     const traffic::BelievedVehicle* behind = nullptr;  ///< Who drives behind it, if anybody.
 };
 
@@ -21,8 +22,9 @@ struct Headways {
     double automated_s = 0.5;  ///< Before an automated vehicle, which is asked for more.
 };
 
-/// The nearest gap on `lane`, which lies beside `vehicle` on the same edge, that leaves the headways to both
-/// sides at the speed of whoever follows. Nothing when the lane has none on this edge.
+/// The nearest gap on `lane`, which lies beside `vehicle` on the same edge, that leaves minimum gap and
+/// headway to both sides: behind at the follower's speed, before at the leader's, taken on by then. Nothing
+/// when the lane has none. Vehicles of other edges are not seen.
 std::optional<Gap> nearest_gap(const View& view, const traffic::BelievedVehicle& vehicle,
                                core::LaneIndex lane, const Headways& headways);
 
