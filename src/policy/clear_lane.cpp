@@ -20,6 +20,12 @@ constexpr double crawl_mps = 1.0;
 /// Two vehicles nearer along the road than this cannot be side by side on the way to one lane, m.
 constexpr double side_room_m = 12.0;
 
+/// A neighbouring lane, and how much faster it is, s.
+struct FasterLane {
+    core::LaneIndex lane;
+    double gain_s = 0.0;
+};
+
 /// Clears the way of one emergency vehicle.
 class Way {
   public:
@@ -33,12 +39,11 @@ class Way {
           ahead_(view.vehicles_ahead(emergency, core::Metres(std::max(config.horizon_m, config.choice_m)))) {}
 
     void clear() {
-        const std::optional<std::uint32_t> wanted = choose_lane();
-        if (wanted) {
-            write_.add(emergency_.key, traffic::ChangeLane{*wanted}, "less delay ahead", emergency_.key);
-            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(emergency_), *wanted);
-            open_beside(lane);
-            make_for_gap(lane);
+        if (const auto wanted = choose_lane()) {
+            write_.add(emergency_.key, traffic::ChangeLane{view_.network().lane(wanted->lane).number},
+                       "less delay ahead", emergency_.key);
+            open_beside(wanted->lane);
+            make_for_gap(*wanted);
         }
         for (const VehicleAhead& ahead : ahead_) {
             if (ahead.distance_m > config_.horizon_m) break;
@@ -112,17 +117,18 @@ class Way {
         return behind_slowest_s + standing_s;
     }
 
-    std::optional<std::uint32_t> choose_lane() const {
+    std::optional<FasterLane> choose_lane() const {
         const core::EdgeIndex edge = *view_.edge_of(emergency_);
         if (view_.network().edge(edge).internal) return std::nullopt;
         const double here_s = time_on(emergency_.state.lane);
-        std::optional<std::uint32_t> best;
+        std::optional<FasterLane> best;
         double best_s = here_s - config_.worth_s;
         for (const std::uint32_t number : view_.usable_neighbours(emergency_)) {
-            const double there_s = time_on(view_.network().lane_of(edge, number));
+            const core::LaneIndex lane = view_.network().lane_of(edge, number);
+            const double there_s = time_on(lane);
             if (there_s < best_s) {
                 best_s = there_s;
-                best = number;
+                best = FasterLane{lane, here_s - there_s};
             }
         }
         return best;
@@ -145,12 +151,11 @@ class Way {
 
     /// Falls back to the nearest gap on the wanted lane, where the lane is worth that, and an automated
     /// vehicle behind the gap keeps it open.
-    void make_for_gap(core::LaneIndex wanted) {
-        const auto gap = detail::nearest_gap(view_, emergency_, wanted, config_.headways);
+    void make_for_gap(const FasterLane& wanted) {
+        const auto gap = detail::nearest_gap(view_, emergency_, wanted.lane, config_.headways);
         if (!gap || gap->shift_m >= 0.0 || gap->flow_mps < config_.slowest_mps) return;
         const double back_m = -gap->shift_m;
-        const double gain_s = time_on(emergency_.state.lane) - time_on(wanted) - back_m / gap->flow_mps;
-        if (gain_s < config_.gap_worth_s) return;
+        if (wanted.gain_s - back_m / gap->flow_mps < config_.gap_worth_s) return;
         drive_at(emergency_, gap->flow_mps - std::min(config_.fall_back_mps, back_m / config_.fall_back_s),
                  "falls back to a gap");
         if (gap->behind == nullptr || gap->behind->vehicle_class != traffic::VehicleClass::automated) return;

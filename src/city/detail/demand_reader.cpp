@@ -195,11 +195,19 @@ void DemandReader::resolve_flow(const Pending& pending, const Take& take) {
     }
 }
 
-/// Of the type that an element names, or that `id` draws from its distribution.
+/// The type that an element names, or that `id` draws from the distribution that it names.
+std::string DemandReader::type_of(const Element& source, const char* otherwise, const std::string& id) const {
+    const std::string type = source.has("type") ? source.text("type") : otherwise;
+    return type_choices_.holds(type) ? type_choices_.draw(type, id) : type;
+}
+
+void DemandReader::undefined_type(const std::string& type, const std::string& id, const std::string& place) {
+    problem(place, id, fmt::format("has the type \"{}\", which is not defined", type),
+            "a vType of the route and additional files");
+}
+
 double DemandReader::scale_of_type(const Element& source, const std::string& id) const {
-    std::string type = source.has("type") ? source.text("type") : default_type;
-    if (type_choices_.holds(type)) type = type_choices_.draw(type, id);
-    const auto scale = type_scales_.find(type);
+    const auto scale = type_scales_.find(type_of(source, default_type, id));
     return scale == type_scales_.end() ? 1.0 : std::max(0.0, scale->second);
 }
 
@@ -258,14 +266,11 @@ bool DemandReader::note_id(const std::string& id, const std::string& place,
 }
 
 bool DemandReader::set_type(const Element& source, Person& person) {
-    person.type = source.has("type") ? source.text("type") : default_person_type;
-    if (type_choices_.holds(person.type)) person.type = type_choices_.draw(person.type, person.id);
+    person.type = type_of(source, default_person_type, person.id);
     if (demand_.person_types.contains(person.type)) return true;
     const auto own = demand_.types.find(person.type);
     if (own == demand_.types.end() && person.type != default_person_type) {
-        problem(person.place, person.id,
-                fmt::format("has the type \"{}\", which is not defined", person.type),
-                "a vType of the route and additional files");
+        undefined_type(person.type, person.id, person.place);
         return false;
     }
     Element type;
@@ -296,13 +301,10 @@ bool DemandReader::set_edges(Element& walk, const Person& person) {
 }
 
 bool DemandReader::set_type(const Element& source, RoadUser& vehicle) {
-    vehicle.type = source.has("type") ? source.text("type") : default_type;
-    if (type_choices_.holds(vehicle.type)) vehicle.type = type_choices_.draw(vehicle.type, vehicle.id);
+    vehicle.type = type_of(source, default_type, vehicle.id);
     if (demand_.types.contains(vehicle.type)) return true;
     if (!vehicle.type.starts_with("DEFAULT_")) {
-        problem(vehicle.place, vehicle.id,
-                fmt::format("has the type \"{}\", which is not defined", vehicle.type),
-                "a vType of the route and additional files");
+        undefined_type(vehicle.type, vehicle.id, vehicle.place);
         return false;
     }
     Element type;

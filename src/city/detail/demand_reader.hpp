@@ -82,6 +82,8 @@ class DemandReader {
     using Take = std::function<void(const std::string&, const Departure&)>;
     void resolve(const Pending& pending, const Take& take);
     void resolve_flow(const Pending& pending, const Take& take);
+    std::string type_of(const Element& source, const char* otherwise, const std::string& id) const;
+    void undefined_type(const std::string& type, const std::string& id, const std::string& place);
     double scale_of_type(const Element& source, const std::string& id) const;
     void report_types();
     void resolve_person(const Pending& pending);

@@ -11,10 +11,10 @@
 
 #include "city/detail/additional.hpp"
 #include "city/detail/class_access.hpp"
+#include "city/detail/plan_check.hpp"
 #include "city/detail/stop.hpp"
 #include "city/detail/sumo_persons.hpp"
 #include "city/detail/vehicle_type.hpp"
-#include "city/detail/walks.hpp"
 #include "city/detail/ways.hpp"
 #include "core/files.hpp"
 #include "roads/route.hpp"

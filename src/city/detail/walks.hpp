@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "city/detail/context.hpp"
-#include "core/error.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::city::detail {
-
-/// Takes out the persons whose plan SUMO 1.15 would refuse, or whose walk it would end the run at, and counts
-/// them in `left_out`. Answers them as problems, up to `named_problems`. The walks of the others have edges,
-/// or `from` and `to`. `additional` has the stops that they name.
-std::vector<core::Problem> take_out_bad_persons(Demand& demand, const roads::Network& network,
-                                                const std::vector<Element>& additional, LeftOut& left_out);
 
 /// Gives walks that have only ends the edges of the shortest way on foot, with duarouter. Persons with a walk
 /// that has none are left out. `network_file` is that of `network`.

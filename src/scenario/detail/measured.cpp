@@ -13,6 +13,7 @@
 #include "roads/route.hpp"
 #include "scenario/detail/demand.hpp"
 #include "scenario/detail/own_types.hpp"
+#include "scenario/detail/route_file.hpp"
 #include "scenario/detail/trip_routes.hpp"
 #include "scenario/detail/xml_text.hpp"
 #include "scenario/vehicle_types.hpp"
@@ -37,12 +38,7 @@ class MeasuredReader {
     }
 
     void read(const std::filesystem::path& file) {
-        pugi::xml_document document;
-        const pugi::xml_parse_result result = document.load_file(file.c_str());
-        if (!result)
-            throw core::InputError(core::Problem{fmt::format("{}: byte {}", file.string(), result.offset),
-                                                 result.description(), "a SUMO route file",
-                                                 "correct the file"});
+        const pugi::xml_document document = load_route_file(file);
         for (const pugi::xml_node vehicle : document.document_element().children("vehicle"))
             take(vehicle, file);
     }

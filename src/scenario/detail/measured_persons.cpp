@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "roads/walkways.hpp"
+#include "scenario/detail/route_file.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario::detail {
@@ -36,12 +37,7 @@ class PersonsReader {
     }
 
     void read(const std::filesystem::path& file) {
-        pugi::xml_document document;
-        const pugi::xml_parse_result result = document.load_file(file.c_str());
-        if (!result)
-            throw core::InputError(core::Problem{fmt::format("{}: byte {}", file.string(), result.offset),
-                                                 result.description(), "a SUMO route file",
-                                                 "correct the file"});
+        const pugi::xml_document document = load_route_file(file);
         for (const pugi::xml_node element : document.document_element().children()) {
             const std::string_view name = element.name();
             if (name == "vType")

@@ -1,0 +1,27 @@
+"""Trajectories of the recorded runs of one condition, for the scripts that look at them."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+PROGRAM = os.environ.get("CLEARWAY", str(pathlib.Path(__file__).resolve().parent.parent / "clearway"))
+
+
+def trajectories(usage, every_s, reach_m):
+    """(replication, folder that `clearway trajectories` wrote) of every run of the condition that the only argument names."""
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        sys.exit(usage)
+    condition = pathlib.Path(sys.argv[1])
+    study, scenario = condition.parent.parent, condition.parent.name
+    recordings = sorted((study / "recordings" / scenario / condition.name).glob("*.recording"))
+    if not recordings:
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {condition}: no recordings; make the runs with --record")
+    with tempfile.TemporaryDirectory() as work:
+        for recording in recordings:
+            replication = int(recording.stem)
+            out = pathlib.Path(work) / str(replication)
+            subprocess.run([PROGRAM, "trajectories", str(condition / str(replication)), "--every", str(every_s),
+                            "--reach", str(reach_m), "--out", str(out)], check=True, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+            yield replication, out

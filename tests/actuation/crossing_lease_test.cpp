@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "actuation/signal_watch.hpp"
+
+namespace clearway::testing {
+namespace {
+
+/// The footway, pedestrians having green, with somebody on the crossing until `left_s`; vehicles from the
+/// west are asked green until `asked_s`.
+std::vector<Shown> watch_crossing(double left_s, double asked_s, double until_s,
+                                  actuation::Actuator::Config config = {}) {
+    ActuationBench bench(0.25, config, footway());
+    bench.shown[0] = "rrG";
+    bench.self.walked_on = {*footway().find_lane(":J_c0_0")};
+    return watch(bench, until_s, [&](ActuationBench& each) {
+        if (each.now.value >= left_s) each.self.walked_on.clear();
+        if (each.now.value < asked_s) each.offer(signal_a, traffic::HoldGreen{{1}}, 2.0);
+    });
+}
+
+TEST(Crossing, turns_red_at_once_and_vehicles_get_green_when_nobody_is_on_it_any_more) {
+    const auto slow = watch_crossing(20.0, 30.0, 30.0);
+    ASSERT_EQ(slow.size(), 3U);
+    EXPECT_EQ(slow[1].state, "rrr") << "pedestrians know no yellow";
+    EXPECT_LE(slow[1].from_s, 0.5);
+    EXPECT_EQ(slow[2].state, "GGr");
+    EXPECT_GE(slow[2].from_s, 20.0);
+    EXPECT_LE(slow[2].from_s, 20.5);
+    const auto quick = watch_crossing(1.0, 30.0, 30.0);
+    ASSERT_EQ(quick.size(), 3U);
+    EXPECT_LE(quick[2].from_s, 5.25) << "3 s and 1.5 s, as for vehicles";
+}
+
+TEST(Crossing, with_somebody_who_is_stuck_does_not_hold_up_the_signal_for_ever) {
+    const auto history = watch_crossing(1e9, 80.0, 80.0, {.walking_s = 10.0, .hold_cap_s = 600.0});
+    ASSERT_EQ(history.size(), 3U);
+    EXPECT_NEAR(history[2].from_s, 3.0 + 1.5 + 10.0, 0.75);
+}
+
+TEST(Crossing, gets_its_green_back_from_the_program_after_the_hold) {
+    const auto history = watch_crossing(1.0, 10.0, 40.0);
+    ASSERT_EQ(history.size(), 6U);
+    EXPECT_EQ(history[3].state, "yyr");
+    EXPECT_EQ(history[4].state, "rrr");
+    EXPECT_EQ(history[5].state, footway().signal(signal_a).program[0].state);
+}
+
+TEST(Crossing, that_is_red_already_but_walked_on_keeps_a_yielding_green_from_priority) {
+    ActuationBench bench(0.25, {}, footway());
+    bench.shown[0] = "ggr";
+    bench.self.walked_on = {*footway().find_lane(":J_c0_0")};
+    const auto history = watch(bench, 10.0, [](ActuationBench& each) {
+        if (each.now.value >= 6.0) each.self.walked_on.clear();
+        each.offer(signal_a, traffic::HoldGreen{{1}}, 2.0);
+    });
+    ASSERT_EQ(history.size(), 2U);
+    EXPECT_EQ(history[1].state, "gGr");
+    EXPECT_GE(history[1].from_s, 6.0);
+}
+
+}  // namespace
+}  // namespace clearway::testing
