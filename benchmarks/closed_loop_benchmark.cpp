@@ -22,13 +22,13 @@ std::filesystem::path temporary_folder() {
     return folder;
 }
 
-results::UnitSpec dense_city(const std::filesystem::path& folder) {
+experiment::UnitSpec dense_city(const std::filesystem::path& folder) {
     scenario::Options options;
     options.variant = scenario::Variant::dense;
     const scenario::ScenarioConfig config = scenario::load("city", options);
     scenario::store(config, folder);
     scenario::build_network(config, folder);
-    results::UnitSpec unit;
+    experiment::UnitSpec unit;
     unit.scenario = config.name;
     unit.scenario_file = folder / "scenario.toml";
     unit.network_folder = folder;
@@ -36,9 +36,9 @@ results::UnitSpec dense_city(const std::filesystem::path& folder) {
     return unit;
 }
 
-results::ConditionSpec condition(const std::string& failure, const std::string& predictor,
-                                 const std::string& part) {
-    results::ConditionSpec spec;
+experiment::ConditionSpec condition(const std::string& failure, const std::string& predictor,
+                                    const std::string& part) {
+    experiment::ConditionSpec spec;
     spec.name = "benchmark";
     spec.failure = failure;
     spec.predictor = predictor;
@@ -46,9 +46,9 @@ results::ConditionSpec condition(const std::string& failure, const std::string& 
     return spec;
 }
 
-void closed_loop(benchmark::State& state, const results::ConditionSpec& spec) {
+void closed_loop(benchmark::State& state, const experiment::ConditionSpec& spec) {
     const std::filesystem::path folder = temporary_folder();
-    const results::UnitSpec unit = dense_city(folder);
+    const experiment::UnitSpec unit = dense_city(folder);
     results::RunTiming timing;
     double vehicle_steps = 0.0;
     for (auto _ : state) {

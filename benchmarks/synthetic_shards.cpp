@@ -47,7 +47,7 @@ metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass vehicle
     return row;
 }
 
-results::RunRecord record_of(const results::RunKey& key, const results::ConditionSpec& condition) {
+results::RunRecord record_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
     results::RunRecord run;
     run.key = key;
     run.condition = condition;
@@ -86,8 +86,8 @@ void write_shard(const study::Plan& plan, const study::Shard& shard, const std::
     const results::Store store = results::Store::create(folder, plan.manifest);
     for (std::size_t number = 0; number < plan.units.size(); ++number) {
         if (!study::has_unit(shard, number)) continue;
-        const results::UnitSpec& unit = plan.units[number].unit;
-        for (const results::ConditionSpec& condition : unit.conditions)
+        const experiment::UnitSpec& unit = plan.units[number].unit;
+        for (const experiment::ConditionSpec& condition : unit.conditions)
             write_run(store, record_of({unit.scenario, condition.name, unit.replication}, condition));
     }
 }

@@ -22,14 +22,14 @@ results::Manifest manifest_of(std::uint32_t runs) {
     results::Manifest manifest = results::synthetic::manifest(runs / (scenarios * conditions));
     manifest.conditions.resize(1);
     for (std::uint32_t number = 1; number + 1 < conditions; ++number) {
-        results::ConditionSpec condition;
+        experiment::ConditionSpec condition;
         condition.name = "policy_" + std::to_string(number);
         condition.parts = {"dissertation"};
         manifest.conditions.push_back(condition);
     }
-    results::ConditionSpec solo;
+    experiment::ConditionSpec solo;
     solo.name = "solo";
-    solo.engine = results::Engine::solo;
+    solo.engine = experiment::Engine::solo;
     manifest.conditions.push_back(solo);
     return manifest;
 }
@@ -45,7 +45,8 @@ void add_traffic(const core::KeyedRandom& random, std::uint64_t run, metrics::Tr
             {static_cast<double>(offset), 9, random.uniform(core::Purpose::driver, run, offset + 60)});
 }
 
-results::RunRecord run_of(const results::RunKey& key, const results::ConditionSpec& condition, int others) {
+results::RunRecord run_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
+                          int others) {
     const core::KeyedRandom random(core::StudySeed{1}, core::Replication{key.replication});
     const std::uint64_t number = core::fnv1a64(results::to_text(key));
     results::RunRecord run = results::synthetic::record(key);
@@ -72,7 +73,7 @@ results::RunRecord run_of(const results::RunKey& key, const results::ConditionSp
     run.metrics.collisions = random.below(3, core::Purpose::demand, number, 53);
     run.metrics.vehicle_count = run.metrics.arrived = run.vehicles.size();
     run.metrics.emergency_count = run.metrics.emergency_arrived = 3;
-    if (condition.engine != results::Engine::solo) add_traffic(random, number, run.traffic);
+    if (condition.engine != experiment::Engine::solo) add_traffic(random, number, run.traffic);
     return run;
 }
 
@@ -85,7 +86,7 @@ int main(int argument_count, char** arguments) {
     }
     const results::Manifest manifest = manifest_of(static_cast<std::uint32_t>(std::atoi(arguments[2])));
     const results::Store store = results::Store::create(arguments[1], manifest);
-    for (const results::ConditionSpec& condition : manifest.conditions) {
+    for (const experiment::ConditionSpec& condition : manifest.conditions) {
         for (const results::ScenarioEntry& scenario : manifest.scenarios) {
             for (std::uint32_t replication = 0; replication < manifest.replications; ++replication)
                 store.write(

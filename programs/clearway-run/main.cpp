@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "loop/attached_run.hpp"
 #include "loop/dataset.hpp"
-#include "loop/link_evaluation.hpp"
+#include "loop/evaluate_links.hpp"
 #include "loop/shown_run.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "options/usage.hpp"
+#include "core/usage.hpp"
 
 namespace clearway::training {
 namespace {
@@ -81,7 +81,7 @@ int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "{}", options::usage_message(app, app.get_name(), error, {graphsage_word}));
+        fmt::print(stderr, "{}", core::usage_message(app, app.get_name(), error, {graphsage_word}));
         return static_cast<int>(core::ExitCode::usage);
     }
     std::signal(SIGINT, remember_signal);

@@ -10,8 +10,8 @@
 
 #include "common.hpp"
 #include "core/files.hpp"
-#include "prediction/graph_sample.hpp"
-#include "prediction/repair_sample.hpp"
+#include "samples/graph_sample.hpp"
+#include "samples/repair_sample.hpp"
 #include "training/outputs.hpp"
 #include "training/repair.hpp"
 #include "training/repair_outputs.hpp"
@@ -65,11 +65,11 @@ void print_closing(const RepairResult& result) {
 }
 
 core::ExitCode train(const Arguments& arguments) {
-    const std::vector<std::filesystem::path> paths = prediction::find_graph_samples(arguments.data);
-    std::vector<prediction::RepairSampleFile> files;
+    const std::vector<std::filesystem::path> paths = samples::find_graph_samples(arguments.data);
+    std::vector<samples::RepairSampleFile> files;
     std::vector<std::string> hashes;
     for (const std::filesystem::path& path : paths) {
-        files.push_back(prediction::read_repair_samples(path));
+        files.push_back(samples::read_repair_samples(path));
         hashes.push_back(files.back().content_hash);
     }
     require_distinct(paths, hashes);

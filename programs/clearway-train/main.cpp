@@ -17,9 +17,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/number_range.hpp"
-#include "prediction/dataset_files.hpp"
-#include "prediction/graph_sample.hpp"
-#include "prediction/pair_samples.hpp"
+#include "samples/dataset_files.hpp"
+#include "samples/graph_sample.hpp"
+#include "samples/pair_samples.hpp"
 #include "training/as_published.hpp"
 #include "training/corrected.hpp"
 #include "training/logistic.hpp"
@@ -150,15 +150,15 @@ core::ExitCode conclude(const Arguments& arguments, const OutputFolder& folder, 
 }
 
 core::ExitCode run_as_published(const Arguments& arguments) {
-    const prediction::PairDataset dataset = prediction::read_pair_dataset(arguments.data);
+    const samples::PairDataset dataset = samples::read_pair_dataset(arguments.data);
     const RunDescription run{arguments.data,
-                             hash_of_files({arguments.data / prediction::edge_list_file,
-                                            arguments.data / prediction::vehicle_features_file,
-                                            arguments.data / prediction::target_file}),
+                             hash_of_files({arguments.data / samples::edge_list_file,
+                                            arguments.data / samples::vehicle_features_file,
+                                            arguments.data / samples::target_file}),
                              arguments.config.training};
-    std::vector<prediction::PairDataset> unseen;
+    std::vector<samples::PairDataset> unseen;
     for (const std::filesystem::path& folder : arguments.unseen)
-        unseen.push_back(prediction::read_pair_dataset(folder));
+        unseen.push_back(samples::read_pair_dataset(folder));
     const OutputFolder folder(arguments.out, identity_of(arguments.pairs, run));
     AsPublishedResult result = train_as_published(dataset, arguments.pairs, run.training,
                                                   hooks_as_published(arguments.printing), arguments.data);
@@ -173,11 +173,11 @@ core::ExitCode run_as_published(const Arguments& arguments) {
 }
 
 core::ExitCode run_corrected(const Arguments& arguments) {
-    const std::vector<std::filesystem::path> paths = prediction::find_graph_samples(arguments.data);
-    std::vector<prediction::GraphSampleFile> files;
+    const std::vector<std::filesystem::path> paths = samples::find_graph_samples(arguments.data);
+    std::vector<samples::GraphSampleFile> files;
     std::vector<std::string> hashes;
     for (const std::filesystem::path& path : paths) {
-        files.push_back(prediction::read_graph_samples(path));
+        files.push_back(samples::read_graph_samples(path));
         hashes.push_back(files.back().content_hash);
     }
     require_distinct(paths, hashes);
@@ -192,11 +192,11 @@ core::ExitCode run_corrected(const Arguments& arguments) {
 }
 
 core::ExitCode run_logistic(const Arguments& arguments) {
-    const std::vector<std::filesystem::path> paths = prediction::find_pair_samples(arguments.data);
-    std::vector<prediction::PairSampleFile> files;
+    const std::vector<std::filesystem::path> paths = samples::find_pair_samples(arguments.data);
+    std::vector<samples::PairSampleFile> files;
     std::vector<std::string> hashes;
     for (const std::filesystem::path& path : paths) {
-        files.push_back(prediction::read_pair_samples(path));
+        files.push_back(samples::read_pair_samples(path));
         hashes.push_back(core::content_hash(core::read_file(path)));
     }
     require_distinct(paths, hashes);

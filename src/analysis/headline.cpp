@@ -10,7 +10,7 @@
 namespace clearway::analysis {
 namespace {
 
-using results::ConditionSpec;
+using experiment::ConditionSpec;
 
 /// Replications are run in their order, so beyond so many that are not there none is looked for.
 constexpr std::size_t most_looks = 1000;
@@ -41,7 +41,7 @@ void Headline::choose() {
     scenario_ = manifest.scenarios.front().name;
     condition_ = manifest.conditions.front().name;
     for (const ConditionSpec& condition : manifest.conditions) {
-        if (!condition.acts() || condition.engine == results::Engine::solo) continue;
+        if (!condition.acts() || condition.engine == experiment::Engine::solo) continue;
         const auto baseline = std::ranges::find_if(
             manifest.conditions, [&](const auto& other) { return is_baseline_of(other, condition); });
         if (baseline == manifest.conditions.end()) continue;
@@ -52,8 +52,8 @@ void Headline::choose() {
 }
 
 bool Headline::read(std::uint32_t replication) {
-    const results::RunKey with{scenario_, condition_, replication};
-    const results::RunKey without{scenario_, baseline_, replication};
+    const experiment::RunKey with{scenario_, condition_, replication};
+    const experiment::RunKey without{scenario_, baseline_, replication};
     if (!store_.complete(with) || (!baseline_.empty() && !store_.complete(without))) return false;
     const auto run = store_.read(with);
     const auto baseline = baseline_.empty() ? std::nullopt : store_.read(without);

@@ -14,8 +14,8 @@ namespace clearway::analysis {
 namespace {
 
 using detail::Runs;
-using results::ConditionSpec;
-using results::Engine;
+using experiment::ConditionSpec;
+using experiment::Engine;
 
 template <class Member>
 std::optional<double> as_number(const Member& member) {

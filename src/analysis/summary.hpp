@@ -101,7 +101,7 @@ struct TravelTimeTail {
 };
 
 struct ConditionSummary {
-    results::ConditionSpec condition;
+    experiment::ConditionSpec condition;
     std::string baseline;  ///< Condition it is compared with; empty for baselines and solo.
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;

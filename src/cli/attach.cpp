@@ -12,7 +12,7 @@
 #include "cli/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "cli/worker_orders.hpp"
-#include "results/attach_order.hpp"
+#include "experiment/attach_order.hpp"
 #include "results/store.hpp"
 
 namespace clearway::cli {
@@ -21,12 +21,12 @@ namespace {
 struct Arguments {
     std::string place;
     std::string folder;
-    results::AttachOrder order;
+    experiment::AttachOrder order;
     Printing printing = Printing::text;
 };
 
 /// Sets host and port of `HOST:PORT`, `:PORT` or `PORT`.
-void read_place(const std::string& place, results::AttachOrder& order) {
+void read_place(const std::string& place, experiment::AttachOrder& order) {
     const std::size_t colon = place.rfind(':');
     order.host = colon == std::string::npos ? "" : place.substr(0, colon);
     if (order.host.empty()) order.host = "localhost";
@@ -41,7 +41,7 @@ void read_place(const std::string& place, results::AttachOrder& order) {
 }
 
 core::ExitCode attach(const Arguments& arguments) {
-    results::AttachOrder order = arguments.order;
+    experiment::AttachOrder order = arguments.order;
     read_place(arguments.place, order);
     const std::filesystem::path folder =
         arguments.folder.empty() ? fmt::format("runs/attached-{}", order.port) : arguments.folder;
@@ -56,7 +56,7 @@ core::ExitCode attach(const Arguments& arguments) {
     const WorkerResult result = work_on({{.label = fmt::format("SUMO at {}:{}", order.host, order.port),
                                           .option = "--attach",
                                           .file = orders / "attach.json",
-                                          .text = results::to_json(order),
+                                          .text = experiment::to_json(order),
                                           .log = orders / "attach.log",
                                           .work = order.output}},
                                         1, "simulations");
@@ -70,7 +70,7 @@ core::ExitCode attach(const Arguments& arguments) {
 Action configure_attach(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     arguments->order.condition.name = "attached";
-    results::AttachOrder& order = arguments->order;
+    experiment::AttachOrder& order = arguments->order;
     app.add_option("place", arguments->place, "Where SUMO waits for orders (its --remote-port)")
         ->required()
         ->option_text("HOST:PORT (required)");

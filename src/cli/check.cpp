@@ -15,7 +15,7 @@
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
-#include "study/conditions.hpp"
+#include "experiment/conditions.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 struct Arguments {
     std::string scenario;
     std::uint64_t seed = 1;
-    results::RunLimits limits;
+    experiment::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options options;
 };
@@ -182,7 +182,7 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
         last_s = std::max(last_s, trip.depart_s);
     brief.time.horizon_s = std::min(brief.time.horizon_s, last_s + grace_s);
     config.name = brief.name;
-    config.conditions = {study::built_in_condition("baseline", "check")};
+    config.conditions = {experiment::built_in_condition("baseline", "check")};
     RunPlanOptions options{std::filesystem::path("runs") / ("check-" + brief.name), 1, arguments.limits,
                            arguments.printing, invocation.command};
     std::filesystem::remove_all(options.folder);
@@ -193,7 +193,7 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     if (was_interrupted(result)) return result.exit_code;
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 
-    const results::RunKey key = plan.manifest.runs().front();
+    const experiment::RunKey key = plan.manifest.runs().front();
     std::vector<Finding> findings;
     if (const auto record = store.read(key)) {
         findings = findings_of(*record, store.read_timing(key).value_or(results::RunTiming{}), wall_s);

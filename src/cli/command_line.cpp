@@ -12,7 +12,7 @@
 
 #include "cli/verb.hpp"
 #include "core/process.hpp"
-#include "options/usage.hpp"
+#include "core/usage.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -97,7 +97,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
         deepest = deepest->get_subcommands().front();
         name += " " + deepest->get_name();
     }
-    return options::usage_message(*deepest, name, error);
+    return core::usage_message(*deepest, name, error);
 }
 
 /// What is wrong with the first word, when it is no verb.

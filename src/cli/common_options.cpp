@@ -14,9 +14,9 @@ void add_json_option(CLI::App& app, Printing& printing, const std::string& what)
         fmt::format("Print {} as JSON, units in the names of fields [text]", what));
 }
 
-void add_record_option(CLI::App& app, results::StepRecording& recording) {
+void add_record_option(CLI::App& app, experiment::StepRecording& recording) {
     app.add_flag_callback(
-        "--record", [&recording] { recording = results::StepRecording::on; },
+        "--record", [&recording] { recording = experiment::StepRecording::on; },
         "Keep every step below recordings/, for clearway replay; changes no result [off]");
 }
 
@@ -39,7 +39,7 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {
         ->option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
 }
 
-void add_limit_options(CLI::App& app, results::RunLimits& limits) {
+void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
     app.add_option("--run-time-limit", limits.wall_s, "Wall time after which a run is ended, s")
         ->check(core::NumberRange{0.001, 1e7})
         ->option_text(fmt::format("SECONDS, 0.001 to 1e7 [{:g}]", limits.wall_s));

@@ -7,7 +7,7 @@
 
 #include <CLI/App.hpp>
 
-#include "results/unit.hpp"
+#include "experiment/unit.hpp"
 
 namespace clearway::cli {
 
@@ -20,7 +20,7 @@ inline constexpr std::uint32_t most_replications = 100000;
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
 /// Declares `--record`: every step of every run is kept in a file.
-void add_record_option(CLI::App& app, results::StepRecording& recording);
+void add_record_option(CLI::App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at one time, 0 for one per core.
 void add_jobs_option(CLI::App& app, unsigned& jobs);
 /// Declares `--seed`: the study seed, from which every random number of every replication follows.
@@ -29,7 +29,7 @@ void add_seed_option(CLI::App& app, std::uint64_t& seed);
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
-void add_limit_options(CLI::App& app, results::RunLimits& limits);
+void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
 
 /// `a, b, c`.
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");

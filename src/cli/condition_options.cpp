@@ -2,7 +2,7 @@
 
 namespace clearway::cli {
 
-void add_condition_options(CLI::App& app, results::ConditionSpec& condition, const std::string& group) {
+void add_condition_options(CLI::App& app, experiment::ConditionSpec& condition, const std::string& group) {
     app.add_option("--policy", condition.parts,
                    "Policy parts, in this order; none: the car-following model alone")
         ->option_text("PART ... [none]")

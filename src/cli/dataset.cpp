@@ -15,10 +15,10 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/number_range.hpp"
-#include "prediction/dataset_files.hpp"
-#include "prediction/graph_sample.hpp"
-#include "prediction/pair_samples.hpp"
-#include "results/dataset_order.hpp"
+#include "experiment/dataset_order.hpp"
+#include "samples/dataset_files.hpp"
+#include "samples/graph_sample.hpp"
+#include "samples/pair_samples.hpp"
 #include "scenario/network.hpp"
 
 namespace clearway::cli {
@@ -31,7 +31,7 @@ struct Arguments {
     std::uint32_t seeds = 1;
     unsigned jobs = 0;
     Printing printing = Printing::text;
-    results::DatasetOrder order;  ///< What all orders share.
+    experiment::DatasetOrder order;  ///< What all orders share.
     scenario::Options options;
 };
 
@@ -48,14 +48,14 @@ void check_failures(const std::vector<std::string>& failures) {
 }
 
 /// One order per replication, on a scenario and network below `origin/` of the data set.
-std::vector<results::DatasetOrder> make_orders(const Arguments& arguments, const std::string& scenario) {
-    results::DatasetOrder order = arguments.order;
+std::vector<experiment::DatasetOrder> make_orders(const Arguments& arguments, const std::string& scenario) {
+    experiment::DatasetOrder order = arguments.order;
     order.scenario = scenario;
     order.output = arguments.folder;
     const std::filesystem::path origin = order.output / "origin" / scenario;
     order.scenario_file = origin / "scenario.toml";
     order.network_folder = origin / "network";
-    std::vector<results::DatasetOrder> orders;
+    std::vector<experiment::DatasetOrder> orders;
     for (std::uint32_t i = 0; i < arguments.seeds; ++i) {
         order.replication = arguments.first_seed + i;
         orders.push_back(order);
@@ -64,17 +64,17 @@ std::vector<results::DatasetOrder> make_orders(const Arguments& arguments, const
 }
 
 /// What an order will write.
-std::vector<std::filesystem::path> files_of(const results::DatasetOrder& order) {
-    if (order.kind == results::DatasetKind::published) {
-        return {order.output / prediction::edge_list_file, order.output / prediction::vehicle_features_file,
-                order.output / prediction::target_file};
+std::vector<std::filesystem::path> files_of(const experiment::DatasetOrder& order) {
+    if (order.kind == experiment::DatasetKind::published) {
+        return {order.output / samples::edge_list_file, order.output / samples::vehicle_features_file,
+                order.output / samples::target_file};
     }
-    const char* const ending = order.kind == results::DatasetKind::pair_samples
-                                   ? prediction::pair_sample_ending
-                                   : prediction::graph_sample_extension;
+    const char* const ending = order.kind == experiment::DatasetKind::pair_samples
+                                   ? samples::pair_sample_ending
+                                   : samples::graph_sample_extension;
     std::vector<std::filesystem::path> files;
     for (const std::string& failure : order.failures)
-        files.push_back(results::sample_file(order, failure, ending));
+        files.push_back(experiment::sample_file(order, failure, ending));
     return files;
 }
 
@@ -83,7 +83,7 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 }
 
 /// Refuses a folder in which recordings of others would be lost. The same command may be given again.
-void check_folder(const std::vector<results::DatasetOrder>& orders, const std::string& scenario) {
+void check_folder(const std::vector<experiment::DatasetOrder>& orders, const std::string& scenario) {
     const char* const cure = "Record into another --out, or remove what is there";
     const std::filesystem::path& scenario_file = orders.front().scenario_file;
     if (std::filesystem::exists(scenario_file) && !holds(scenario_file, scenario)) {
@@ -93,8 +93,8 @@ void check_folder(const std::vector<results::DatasetOrder>& orders, const std::s
              "one for each scenario of a data set", cure});
     }
     std::vector<std::string> taken;
-    for (const results::DatasetOrder& order : orders) {
-        if (holds(order_file(order), results::to_json(order))) continue;
+    for (const experiment::DatasetOrder& order : orders) {
+        if (holds(order_file(order), experiment::to_json(order))) continue;
         for (const std::filesystem::path& file : files_of(order)) {
             if (std::filesystem::exists(file)) taken.push_back(file.string());
         }
@@ -121,7 +121,7 @@ void print_files(const std::vector<std::string>& lines, Printing printing) {
 }
 
 core::ExitCode record(Arguments arguments, const Invocation& invocation) {
-    const bool samples = arguments.order.kind != results::DatasetKind::published;
+    const bool samples = arguments.order.kind != experiment::DatasetKind::published;
     if (samples && arguments.order.failures.empty()) arguments.order.failures = {"B10"};
     if (!samples && arguments.seeds > 1) {
         throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds),
@@ -129,7 +129,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     }
     check_failures(arguments.order.failures);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
-    const std::vector<results::DatasetOrder> orders = make_orders(arguments, config.name);
+    const std::vector<experiment::DatasetOrder> orders = make_orders(arguments, config.name);
     check_folder(orders, scenario::to_toml(config));
     scenario::store(config, orders.front().scenario_file.parent_path());
     scenario::build_network(config, orders.front().network_folder);
@@ -143,10 +143,11 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     return result.exit_code;
 }
 
-void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Option* samples) {
+void add_published_options(CLI::App& app, experiment::DatasetOrder& order, CLI::Option* samples) {
     const char* const group = "As published (three CSV files)";
-    static const std::map<std::string, results::ListedPairs> pairs = {
-        {"true-links", results::ListedPairs::true_links}, {"candidates", results::ListedPairs::candidates}};
+    static const std::map<std::string, experiment::ListedPairs> pairs = {
+        {"true-links", experiment::ListedPairs::true_links},
+        {"candidates", experiment::ListedPairs::candidates}};
     app.add_option_function<std::string>(
            "--pairs", [&order](const std::string& name) { order.pairs = pairs.at(name); },
            "Pairs in the list: only linked ones, or all within reach")
@@ -163,16 +164,16 @@ void add_published_options(CLI::App& app, results::DatasetOrder& order, CLI::Opt
 
 CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
     const char* const group = "Many snapshots (for the other trainings)";
-    results::DatasetOrder& order = arguments.order;
+    experiment::DatasetOrder& order = arguments.order;
     CLI::Option* const samples =
         app.add_flag_callback(
-               "--samples", [&order] { order.kind = results::DatasetKind::samples; },
+               "--samples", [&order] { order.kind = experiment::DatasetKind::samples; },
                "What predictors are given at many moments, and the answers [one snapshot]")
             ->group(group);
-    static const std::map<std::string, results::DatasetKind> nets = {
-        {"corrected", results::DatasetKind::samples},
-        {"graphsage", results::DatasetKind::repair},
-        {"logistic", results::DatasetKind::pair_samples}};
+    static const std::map<std::string, experiment::DatasetKind> nets = {
+        {"corrected", experiment::DatasetKind::samples},
+        {"graphsage", experiment::DatasetKind::repair},
+        {"logistic", experiment::DatasetKind::pair_samples}};
     app.add_option_function<std::string>(
            "--net", [&order](const std::string& name) { order.kind = nets.at(name); },
            "Whose inputs: graphsage_corrected's, graphsage's or the pair model's (as CSV)")

@@ -1,4 +1,4 @@
-#include "city/import.hpp"
+#include "scenario_import/import.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -22,7 +22,7 @@ namespace clearway::cli {
 namespace {
 
 struct Arguments {
-    city::ImportRequest request;
+    scenario_import::ImportRequest request;
     std::vector<std::string> files;
     std::string name;
     Printing printing = Printing::text;
@@ -59,21 +59,22 @@ core::ExitCode import(Arguments& arguments) {
     arguments.request.folder = arguments.name;
     const InterruptionWatch interruption;
     Stages stages;
-    const city::Findings findings = city::import(arguments.request, [&](const std::string& stage, double) {
-        if (const int signal = interruption.received(); signal != 0)
-            throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
-                              "interrupted; nothing is left behind");
-        stages.show(stage);
-    });
+    const scenario_import::Findings findings =
+        scenario_import::import(arguments.request, [&](const std::string& stage, double) {
+            if (const int signal = interruption.received(); signal != 0)
+                throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
+                                  "interrupted; nothing is left behind");
+            stages.show(stage);
+        });
     stages.finish();
     if (arguments.printing == Printing::json) {
-        fmt::print("{}", city::to_json(findings));
+        fmt::print("{}", scenario_import::to_json(findings));
     } else {
         // A name alone could be that of a scenario that comes with Clearway.
         const std::filesystem::path& folder = arguments.request.folder;
         const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
-        fmt::print("{}picture: {}/network.svg\nNext: {}\n", city::to_text(findings), folder.string(),
-                   core::shell_text({"clearway", "check", scenario}));
+        fmt::print("{}picture: {}/network.svg\nNext: {}\n", scenario_import::to_text(findings),
+                   folder.string(), core::shell_text({"clearway", "check", scenario}));
     }
     return core::ExitCode::ok;
 }
@@ -82,7 +83,7 @@ core::ExitCode import(Arguments& arguments) {
 
 Action configure_import(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    city::ImportRequest& request = arguments->request;
+    scenario_import::ImportRequest& request = arguments->request;
     app.add_option("files", arguments->files,
                    "A map (.osm, .gz, .bz2, .pbf), a .sumocfg, or a .net.xml with its files")
         ->required()
@@ -90,9 +91,10 @@ Action configure_import(CLI::App& app) {
     app.add_option("--name", arguments->name, "Scenario and new folder of this name")
         ->required()
         ->option_text("NAME (required)");
-    static const std::map<std::string, city::DrivingSide> sides = {{"auto", city::DrivingSide::by_country},
-                                                                   {"right", city::DrivingSide::right},
-                                                                   {"left", city::DrivingSide::left}};
+    static const std::map<std::string, scenario_import::DrivingSide> sides = {
+        {"auto", scenario_import::DrivingSide::by_country},
+        {"right", scenario_import::DrivingSide::right},
+        {"left", scenario_import::DrivingSide::left}};
     app.add_option_function<std::string>(
            "--driving-side", [&request](const std::string& side) { request.side = sides.at(side); },
            "Of a map: side on which traffic drives; auto: by country")
@@ -117,7 +119,8 @@ Action configure_import(CLI::App& app) {
     app.add_option("--begin", request.begin_s, "Of a SUMO scenario: its time at which this one begins, s")
         ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
     app.add_flag_callback(
-        "--leave-out-bad-vehicles", [&request] { request.bad_vehicles = city::BadVehicles::leave_out; },
+        "--leave-out-bad-vehicles",
+        [&request] { request.bad_vehicles = scenario_import::BadVehicles::leave_out; },
         "Leave out vehicles and persons with unknown edges or gaps on their way [refuse]");
     add_json_option(app, arguments->printing, "the findings");
     return [arguments](const Invocation&) { return import(*arguments); };

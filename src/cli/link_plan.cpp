@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "analysis/link_judgement.hpp"
 #include "cli/names.hpp"
 #include "cli/programs.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
+#include "experiment/link_order.hpp"
+#include "links/link_judgement.hpp"
+#include "links/link_run.hpp"
 #include "prediction/predictor.hpp"
-#include "results/link_order.hpp"
-#include "results/link_run.hpp"
 #include "scenario/network.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -64,7 +64,7 @@ class RunFiles {
     fs::path file(const scenario::ScenarioConfig& config, std::uint32_t replication,
                   const LinkPredictor& predictor) const {
         return plan_.folder / "runs" / config.name / std::to_string(replication) /
-               fmt::format("{}-{}{}", predictor.name, key(config, predictor), results::link_run_extension);
+               fmt::format("{}-{}{}", predictor.name, key(config, predictor), links::link_run_extension);
     }
 
   private:
@@ -90,7 +90,7 @@ class RunFiles {
     std::map<std::string, std::string> scenario_hashes_;  ///< By that of the configuration alone.
 };
 
-std::vector<std::uint32_t> replications(const study::SeedRange& range) {
+std::vector<std::uint32_t> replications(const links::SeedRange& range) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < range.count; ++i)
         numbers.push_back(range.first + i);
@@ -107,10 +107,10 @@ std::vector<std::uint32_t> replications(const LinkPlan& plan) {
     return numbers;
 }
 
-std::vector<results::LinkPredictorOrder> missing(const LinkPlan& plan, const RunFiles& files,
-                                                 const scenario::ScenarioConfig& config,
-                                                 std::uint32_t replication) {
-    std::vector<results::LinkPredictorOrder> orders;
+std::vector<experiment::LinkPredictorOrder> missing(const LinkPlan& plan, const RunFiles& files,
+                                                    const scenario::ScenarioConfig& config,
+                                                    std::uint32_t replication) {
+    std::vector<experiment::LinkPredictorOrder> orders;
     for (const LinkPredictor& predictor : plan.predictors) {
         const fs::path file = files.file(config, replication, predictor);
         if (fs::exists(file)) continue;
@@ -126,7 +126,7 @@ void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::Sce
     const Place place = files.place_of(config);
     bool built = false;
     for (const std::uint32_t replication : replications(plan)) {
-        results::LinkOrder order;
+        experiment::LinkOrder order;
         order.predictors = missing(plan, files, config, replication);
         if (order.predictors.empty()) continue;
         if (!built) {
@@ -147,7 +147,7 @@ void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::Sce
         work.push_back({.label = fmt::format("{} replication {}", config.name, replication),
                         .option = "--links",
                         .file = plan.folder / "orders" / (name + ".json"),
-                        .text = results::to_json(order),
+                        .text = experiment::to_json(order),
                         .log = plan.folder / "orders" / (name + ".log"),
                         .work = order.work_folder});
     }
@@ -156,13 +156,13 @@ void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::Sce
 /// Reads one predictor's runs of some replications, scenario by scenario.
 // NOLINTNEXTLINE(readability-function-size): whose runs, which, and two lists to fill
 void read_runs(const LinkPlan& plan, const RunFiles& files, const LinkPredictor& predictor,
-               const study::SeedRange& range, std::vector<results::LinkRun>& runs,
-               std::vector<results::LinkTiming>* timings) {
+               const links::SeedRange& range, std::vector<links::LinkRun>& runs,
+               std::vector<links::LinkTiming>* timings) {
     for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios) {
         for (const std::uint32_t replication : replications(range)) {
             const fs::path file = files.file(config, replication, predictor);
-            runs.push_back(results::read_link_run(file));
-            if (timings != nullptr) timings->push_back(results::read_link_timing(file));
+            runs.push_back(links::read_link_run(file));
+            if (timings != nullptr) timings->push_back(links::read_link_timing(file));
         }
     }
 }
@@ -176,13 +176,13 @@ std::string opponent_of(const LinkPlan& plan) {
     return {};
 }
 
-std::string range_text(const study::SeedRange& range) {
+std::string range_text(const links::SeedRange& range) {
     return fmt::format("{} to {}", range.first, range.first + range.count - 1);
 }
 
 report::LinkFacts described(const LinkPlan& plan) {
-    const study::LinkBenchmark& benchmark = plan.benchmark;
-    const study::SeedRange& own = plan.split == LinkSplit::test ? benchmark.test : benchmark.validation;
+    const links::LinkBenchmark& benchmark = plan.benchmark;
+    const links::SeedRange& own = plan.split == LinkSplit::test ? benchmark.test : benchmark.validation;
     report::LinkFacts facts;
     facts.title = benchmark.name;
     facts.split = plan.split == LinkSplit::test ? "test" : "validation";
@@ -251,13 +251,13 @@ core::ExitCode complete_runs(const LinkPlan& plan) {
 
 report::LinkFacts judge(const LinkPlan& plan) {
     const RunFiles files(plan);
-    const study::LinkBenchmark& benchmark = plan.benchmark;
-    const study::SeedRange& own = plan.split == LinkSplit::test ? benchmark.test : benchmark.validation;
-    analysis::LinkJudgement judgement(
+    const links::LinkBenchmark& benchmark = plan.benchmark;
+    const links::SeedRange& own = plan.split == LinkSplit::test ? benchmark.test : benchmark.validation;
+    links::LinkJudgement judgement(
         std::vector<std::size_t>(benchmark.scenarios.size(), std::size_t{own.count}));
     core::Progress progress("judging", plan.predictors.size(), core::Progress::style_for_stderr());
     for (std::size_t i = 0; i < plan.predictors.size(); ++i) {
-        analysis::LinkRuns runs;
+        links::LinkRuns runs;
         read_runs(plan, files, plan.predictors[i], own, runs.test, &runs.test_timing);
         read_runs(plan, files, plan.predictors[i], benchmark.validation, runs.validation, nullptr);
         judgement.add(runs);

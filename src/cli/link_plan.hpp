@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/worker_orders.hpp"
+#include "links/link_benchmark.hpp"
 #include "report/links.hpp"
-#include "study/link_benchmark.hpp"
 
 namespace clearway::cli {
 
@@ -23,7 +23,7 @@ enum class LinkSplit { test, validation };
 
 /// What `clearway links evaluate` does.
 struct LinkPlan {
-    study::LinkBenchmark benchmark;
+    links::LinkBenchmark benchmark;
     std::vector<LinkPredictor> predictors;
     LinkSplit split = LinkSplit::test;
     std::string against;  ///< Empty: the best kinematic predictor of the plan.

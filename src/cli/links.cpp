@@ -33,8 +33,8 @@ struct Arguments {
     std::vector<std::string> models;    ///< `graphsage=FILE`.
     std::string exits = "both";
     std::uint64_t study_seed = 1;
-    study::SeedRange test{0, 10};
-    study::SeedRange validation{1000, 5};
+    links::SeedRange test{0, 10};
+    links::SeedRange validation{1000, 5};
     bool quick = false;
     LinkSplit split = LinkSplit::test;
     std::string against;
@@ -110,7 +110,7 @@ fs::path benchmark_file(const std::string& name) {
 }
 
 /// The benchmark's scenarios of these names; all of them for none.
-void keep_scenarios(const std::vector<std::string>& names, study::LinkBenchmark& benchmark) {
+void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark& benchmark) {
     if (names.empty()) return;
     std::vector<std::string> known;
     for (const scenario::ScenarioConfig& config : benchmark.scenarios)
@@ -124,8 +124,8 @@ void keep_scenarios(const std::vector<std::string>& names, study::LinkBenchmark&
     });
 }
 
-study::LinkBenchmark named_benchmark(const Arguments& arguments) {
-    study::LinkBenchmark benchmark = study::read_link_benchmark(benchmark_file(arguments.benchmark));
+links::LinkBenchmark named_benchmark(const Arguments& arguments) {
+    links::LinkBenchmark benchmark = links::read_link_benchmark(benchmark_file(arguments.benchmark));
     const std::size_t all = benchmark.scenarios.size();
     keep_scenarios(arguments.scenarios, benchmark);
     const bool part = benchmark.scenarios.size() < all || arguments.quick || !arguments.failures.empty() ||
@@ -134,10 +134,10 @@ study::LinkBenchmark named_benchmark(const Arguments& arguments) {
     return benchmark;
 }
 
-study::LinkBenchmark own_benchmark(const Arguments& arguments) {
-    study::LinkBenchmark benchmark;
+links::LinkBenchmark own_benchmark(const Arguments& arguments) {
+    links::LinkBenchmark benchmark;
     std::vector<core::Problem> problems =
-        study::problems_of(arguments.test, arguments.validation, "--seeds, --validation-seeds");
+        links::problems_of(arguments.test, arguments.validation, "--seeds, --validation-seeds");
     if (arguments.scenarios.empty())
         problems.push_back(
             {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v1"});

@@ -10,11 +10,11 @@
 
 #include "cli/common_options.hpp"
 #include "cli/verb.hpp"
+#include "experiment/conditions.hpp"
 #include "policy/part.hpp"
 #include "prediction/predictor.hpp"
 #include "scenario/config.hpp"
 #include "sensing/failure_config.hpp"
-#include "study/conditions.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -51,8 +51,8 @@ Section scenarios() {
 
 Section conditions() {
     Section section{"conditions", "Conditions (run --condition NAME, or in a study file)", {}};
-    for (const study::BuiltInCondition& known : study::built_in_conditions()) {
-        const results::ConditionSpec& condition = known.condition;
+    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions()) {
+        const experiment::ConditionSpec& condition = known.condition;
         const bool checked = condition.safety_checks == traffic::SafetyChecks::on;
         section.entries.push_back({condition.name,
                                    known.summary,
@@ -60,7 +60,7 @@ Section conditions() {
                                     {"failure", condition.failure},
                                     {"predictor", condition.predictor},
                                     {"policy", condition.parts},
-                                    {"engine", results::name(condition.engine)},
+                                    {"engine", experiment::name(condition.engine)},
                                     {"safety_checks", checked ? "on" : "off"}}});
     }
     return section;

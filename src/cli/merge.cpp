@@ -29,8 +29,8 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
                     counts.complete, counts.failed, counts.missing, result.adopted, result.duplicates);
     if (!result.absent_shards.empty())
         text += fmt::format("not there: shard {}\n", joined(result.absent_shards));
-    for (const results::RunKey& key : result.missing)
-        text += fmt::format("missing: {}\n", results::to_text(key));
+    for (const experiment::RunKey& key : result.missing)
+        text += fmt::format("missing: {}\n", experiment::to_text(key));
     if (result.missing.size() < counts.missing)
         text += fmt::format("and {} more, in {}\n", counts.missing - result.missing.size(),
                             (std::filesystem::path(out) / "runs.csv").string());
@@ -39,8 +39,8 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
 
 std::string json_of(const study::MergeResult& result, const std::string& out) {
     nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-    for (const results::RunKey& key : result.missing)
-        missing.push_back(results::to_text(key));
+    for (const experiment::RunKey& key : result.missing)
+        missing.push_back(experiment::to_text(key));
     const nlohmann::ordered_json object = {{"folder", out},
                                            {"complete_runs", result.counts.complete},
                                            {"failed_runs", result.counts.failed},

@@ -52,7 +52,7 @@ std::vector<std::string> part_names() {
     return names;
 }
 
-void check_names(const std::vector<results::ConditionSpec>& conditions) {
+void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     std::vector<core::Problem> problems;
     const auto check = [&](const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
@@ -60,7 +60,7 @@ void check_names(const std::vector<results::ConditionSpec>& conditions) {
             problems.push_back(unknown_name(where, name, known));
         }
     };
-    for (const results::ConditionSpec& condition : conditions) {
+    for (const experiment::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
         check_failure(where + "failure", condition.failure, problems);
         check(where + "predictor", condition.predictor, prediction::predictor_names());

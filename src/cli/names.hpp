@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "results/unit.hpp"
+#include "experiment/unit.hpp"
 
 namespace clearway::cli {
 
@@ -21,6 +21,6 @@ void check_failure(const std::string& where, const std::string& failure,
 
 /// Checks failure, predictor and policy parts of every condition before anything runs. Throws
 /// core::InputError with all unknown names.
-void check_names(const std::vector<results::ConditionSpec>& conditions);
+void check_names(const std::vector<experiment::ConditionSpec>& conditions);
 
 }  // namespace clearway::cli

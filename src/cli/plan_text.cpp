@@ -19,7 +19,7 @@ namespace {
 /// One row of the plan: a condition in a scenario.
 struct Cell {
     std::string scenario;
-    results::ConditionSpec condition;
+    experiment::ConditionSpec condition;
     std::size_t runs = 0;
     std::size_t complete = 0;
     RunCost cost;  ///< Of one run.
@@ -41,7 +41,7 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
     for (std::size_t row = 0; row < plan.scenarios.size(); ++row) {
         const scenario::ScenarioConfig& config = plan.scenarios[row];
         const std::string& hash = plan.manifest.scenarios[row].configuration_hash;
-        for (const results::ConditionSpec& condition : plan.manifest.conditions) {
+        for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
             rows[{config.name, condition.name}] = cells.size();
             cells.push_back({.scenario = config.name,
                              .condition = condition,
@@ -49,10 +49,10 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
         }
     }
     for (const study::PlannedUnit& planned : plan.units) {
-        for (const results::ConditionSpec& condition : planned.unit.conditions) {
+        for (const experiment::ConditionSpec& condition : planned.unit.conditions) {
             Cell& cell = cells[rows.at({planned.unit.scenario, condition.name})];
             ++cell.runs;
-            const results::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
+            const experiment::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
             if (store && store->complete(key)) ++cell.complete;
         }
     }
@@ -97,7 +97,7 @@ std::string precision_text(const results::PrecisionTarget& target) {
         target.metric, target.half_width, target.at_most);
 }
 
-std::string policy_of(const results::ConditionSpec& condition) {
+std::string policy_of(const experiment::ConditionSpec& condition) {
     std::vector<std::string> means = condition.parts;
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
@@ -111,9 +111,9 @@ std::string plan_text(const study::Plan& plan, const std::filesystem::path& fold
     std::string text = fmt::format("{:24} {:32} {:9} {:>6} {:>9}  {}\n", "scenario", "condition", "engine",
                                    "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
-        const results::ConditionSpec& condition = cell.condition;
+        const experiment::ConditionSpec& condition = cell.condition;
         text += fmt::format("{:24} {:32} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
-                            results::name(condition.engine), cell.runs, cell.complete, condition.failure,
+                            experiment::name(condition.engine), cell.runs, cell.complete, condition.failure,
                             condition.predictor, policy_of(condition));
     }
     const Rest rest = rest_of(cells, workers);
@@ -135,12 +135,12 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
     for (const Cell& cell : cells) {
         list.push_back({{"scenario", cell.scenario},
                         {"condition", cell.condition.name},
-                        {"engine", results::name(cell.condition.engine)},
+                        {"engine", experiment::name(cell.condition.engine)},
                         {"failure", cell.condition.failure},
                         {"loop_settings", cell.condition.loop_settings},
                         {"predictor", cell.condition.predictor},
                         {"policy", cell.condition.parts},
-                        {"safety_checks", results::name(cell.condition.safety_checks)},
+                        {"safety_checks", experiment::name(cell.condition.safety_checks)},
                         {"runs", cell.runs},
                         {"complete_runs", cell.complete},
                         {"estimated_run_s", cell.cost.wall_s ? Json(*cell.cost.wall_s) : Json(nullptr)},

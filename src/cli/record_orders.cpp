@@ -4,18 +4,18 @@
 
 namespace clearway::cli {
 
-std::filesystem::path order_file(const results::DatasetOrder& order) {
+std::filesystem::path order_file(const experiment::DatasetOrder& order) {
     return order.scenario_file.parent_path() / "orders" / fmt::format("{:04}.json", order.replication);
 }
 
-WorkerResult record_orders(const std::vector<results::DatasetOrder>& orders, unsigned jobs) {
+WorkerResult record_orders(const std::vector<experiment::DatasetOrder>& orders, unsigned jobs) {
     std::vector<WorkerOrder> work;
-    for (const results::DatasetOrder& order : orders) {
+    for (const experiment::DatasetOrder& order : orders) {
         const std::filesystem::path file = order_file(order);
         work.push_back({.label = fmt::format("{} replication {}", order.scenario, order.replication),
                         .option = "--dataset",
                         .file = file,
-                        .text = results::to_json(order),
+                        .text = experiment::to_json(order),
                         .log = std::filesystem::path(file).replace_extension(".log"),
                         .work = order.output / fmt::format("work-{}-{}", order.scenario, order.replication)});
     }

@@ -3,16 +3,16 @@
 #include <vector>
 
 #include "cli/worker_orders.hpp"
-#include "results/dataset_order.hpp"
+#include "experiment/dataset_order.hpp"
 
 namespace clearway::cli {
 
 /// Where the order of a recording is kept beside the data set.
-std::filesystem::path order_file(const results::DatasetOrder& order);
+std::filesystem::path order_file(const experiment::DatasetOrder& order);
 
 /// Records data sets with worker processes (`clearway-run --dataset FILE`) as `work_on` says; the lines are
 /// what the workers said about their files, by replication. Order files and logs stand beside each order's
 /// scenario file.
-WorkerResult record_orders(const std::vector<results::DatasetOrder>& orders, unsigned jobs);
+WorkerResult record_orders(const std::vector<experiment::DatasetOrder>& orders, unsigned jobs);
 
 }  // namespace clearway::cli

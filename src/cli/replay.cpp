@@ -1,4 +1,4 @@
-#include "replay/replay.hpp"
+#include "trace/replay.hpp"
 
 #include <functional>
 #include <memory>
@@ -14,9 +14,9 @@
 #include "cli/names.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
-#include "replay/failure_log.hpp"
-#include "results/recording_tables.hpp"
 #include "scenario/config.hpp"
+#include "trace/failure_log.hpp"
+#include "trace/recording_tables.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -33,7 +33,7 @@ const char* const open_loop =
 constexpr const char* failures_table = "failures";
 
 std::vector<std::string> table_names() {
-    std::vector<std::string> names = results::recording_table_names();
+    std::vector<std::string> names = trace::recording_table_names();
     names.emplace_back(failures_table);
     return names;
 }
@@ -59,7 +59,7 @@ std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem:
 
 /// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
 /// core::InputError when it is another one.
-roads::Network network_of(const results::RecordingInfo& info, const Arguments& arguments) {
+roads::Network network_of(const trace::RecordingInfo& info, const Arguments& arguments) {
     std::filesystem::path file = arguments.network;
     if (file.empty()) {
         const std::filesystem::path recording = std::filesystem::absolute(arguments.file).lexically_normal();
@@ -77,8 +77,8 @@ roads::Network network_of(const results::RecordingInfo& info, const Arguments& a
     return roads::Network::read(file, signal_programs_beside(file));
 }
 
-results::ConditionSpec condition_of(const results::RecordingInfo& info, const Arguments& arguments) {
-    results::ConditionSpec condition = info.condition;
+experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const Arguments& arguments) {
+    experiment::ConditionSpec condition = info.condition;
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
     if (arguments.parts) condition.parts = *arguments.parts;
@@ -86,8 +86,8 @@ results::ConditionSpec condition_of(const results::RecordingInfo& info, const Ar
     return condition;
 }
 
-results::RoadNames names_of(const roads::Network& network) {
-    results::RoadNames names;
+trace::RoadNames names_of(const roads::Network& network) {
+    trace::RoadNames names;
     for (const roads::Lane& lane : network.lanes())
         names.lanes.push_back(lane.id);
     for (const roads::Signal& signal : network.signals())
@@ -96,9 +96,9 @@ results::RoadNames names_of(const roads::Network& network) {
 }
 
 /// Prints header and, of each step between --from and --to, what `lines` gives.
-core::ExitCode print_csv(results::RecordingReader& recording, const Arguments& arguments,
+core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arguments,
                          const std::string& header,
-                         const std::function<std::string(const results::RecordedStep&)>& lines) {
+                         const std::function<std::string(const trace::RecordedStep&)>& lines) {
     if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s)
         throw core::InputError({"--from",
                                 fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s),
@@ -122,25 +122,24 @@ core::ExitCode print_csv(results::RecordingReader& recording, const Arguments& a
     return core::ExitCode::ok;
 }
 
-core::ExitCode print_table(results::RecordingReader& recording, const Arguments& arguments) {
+core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& arguments) {
     const roads::Network network = network_of(recording.info(), arguments);
     if (arguments.table == failures_table) {
-        replay::FailureLogger logger(recording.info(), condition_of(recording.info(), arguments).failure,
-                                     network);
-        return print_csv(recording, arguments, replay::failure_log_header,
-                         [&](const results::RecordedStep& step) {
+        trace::FailureLogger logger(recording.info(), condition_of(recording.info(), arguments).failure,
+                                    network);
+        return print_csv(recording, arguments, trace::failure_log_header,
+                         [&](const trace::RecordedStep& step) {
                              const sensing::FailureLog* const log = logger.step(step);
-                             return log == nullptr ? std::string() : replay::csv_lines(*log, *step.roster);
+                             return log == nullptr ? std::string() : trace::csv_lines(*log, *step.roster);
                          });
     }
     if (arguments.failure)
         throw core::InputError({"--failure", fmt::format("does not go with --csv {}", arguments.table),
                                 "a replay, or --csv failures", "The table shows what was recorded"});
-    const results::RecordingTable table = results::recording_table_from(arguments.table).value();
-    const results::RoadNames names = names_of(network);
-    return print_csv(
-        recording, arguments, results::csv_header(table),
-        [&](const results::RecordedStep& step) { return results::csv_lines(table, step, names); });
+    const trace::RecordingTable table = trace::recording_table_from(arguments.table).value();
+    const trace::RoadNames names = names_of(network);
+    return print_csv(recording, arguments, trace::csv_header(table),
+                     [&](const trace::RecordedStep& step) { return trace::csv_lines(table, step, names); });
 }
 
 std::string number(const std::optional<double>& value) {
@@ -160,7 +159,7 @@ nlohmann::ordered_json counts_json(const metrics::LinkCounts& counts) {
     return json;
 }
 
-nlohmann::ordered_json score_json(const replay::LinkScore& score, const results::ConditionSpec& condition) {
+nlohmann::ordered_json score_json(const trace::LinkScore& score, const experiment::ConditionSpec& condition) {
     return {{"failure", condition.failure},
             {"predictor", condition.predictor},
             {"policy", condition.parts},
@@ -171,7 +170,7 @@ nlohmann::ordered_json score_json(const replay::LinkScore& score, const results:
             {"leases", score.leases}};
 }
 
-nlohmann::ordered_json agreement_json(const replay::Agreement& agreement) {
+nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
     nlohmann::ordered_json json{{"compared", agreement.compared}, {"same", agreement.same}};
     json["first_difference"] = agreement.first_difference.empty()
                                    ? nlohmann::ordered_json(nullptr)
@@ -179,10 +178,10 @@ nlohmann::ordered_json agreement_json(const replay::Agreement& agreement) {
     return json;
 }
 
-void print_json(const results::RecordingInfo& info, const results::ConditionSpec& condition,
-                const replay::ReplayResult& result) {
+void print_json(const trace::RecordingInfo& info, const experiment::ConditionSpec& condition,
+                const trace::ReplayResult& result) {
     nlohmann::ordered_json json;
-    json["run"] = results::to_text(info.key);
+    json["run"] = experiment::to_text(info.key);
     json["clearway_version"] = info.provenance.clearway_version;
     json["sumo_version"] = info.provenance.sumo_version;
     json["begin_s"] = result.begin_s;
@@ -218,16 +217,16 @@ void print_counts(const std::string& label, const metrics::LinkCounts& recorded,
     print_row(label + ": F1", number(recorded.f1()), number(replayed.f1()));
 }
 
-void print_agreement(const std::string& what, const replay::Agreement& agreement) {
+void print_agreement(const std::string& what, const trace::Agreement& agreement) {
     fmt::print("{}: {} of {} the same to the bit{}\n", what, agreement.same, agreement.compared,
                agreement.first_difference.empty() ? "" : "; first difference " + agreement.first_difference);
 }
 
-void print_text(const results::RecordingInfo& info, const results::ConditionSpec& condition,
-                const replay::ReplayResult& result) {
+void print_text(const trace::RecordingInfo& info, const experiment::ConditionSpec& condition,
+                const trace::ReplayResult& result) {
     fmt::print("{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n",
-               results::to_text(info.key), result.begin_s, result.end_s, result.steps, result.vehicle_steps,
-               info.provenance.clearway_version, info.provenance.sumo_version);
+               experiment::to_text(info.key), result.begin_s, result.end_s, result.steps,
+               result.vehicle_steps, info.provenance.clearway_version, info.provenance.sumo_version);
     fmt::print("The traffic is as recorded: it does not react to what is believed in the replay.\n\n");
     print_row("", "recorded", "replayed");
     print_row("failure", info.condition.failure, condition.failure);
@@ -250,21 +249,21 @@ void print_text(const results::RecordingInfo& info, const results::ConditionSpec
     print_agreement("leases of decisions", result.leases);
 }
 
-bool is_same(const replay::ReplayResult& result) {
+bool is_same(const trace::ReplayResult& result) {
     return result.observations.same == result.observations.compared &&
            result.beliefs.same == result.beliefs.compared && result.leases.same == result.leases.compared;
 }
 
 core::ExitCode replay_file(const Arguments& arguments) {
-    results::RecordingReader recording(arguments.file);
+    trace::RecordingReader recording(arguments.file);
     if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
         throw core::InputError(
             {"--from, --to", "go with --csv alone", "", "A replay needs the recording from its beginning"});
-    const results::RecordingInfo& info = recording.info();
-    const results::ConditionSpec condition = condition_of(info, arguments);
+    const trace::RecordingInfo& info = recording.info();
+    const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = network_of(info, arguments);
-    const replay::ReplayResult result = replay::replay(recording, condition, network);
+    const trace::ReplayResult result = trace::replay(recording, condition, network);
     arguments.printing == Printing::json ? print_json(info, condition, result)
                                          : print_text(info, condition, result);
     if (condition != info.condition || is_same(result)) return core::ExitCode::ok;

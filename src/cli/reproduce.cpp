@@ -19,7 +19,7 @@ struct Arguments {
     std::uint64_t seed = 1;
     std::string folder;
     unsigned jobs = 0;
-    results::RunLimits limits;
+    experiment::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options scenario;
 };

@@ -14,7 +14,7 @@
 #include "cli/shown_run.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
-#include "study/conditions.hpp"
+#include "experiment/conditions.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -25,8 +25,8 @@ constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replication
 /// What `--gui` shows where no condition is named: links, and vehicles that fail to report.
 constexpr const char* usually_shown = "graph_graphsage";
 
-results::ConditionSpec named_custom() {
-    results::ConditionSpec condition;
+experiment::ConditionSpec named_custom() {
+    experiment::ConditionSpec condition;
     condition.name = "custom";
     return condition;
 }
@@ -34,14 +34,14 @@ results::ConditionSpec named_custom() {
 struct Arguments {
     std::string scenario;
     std::vector<std::string> conditions;  ///< Built-in ones, by name.
-    results::ConditionSpec own = named_custom();
+    experiment::ConditionSpec own = named_custom();
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
     std::uint64_t seed = 1;
     std::string folder;
     unsigned jobs = 0;
-    results::StepRecording recording = results::StepRecording::off;
-    results::RunLimits limits;
+    experiment::StepRecording recording = experiment::StepRecording::off;
+    experiment::RunLimits limits;
     Printing printing = Printing::text;
     scenario::Options options;
     bool is_shown = false;
@@ -50,31 +50,32 @@ struct Arguments {
 };
 
 /// Whether any option describes a condition of the user's own.
-bool has_own_condition(const results::ConditionSpec& own) {
-    results::ConditionSpec untouched;
+bool has_own_condition(const experiment::ConditionSpec& own) {
+    experiment::ConditionSpec untouched;
     untouched.name = own.name;
     return own != untouched;
 }
 
-void add_once(std::vector<results::ConditionSpec>& conditions, const results::ConditionSpec& condition) {
+void add_once(std::vector<experiment::ConditionSpec>& conditions,
+              const experiment::ConditionSpec& condition) {
     const auto same_name = [&](const auto& other) { return other.name == condition.name; };
     if (std::ranges::none_of(conditions, same_name)) conditions.push_back(condition);
 }
 
 /// What is compared with a condition: nothing but the car-following model, on the same engine.
-results::ConditionSpec baseline_of(results::Engine engine) {
-    results::ConditionSpec baseline = study::built_in_condition("baseline", "--condition");
+experiment::ConditionSpec baseline_of(experiment::Engine engine) {
+    experiment::ConditionSpec baseline = experiment::built_in_condition("baseline", "--condition");
     if (engine == baseline.engine) return baseline;
-    baseline.name += fmt::format("_{}", results::name(engine));
+    baseline.name += fmt::format("_{}", experiment::name(engine));
     baseline.engine = engine;
     return baseline;
 }
 
 /// The conditions that the user names or describes.
-std::vector<results::ConditionSpec> chosen_conditions(const Arguments& arguments) {
-    std::vector<results::ConditionSpec> chosen;
+std::vector<experiment::ConditionSpec> chosen_conditions(const Arguments& arguments) {
+    std::vector<experiment::ConditionSpec> chosen;
     for (const std::string& name : arguments.conditions) {
-        add_once(chosen, study::built_in_condition(name, "--condition"));
+        add_once(chosen, experiment::built_in_condition(name, "--condition"));
     }
     if (has_own_condition(arguments.own)) {
         if (std::ranges::find(arguments.conditions, arguments.own.name) != arguments.conditions.end()) {
@@ -87,34 +88,35 @@ std::vector<results::ConditionSpec> chosen_conditions(const Arguments& arguments
 }
 
 /// Those, or else the usual ones, and what they are compared with.
-std::vector<results::ConditionSpec> conditions_of(const Arguments& arguments,
-                                                  std::vector<results::ConditionSpec> chosen) {
+std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
+                                                     std::vector<experiment::ConditionSpec> chosen) {
     if (chosen.empty()) {
-        for (const study::BuiltInCondition& known : study::built_in_conditions()) {
+        for (const experiment::BuiltInCondition& known : experiment::built_in_conditions()) {
             chosen.push_back(known.condition);
         }
     }
-    std::vector<results::ConditionSpec> all;
-    for (const results::ConditionSpec& condition : chosen) {
-        if (condition.engine != results::Engine::solo) add_once(all, baseline_of(condition.engine));
+    std::vector<experiment::ConditionSpec> all;
+    for (const experiment::ConditionSpec& condition : chosen) {
+        if (condition.engine != experiment::Engine::solo) add_once(all, baseline_of(condition.engine));
     }
-    for (const results::ConditionSpec& condition : chosen) {
+    for (const experiment::ConditionSpec& condition : chosen) {
         add_once(all, condition);
     }
     if (arguments.floor == Floor::solo) {
-        add_once(all, study::built_in_condition("solo", "--condition"));
+        add_once(all, experiment::built_in_condition("solo", "--condition"));
     } else {
-        std::erase_if(all, [](const auto& condition) { return condition.engine == results::Engine::solo; });
+        std::erase_if(all,
+                      [](const auto& condition) { return condition.engine == experiment::Engine::solo; });
     }
     return all;
 }
 
 /// Of the conditions that the user chose, the one that a window shows.
-results::ConditionSpec shown_condition(const std::vector<results::ConditionSpec>& chosen) {
-    if (chosen.empty()) return study::built_in_condition(usually_shown, "--gui");
+experiment::ConditionSpec shown_condition(const std::vector<experiment::ConditionSpec>& chosen) {
+    if (chosen.empty()) return experiment::built_in_condition(usually_shown, "--gui");
     if (chosen.size() == 1) return chosen.front();
     std::vector<std::string> names;
-    for (const results::ConditionSpec& condition : chosen)
+    for (const experiment::ConditionSpec& condition : chosen)
         names.push_back(condition.name);
     throw core::InputError({"--gui", fmt::format("cannot show {} at once", joined(names)), "one condition",
                             "Name one with --condition, or describe one of your own (--policy ...)"});
@@ -128,7 +130,7 @@ std::filesystem::path window_settings(const std::string& file) {
                             "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
 }
 
-study::StudyConfig study_of(const Arguments& arguments, std::vector<results::ConditionSpec> chosen) {
+study::StudyConfig study_of(const Arguments& arguments, std::vector<experiment::ConditionSpec> chosen) {
     study::StudyConfig config;
     config.seed = arguments.seed;
     config.replications = arguments.seeds;
@@ -141,11 +143,11 @@ study::StudyConfig study_of(const Arguments& arguments, std::vector<results::Con
 core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     RunPlanOptions options{arguments.folder,   arguments.jobs,     arguments.limits,
                            arguments.printing, invocation.command, arguments.recording};
-    const std::vector<results::ConditionSpec> chosen = chosen_conditions(arguments);
+    const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments);
     if (!arguments.is_shown) return run_and_print(plan_for(study_of(arguments, chosen), options), options);
-    const results::ConditionSpec shown = shown_condition(chosen);
-    const results::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
-                                     .settings_file = window_settings(arguments.window_settings)};
+    const experiment::ConditionSpec shown = shown_condition(chosen);
+    const experiment::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
+                                        .settings_file = window_settings(arguments.window_settings)};
     const study::Plan plan = plan_for(study_of(arguments, {shown}), options);
     return show_and_print(plan, options, shown, window);
 }
@@ -171,14 +173,14 @@ void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
 
 void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "A condition of your own (names: clearway list)";
-    results::ConditionSpec& own = arguments->own;
+    experiment::ConditionSpec& own = arguments->own;
     add_condition_options(app, own, group);
     add_switch(app, "--bluelight", own.bluelight,
                "SUMO's device.bluelight on every emergency vehicle: an opponent")
         ->option_text("on|off [off]")
         ->group(group);
-    static const std::map<std::string, results::Engine> engines = {{"standard", results::Engine::standard},
-                                                                   {"sublane", results::Engine::sublane}};
+    static const std::map<std::string, experiment::Engine> engines = {
+        {"standard", experiment::Engine::standard}, {"sublane", experiment::Engine::sublane}};
     app.add_option_function<std::string>(
            "--engine", [&own](const std::string& name) { own.engine = engines.at(name); },
            "SUMO's lateral model; sublane brings a baseline of its own")

@@ -39,7 +39,7 @@ double folder_bytes(const fs::path& folder) {
 void sample(const results::Store& store, const std::string& scenario, const std::string& condition,
             RunCost& sum, std::size_t& count) {
     for (std::uint32_t i = 0; i < store.manifest().replications && count < sampled_runs; ++i) {
-        const results::RunKey key{scenario, condition, i};
+        const experiment::RunKey key{scenario, condition, i};
         const auto timing = store.complete(key) ? store.read_timing(key) : std::nullopt;
         if (!timing) continue;
         sum.wall_s = sum.wall_s.value_or(0.0) + timing->wall_s;
@@ -48,10 +48,10 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
-RunCost rough_cost(const scenario::ScenarioConfig& config, results::Engine engine) {
+RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::Engine engine) {
     const scenario::Demand& demand = config.demand;
     const double others =
-        engine == results::Engine::solo ? 0.0 : demand.density * (demand.human + demand.automated);
+        engine == experiment::Engine::solo ? 0.0 : demand.density * (demand.human + demand.automated);
     const double vehicles = others + demand.emergency + static_cast<double>(config.emergency_trips.size());
     RunCost cost;
     cost.disk_bytes = least_disk_bytes + vehicle_disk_bytes * vehicles;
@@ -86,13 +86,13 @@ CostBook::CostBook(const fs::path& folder) {
 }
 
 RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& hash,
-                     results::Engine engine) const {
+                     experiment::Engine engine) const {
     for (const results::Store& store : stores_) {
         RunCost sum;
         std::size_t count = 0;
         for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
             if (scenario.configuration_hash != hash) continue;
-            for (const results::ConditionSpec& condition : store.manifest().conditions) {
+            for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
                 if (condition.engine == engine) sample(store, scenario.name, condition.name, sum, count);
             }
         }

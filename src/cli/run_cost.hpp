@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "experiment/unit.hpp"
 #include "results/store.hpp"
-#include "results/unit.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::cli {
@@ -26,7 +26,8 @@ class CostBook {
     /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this engine. Without
     /// any: 10 us a vehicle and step over 120 s on the road and 0.2 s for the rest, nothing where the demand
     /// is measured; 12 KiB and 160 bytes a vehicle on the disk. Right within a factor of about three.
-    RunCost of(const scenario::ScenarioConfig& config, const std::string& hash, results::Engine engine) const;
+    RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
+               experiment::Engine engine) const;
 
   private:
     std::vector<results::Store> stores_;

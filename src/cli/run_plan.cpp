@@ -66,7 +66,7 @@ void write_counts(const scenario::ScenarioConfig& config, const roads::Network& 
 
 /// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
 /// destinations before any worker starts, its wide edges, its street names, and a picture for the report.
-void complete_scenario(const scenario::ScenarioConfig& config, const results::UnitSpec& unit,
+void complete_scenario(const scenario::ScenarioConfig& config, const experiment::UnitSpec& unit,
                        const std::filesystem::path& folder) {
     const std::filesystem::path picture = folder / "network.svg";
     if (std::filesystem::exists(picture)) return;
@@ -163,7 +163,7 @@ void name_failures(const results::Store& store, const results::Results& results)
                results.manifest.runs().size(), (store.folder() / "logs").string());
     for (std::size_t i = 0; i < std::min(count, named_failures); ++i) {
         const results::FailureRecord& failure = results.failures[i];
-        fmt::print(stderr, "  {}: {}{}\n", results::to_text(failure.key), failure.message,
+        fmt::print(stderr, "  {}: {}{}\n", experiment::to_text(failure.key), failure.message,
                    last_words(failure.log_tail));
     }
     if (count > named_failures) {
@@ -214,7 +214,7 @@ study::StudyResult run_missing(const study::Plan& plan, const results::Store& st
     runner.on_set_aside = [](const results::SetAside& damaged) {
         fmt::print(stderr,
                    "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
-                   results::to_text(damaged.key), damaged.why, damaged.place.string());
+                   experiment::to_text(damaged.key), damaged.why, damaged.place.string());
     };
     study::StudyResult result = study::run(plan, store, runner, [&](const study::StudyProgress& now) {
         progress.begin_at(now.resumed);

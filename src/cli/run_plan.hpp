@@ -17,10 +17,10 @@ namespace clearway::cli {
 struct RunPlanOptions {
     std::filesystem::path folder;  ///< Run folder; empty: one of its own below `runs/`.
     unsigned workers = 0;          ///< 0: one per core.
-    results::RunLimits limits;     ///< Of each run.
+    experiment::RunLimits limits;  ///< Of each run.
     Printing printing = Printing::text;
     std::string command;  ///< What the user typed, for the report and for resuming.
-    results::StepRecording recording = results::StepRecording::off;
+    experiment::StepRecording recording = experiment::StepRecording::off;
 };
 
 /// Checks names, makes the plan with the versions installed and settles an empty `options.folder`:

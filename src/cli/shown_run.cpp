@@ -33,10 +33,10 @@ void require_display() {
 }
 
 /// What makes the first replication of a condition.
-results::UnitSpec unit_of(const study::Plan& plan, const results::ConditionSpec& shown) {
+experiment::UnitSpec unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
     for (const study::PlannedUnit& planned : plan.units) {
         if (planned.unit.engine != shown.engine) continue;
-        results::UnitSpec unit = planned.unit;
+        experiment::UnitSpec unit = planned.unit;
         unit.conditions = {shown};
         return unit;
     }
@@ -44,15 +44,15 @@ results::UnitSpec unit_of(const study::Plan& plan, const results::ConditionSpec&
 }
 
 /// Shows the run; ok, or what kept it from its end.
-core::ExitCode show(const results::UnitSpec& unit) {
+core::ExitCode show(const experiment::UnitSpec& unit) {
     const std::string label =
-        results::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
+        experiment::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
     const std::filesystem::path work = unit.output / "work" / fmt::format("window-{}", ::getpid());
     fmt::print(stderr, "clearway: {} in sumo-gui\n", label);
     const WorkerResult result = work_on({{.label = label,
                                           .option = "--show",
                                           .file = work / "unit.json",
-                                          .text = results::to_json(unit),
+                                          .text = experiment::to_json(unit),
                                           .log = work / "worker.log",
                                           .work = work}},
                                         1, "shown");
@@ -64,11 +64,11 @@ core::ExitCode show(const results::UnitSpec& unit) {
 }  // namespace
 
 core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& options,
-                              const results::ConditionSpec& shown, const results::WindowSpec& window) {
+                              const experiment::ConditionSpec& shown, const experiment::WindowSpec& window) {
     require_display();
     const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
     const results::Store store = prepare_run_folder(plan, options);
-    results::UnitSpec unit = unit_of(plan, shown);
+    experiment::UnitSpec unit = unit_of(plan, shown);
     unit.window = window;
     const core::ExitCode code = show(unit);
     if (code != core::ExitCode::ok) {

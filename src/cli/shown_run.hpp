@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/run_plan.hpp"
-#include "results/unit.hpp"
+#include "experiment/unit.hpp"
 
 namespace clearway::cli {
 
@@ -10,6 +10,6 @@ namespace clearway::cli {
 /// when the shown run does not come to its end. Answers also incomplete, when the window is closed before,
 /// and conflict. Throws core::EnvironmentError, with the cure, where no window can be opened.
 core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& options,
-                              const results::ConditionSpec& shown, const results::WindowSpec& window);
+                              const experiment::ConditionSpec& shown, const experiment::WindowSpec& window);
 
 }  // namespace clearway::cli

@@ -102,7 +102,7 @@ std::string json_of(const StudyStatus& status, const analysis::Headline* headlin
     for (const CellStatus& cell : status.cells)
         cells.push_back({{"scenario", cell.scenario},
                          {"condition", cell.condition},
-                         {"safety_checks", results::name(cell.safety_checks)},
+                         {"safety_checks", experiment::name(cell.safety_checks)},
                          {"runs", cell.runs},
                          {"complete_runs", cell.complete},
                          {"failed_runs", cell.failed}});

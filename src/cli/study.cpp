@@ -23,8 +23,8 @@ struct Arguments {
     Mode mode = Mode::run;
     study::Extent extent = study::Extent::whole;
     unsigned jobs = 0;
-    results::StepRecording recording = results::StepRecording::off;
-    results::RunLimits limits;
+    experiment::StepRecording recording = experiment::StepRecording::off;
+    experiment::RunLimits limits;
     Printing printing = Printing::text;
 };
 

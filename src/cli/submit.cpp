@@ -43,7 +43,7 @@ struct Arguments {
     study::SubmitEngine engine = study::SubmitEngine::local;
     std::uint32_t shards = 0;
     Start start = Start::write_only;
-    results::RunLimits limits;
+    experiment::RunLimits limits;
     Printing printing = Printing::text;
 };
 
@@ -81,8 +81,8 @@ void claim(const fs::path& folder, std::uint32_t shards) {
          "the same --shards, or another folder", "Choose another folder with --out"});
 }
 
-std::vector<std::string> limit_options(const results::RunLimits& limits) {
-    const results::RunLimits usual;
+std::vector<std::string> limit_options(const experiment::RunLimits& limits) {
+    const experiment::RunLimits usual;
     std::vector<std::string> options = {"--jobs", "1"};
     if (limits.wall_s != usual.wall_s) {
         options.insert(options.end(), {"--run-time-limit", fmt::format("{}", limits.wall_s)});

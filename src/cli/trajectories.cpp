@@ -1,4 +1,4 @@
-#include "replay/trajectories.hpp"
+#include "trace/trajectories.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -35,10 +35,10 @@ std::filesystem::path recording_of(const std::filesystem::path& run) {
         throw core::InputError({run.string(), "is no run",
                                 "a recording, or FOLDER/SCENARIO/CONDITION/REPLICATION",
                                 "for example runs/city-1a2b3c/city/corridor/0"});
-    const results::RunKey key{whole.parent_path().parent_path().filename().string(),
-                              whole.parent_path().filename().string(),
-                              static_cast<std::uint32_t>(std::stoul(number))};
-    const std::filesystem::path recording = results::recording_file(folder, key);
+    const experiment::RunKey key{whole.parent_path().parent_path().filename().string(),
+                                 whole.parent_path().filename().string(),
+                                 static_cast<std::uint32_t>(std::stoul(number))};
+    const std::filesystem::path recording = trace::recording_file(folder, key);
     if (!std::filesystem::exists(recording))
         throw core::InputError({run.string(), fmt::format("has no recording {}", recording.string()),
                                 "a recorded run",
@@ -48,8 +48,8 @@ std::filesystem::path recording_of(const std::filesystem::path& run) {
 
 core::ExitCode write(const Arguments& arguments) {
     const std::filesystem::path file = recording_of(arguments.run);
-    results::RecordingReader recording(file);
-    const results::RunKey key = recording.info().key;
+    trace::RecordingReader recording(file);
+    const experiment::RunKey key = recording.info().key;
     const std::uint64_t seed = recording.info().provenance.study_seed;
     const std::filesystem::path run_folder = file.parent_path().parent_path().parent_path().parent_path();
     const std::filesystem::path scenario_folder =
@@ -62,12 +62,12 @@ core::ExitCode write(const Arguments& arguments) {
             ? fmt::format("trajectories-{}-{}-{}", key.scenario, key.condition, key.replication)
             : arguments.folder;
     core::make_folder(folder / "sumo");
-    const replay::TrajectoryCounts counts = replay::write_trajectories(
+    const trace::TrajectoryCounts counts = trace::write_trajectories(
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
     scenario::write_sumo_files(config, network, core::StudySeed{seed}, core::Replication{key.replication},
                                folder / "sumo");
-    fmt::print("{}: {} EVs and {} neighbours in {} places\n", results::to_text(key),
+    fmt::print("{}: {} EVs and {} neighbours in {} places\n", experiment::to_text(key),
                counts.emergency_vehicles, counts.neighbours, counts.places);
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, the baseline for any SUMO\n",
                folder.string(),

@@ -17,11 +17,11 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
-#include "replay/difference.hpp"
 #include "results/record_difference.hpp"
-#include "results/recording.hpp"
 #include "results/store.hpp"
 #include "study/runner.hpp"
+#include "trace/difference.hpp"
+#include "trace/recording.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -42,7 +42,7 @@ struct Arguments {
 enum class Verdict : std::uint8_t { same, different, damaged, failed };
 
 struct Verification {
-    results::RunKey key;
+    experiment::RunKey key;
     Verdict verdict = Verdict::same;
     std::string hash;  ///< Of the stored record's trace; empty when it cannot be read.
     std::string cause;
@@ -112,13 +112,13 @@ std::vector<std::string> names_in(const std::vector<Entry>& entries) {
 }
 
 /// `city/baseline/7` as a run of the study. Throws core::InputError naming what is unknown in it.
-results::RunKey key_from(const std::string& word, const results::Manifest& manifest) {
+experiment::RunKey key_from(const std::string& word, const results::Manifest& manifest) {
     const std::size_t first = word.find('/');
     const std::size_t last = word.rfind('/');
     if (first == std::string::npos || first == last)
         throw core::InputError({"RUN", fmt::format("`{}` is no run", word), "SCENARIO/CONDITION/REPLICATION",
-                                "for example " + results::to_text(manifest.runs().front())});
-    results::RunKey key{word.substr(0, first), word.substr(first + 1, last - first - 1), 0};
+                                "for example " + experiment::to_text(manifest.runs().front())});
+    experiment::RunKey key{word.substr(0, first), word.substr(first + 1, last - first - 1), 0};
     std::vector<core::Problem> problems;
     const auto check = [&](const std::string& what, const std::string& name,
                            const std::vector<std::string>& known) {
@@ -140,9 +140,9 @@ results::RunKey key_from(const std::string& word, const results::Manifest& manif
 }
 
 /// The runs to verify. Throws core::Error with code incomplete where there is nothing to compare with.
-std::vector<results::RunKey> chosen_runs(const results::Store& store, const Arguments& arguments) {
+std::vector<experiment::RunKey> chosen_runs(const results::Store& store, const Arguments& arguments) {
     if (!arguments.run.empty()) {
-        const results::RunKey key = key_from(arguments.run, store.manifest());
+        const experiment::RunKey key = key_from(arguments.run, store.manifest());
         if (store.complete(key)) return {key};
         const auto failure = store.read_failure(key);
         throw core::Error(
@@ -150,34 +150,34 @@ std::vector<results::RunKey> chosen_runs(const results::Store& store, const Argu
             fmt::format("{}: run {} {}; there is nothing to compare with", store.folder().string(),
                         arguments.run, failure ? "failed: " + failure->message : "has not been made yet"));
     }
-    std::vector<results::RunKey> complete = store.manifest().runs();
-    std::erase_if(complete, [&](const results::RunKey& key) { return !store.complete(key); });
+    std::vector<experiment::RunKey> complete = store.manifest().runs();
+    std::erase_if(complete, [&](const experiment::RunKey& key) { return !store.complete(key); });
     if (complete.empty())
         throw core::Error(
             core::ExitCode::incomplete,
             fmt::format("{}: no run is complete; there is nothing to compare with", store.folder().string()));
     if (arguments.all || arguments.sample >= complete.size()) return complete;
-    std::vector<results::RunKey> sample;
+    std::vector<experiment::RunKey> sample;
     for (std::size_t i = 0; i < arguments.sample; ++i)
         sample.push_back(complete[i * complete.size() / arguments.sample]);
     return sample;
 }
 
 /// Units that make these runs again, from the scenarios and networks of the folder.
-study::Plan plan_of(const results::Store& store, const std::vector<results::RunKey>& keys,
+study::Plan plan_of(const results::Store& store, const std::vector<experiment::RunKey>& keys,
                     const std::filesystem::path& out) {
     study::Plan plan;
     plan.manifest = store.manifest();
     std::map<std::string, std::size_t> unit_of;
     const std::filesystem::path folder = std::filesystem::absolute(store.folder());
-    for (const results::RunKey& key : keys) {
+    for (const experiment::RunKey& key : keys) {
         const auto condition =
-            std::ranges::find(plan.manifest.conditions, key.condition, &results::ConditionSpec::name);
+            std::ranges::find(plan.manifest.conditions, key.condition, &experiment::ConditionSpec::name);
         const std::string name =
-            fmt::format("{}-{:05}-{}", key.scenario, key.replication, results::name(condition->engine));
+            fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(condition->engine));
         const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
         if (is_new) {
-            results::UnitSpec spec;
+            experiment::UnitSpec spec;
             spec.scenario = key.scenario;
             spec.scenario_file = folder / "scenarios" / key.scenario / "scenario.toml";
             spec.network_folder = folder / "scenarios" / key.scenario / "network";
@@ -187,10 +187,10 @@ study::Plan plan_of(const results::Store& store, const std::vector<results::RunK
             spec.output = std::filesystem::absolute(out);
             plan.units.push_back({name, std::move(spec)});
         }
-        results::UnitSpec& spec = plan.units[unit->second].unit;
+        experiment::UnitSpec& spec = plan.units[unit->second].unit;
         spec.conditions.push_back(*condition);
-        if (std::filesystem::exists(results::recording_file(folder, key)))
-            spec.recording = results::StepRecording::on;
+        if (std::filesystem::exists(trace::recording_file(folder, key)))
+            spec.recording = experiment::StepRecording::on;
     }
     return plan;
 }
@@ -199,23 +199,23 @@ study::Plan plan_of(const results::Store& store, const std::vector<results::RunK
 std::string first_differing_step(const std::filesystem::path& one, const std::filesystem::path& other) {
     if (!std::filesystem::exists(one) || !std::filesystem::exists(other)) return "";
     try {
-        results::RecordingReader left(one);
-        results::RecordingReader right(other);
+        trace::RecordingReader left(one);
+        trace::RecordingReader right(other);
         while (true) {
             const auto before = left.next();
             const auto now = right.next();
             if (!before && !now) return "";
             if (!before || !now) return "one recording ends earlier";
             const double time_s = before->snapshot->time.value;
-            if (const auto found = replay::difference(*before->snapshot, *now->snapshot))
+            if (const auto found = trace::difference(*before->snapshot, *now->snapshot))
                 return fmt::format("at {} s, snapshot: {}", time_s, *found);
             if (before->observation != nullptr && now->observation != nullptr)
-                if (const auto found = replay::difference(*before->observation, *now->observation))
+                if (const auto found = trace::difference(*before->observation, *now->observation))
                     return fmt::format("at {} s, observation: {}", time_s, *found);
             if (before->belief != nullptr && now->belief != nullptr)
-                if (const auto found = replay::difference(*before->belief, *now->belief))
+                if (const auto found = trace::difference(*before->belief, *now->belief))
                     return fmt::format("at {} s, belief: {}", time_s, *found);
-            if (const auto found = replay::difference(before->leases, now->leases))
+            if (const auto found = trace::difference(before->leases, now->leases))
                 return fmt::format("at {} s, {}", time_s, *found);
         }
     } catch (const core::InputError& error) {
@@ -223,7 +223,8 @@ std::string first_differing_step(const std::filesystem::path& one, const std::fi
     }
 }
 
-Verification verify(const results::Store& stored, const results::Store& again, const results::RunKey& key) {
+Verification verify(const results::Store& stored, const results::Store& again,
+                    const experiment::RunKey& key) {
     Verification verification;
     verification.key = key;
     std::optional<results::RunRecord> record;
@@ -245,13 +246,13 @@ Verification verify(const results::Store& stored, const results::Store& again, c
     verification.cells = results::differences(*record, *made);
     if (verification.cells.empty()) return verification;
     verification.verdict = Verdict::different;
-    verification.first_step = first_differing_step(results::recording_file(stored.folder(), key),
-                                                   results::recording_file(again.folder(), key));
+    verification.first_step = first_differing_step(trace::recording_file(stored.folder(), key),
+                                                   trace::recording_file(again.folder(), key));
     return verification;
 }
 
 void print_verification(const Verification& each) {
-    fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), results::to_text(each.key),
+    fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), experiment::to_text(each.key),
                each.hash.empty() ? "" : "  trace " + each.hash, each.cause.empty() ? "" : "  " + each.cause);
     if (!each.first_step.empty()) fmt::print("  recordings part {}\n", each.first_step);
     for (const char* const table : {"provenance", "metrics", "vehicles"}) {
@@ -266,7 +267,7 @@ void print_verification(const Verification& each) {
 }
 
 nlohmann::ordered_json json_of(const Verification& each) {
-    nlohmann::ordered_json json{{"run", results::to_text(each.key)}, {"verdict", text_of(each.verdict)}};
+    nlohmann::ordered_json json{{"run", experiment::to_text(each.key)}, {"verdict", text_of(each.verdict)}};
     json["trace_hash"] =
         each.hash.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(each.hash);
     if (!each.cause.empty()) json["cause"] = each.cause;
@@ -324,7 +325,7 @@ core::ExitCode verify_runs(const Arguments& arguments) {
     if (std::filesystem::equivalent(arguments.folder, arguments.out, none))
         throw core::InputError({"--out", fmt::format("{} is the folder to verify", arguments.out),
                                 "a new or empty folder", "A run must be made elsewhere to be compared"});
-    const std::vector<results::RunKey> keys = chosen_runs(stored, arguments);
+    const std::vector<experiment::RunKey> keys = chosen_runs(stored, arguments);
     require_same_versions(stored.manifest());
     std::optional<TemporaryFolder> temporary;
     if (arguments.out.empty()) temporary.emplace();
@@ -341,7 +342,7 @@ core::ExitCode verify_runs(const Arguments& arguments) {
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated)
         return result.exit_code;
     std::vector<Verification> verifications;
-    for (const results::RunKey& key : keys)
+    for (const experiment::RunKey& key : keys)
         verifications.push_back(verify(stored, again, key));
     print_all(verifications, arguments.printing);
     return code_of(verifications);

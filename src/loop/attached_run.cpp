@@ -12,10 +12,10 @@
 
 #include "core/files.hpp"
 #include "core/random.hpp"
+#include "experiment/attach_order.hpp"
 #include "loop/closed_loop.hpp"
 #include "loop/machinery.hpp"
 #include "loop/road_layout.hpp"
-#include "results/attach_order.hpp"
 #include "results/store.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -55,7 +55,7 @@ bool has_sublanes(const sumo::RemoteSumo& sumo) {
     return std::strtod(sumo.option("lateral-resolution").c_str(), nullptr) > 0.0;
 }
 
-results::Manifest manifest_of(const results::AttachOrder& order, const std::filesystem::path& network) {
+results::Manifest manifest_of(const experiment::AttachOrder& order, const std::filesystem::path& network) {
     results::ScenarioEntry entry{
         .name = scenario_name,
         .version = "as it ran",
@@ -84,7 +84,7 @@ struct Ground {
     core::Seconds end;
 };
 
-Ground ground_of(const sumo::RemoteSumo& sumo, const results::AttachOrder& order) {
+Ground ground_of(const sumo::RemoteSumo& sumo, const experiment::AttachOrder& order) {
     Ground ground;
     ground.network_file =
         order.network.empty() ? file_of(sumo, "net-file", "Give the file with --network") : order.network;
@@ -98,7 +98,7 @@ Ground ground_of(const sumo::RemoteSumo& sumo, const results::AttachOrder& order
 }  // namespace
 
 core::ExitCode run_attached(const std::filesystem::path& order_file) {
-    results::AttachOrder order = results::read_attach_order(order_file);
+    experiment::AttachOrder order = experiment::read_attach_order(order_file);
     const auto started = std::chrono::steady_clock::now();
     sumo::RemoteSumo sumo(order.host, order.port);
     const Ground ground = ground_of(sumo, order);
@@ -106,7 +106,7 @@ core::ExitCode run_attached(const std::filesystem::path& order_file) {
         sumo.declare(type, traffic::VehicleClass::automated);
     for (const std::string& type : order.emergency)
         sumo.declare(type, traffic::VehicleClass::emergency);
-    if (has_sublanes(sumo)) order.condition.engine = results::Engine::sublane;
+    if (has_sublanes(sumo)) order.condition.engine = experiment::Engine::sublane;
     const roads::Network network = roads::Network::read(ground.network_file, ground.additional_files);
     const results::Store store =
         results::Store::create(order.output, manifest_of(order, ground.network_file));

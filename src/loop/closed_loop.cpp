@@ -18,7 +18,7 @@ constexpr double time_tolerance_s = 0.0005;
 }  // namespace
 
 ClosedLoop::ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
-                       metrics::Recorder& recorder, StepListener* listener)
+                       metrics::Recorder& recorder, trace::StepListener* listener)
     : session_(session), machinery_(std::move(machinery)), recorder_(recorder), listener_(listener) {
     rules_.radius_m = config.link_radius_m;
 }
@@ -37,7 +37,7 @@ void ClosedLoop::step() {
     const auto started = Clock::now();
     session_.step();
     const truth::Snapshot& snapshot = session_.snapshot();
-    replay::DecisionChain& chain = *machinery_.chain;
+    pipeline::DecisionChain& chain = *machinery_.chain;
     chain.observe(snapshot, session_.roster());
     if (listener_ != nullptr) listener_->on_step(snapshot, session_.roster());
 
@@ -67,8 +67,8 @@ void ClosedLoop::score(const truth::Snapshot& snapshot) {
 }
 
 void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {
-    const replay::DecisionChain& chain = *machinery_.chain;
-    results::RecordedStep step{&snapshot, &session_.roster(), &session_.events(), nullptr, nullptr, {}};
+    const pipeline::DecisionChain& chain = *machinery_.chain;
+    trace::RecordedStep step{&snapshot, &session_.roster(), &session_.events(), nullptr, nullptr, {}};
     if (decided || chain.observation().is_report) step.observation = &chain.observation();
     if (decided) step.belief = &chain.belief();
     step.leases = chain.leases();

@@ -8,20 +8,20 @@
 #include "actuation/actuator.hpp"
 #include "core/units.hpp"
 #include "drivers/siren.hpp"
+#include "experiment/loop_config.hpp"
 #include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
-#include "replay/decision_chain.hpp"
-#include "results/loop_config.hpp"
-#include "results/recording.hpp"
+#include "pipeline/decision_chain.hpp"
 #include "sumo/session.hpp"
+#include "trace/step_listener.hpp"
 
 namespace clearway::loop {
 
-using results::LoopConfig;
+using experiment::LoopConfig;
 
 /// What a condition is made of, ready to run.
 struct Machinery {
-    std::unique_ptr<replay::DecisionChain> chain;
+    std::unique_ptr<pipeline::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
     std::unique_ptr<drivers::Siren> siren;  ///< Null where nobody yields to one.
 };
@@ -35,27 +35,13 @@ struct LoopTiming {
     std::uint64_t vehicle_steps = 0;
 };
 
-/// Watches a run step by step, for data sets and traces. It has the truth, so nothing that decides may be
-/// one.
-class StepListener {
-  public:
-    StepListener() = default;
-    StepListener(const StepListener&) = delete;
-    StepListener& operator=(const StepListener&) = delete;
-    virtual ~StepListener() = default;
-    /// After sensing, before any decision.
-    virtual void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) = 0;
-    /// At the end of the step, with what was reported and decided in it; valid for the call.
-    virtual void on_step_end(const results::RecordedStep& /*step*/) {}
-};
-
 /// The only place that knows the order of the design: truth -> sensing -> prediction -> policy -> actuation
 /// -> simulator, with metrics beside it. One run; one thread.
 class ClosedLoop {
   public:
     /// All references outlive the loop. `listener` may be null.
     ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
-               metrics::Recorder& recorder, StepListener* listener = nullptr);
+               metrics::Recorder& recorder, trace::StepListener* listener = nullptr);
 
     /// Steps until no vehicle is left or `horizon` is reached, then gives back all that is held.
     /// Throws core::SimulatorError as the session does.
@@ -72,7 +58,7 @@ class ClosedLoop {
     sumo::Session& session_;
     Machinery machinery_;
     metrics::Recorder& recorder_;
-    StepListener* listener_;
+    trace::StepListener* listener_;
 
     graph::LinkRules rules_;
     graph::ProximityBuilder builder_;

@@ -8,47 +8,47 @@
 
 #include "core/files.hpp"
 #include "loop/detail/work_folder.hpp"
-#include "loop/listeners.hpp"
-#include "loop/recording.hpp"
 #include "loop/unit_run.hpp"
+#include "samples/recorders.hpp"
+#include "trace/listeners.hpp"
 
 namespace clearway::loop {
 namespace {
 
 /// Car-following alone: data sets show traffic that no policy has touched.
-results::ConditionSpec plain_traffic() {
-    results::ConditionSpec condition;
+experiment::ConditionSpec plain_traffic() {
+    experiment::ConditionSpec condition;
     condition.name = "dataset";
     return condition;
 }
 
-void record_published(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+void record_published(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
     const prediction::FeatureSchema schema = order.feature_count == 2
                                                  ? prediction::as_published_position_schema()
                                                  : prediction::as_published_attributes_schema();
-    PairDatasetRecorder recorder(run.network(), rules, schema, order.pairs);
+    samples::PairDatasetRecorder recorder(run.network(), rules, schema, order.pairs);
     run.record(plain_traffic(), recorder);
-    const prediction::PairDataset& dataset = recorder.dataset();
+    const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
         throw core::InputError({order.scenario,
                                 "no two vehicles of linkable classes ever came near each other",
                                 "at least one link", "Raise the density, or choose another seed"});
     }
-    prediction::write_pair_dataset(order.output, dataset);
+    samples::write_pair_dataset(order.output, dataset);
     fmt::print("{}: {} vehicles, {} pairs at {:.2f} s\n", order.output.string(), dataset.vehicle_count(),
                dataset.pair_count(), recorder.time().value);
 }
 
-bool exits_unknown(const results::DatasetOrder& order) {
+bool exits_unknown(const experiment::DatasetOrder& order) {
     return order.exits == "unknown";
 }
 
 /// The failure as data sets name it.
-std::string failure_name(const results::DatasetOrder& order, const std::string& failure) {
+std::string failure_name(const experiment::DatasetOrder& order, const std::string& failure) {
     return failure + (exits_unknown(order) ? " exits unknown" : "");
 }
 
-std::unique_ptr<sensing::SensorModel> sensor_for(const results::DatasetOrder& order,
+std::unique_ptr<sensing::SensorModel> sensor_for(const experiment::DatasetOrder& order,
                                                  const std::string& failure, const UnitRun& run,
                                                  const graph::LinkRules& rules) {
     sensing::FailureConfig config = sensing::failure_from(failure);
@@ -58,51 +58,51 @@ std::unique_ptr<sensing::SensorModel> sensor_for(const results::DatasetOrder& or
 }
 
 /// One recorder of a kind for each failure, all watching one run.
-template <class SampleRecorder>
-void record_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
+template <class Recorder>
+void record_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
                     const prediction::FeatureSchema& features) {
-    std::vector<std::unique_ptr<SampleRecorder>> recorders;
-    Listeners all;
+    std::vector<std::unique_ptr<Recorder>> recorders;
+    trace::Listeners all;
     for (const std::string& failure : order.failures) {
-        const prediction::GraphSampleOrigin origin{.scenario = order.scenario,
-                                                   .failure = failure_name(order, failure),
-                                                   .features = features,
-                                                   .study_seed = order.study_seed,
-                                                   .replication = order.replication,
-                                                   .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<SampleRecorder>(run.network(), rules, origin,
-                                                             sensor_for(order, failure, run, rules),
-                                                             core::Seconds(order.interval_s)));
+        const samples::GraphSampleOrigin origin{.scenario = order.scenario,
+                                                .failure = failure_name(order, failure),
+                                                .features = features,
+                                                .study_seed = order.study_seed,
+                                                .replication = order.replication,
+                                                .link_radius_m = rules.radius_m};
+        recorders.push_back(std::make_unique<Recorder>(run.network(), rules, origin,
+                                                       sensor_for(order, failure, run, rules),
+                                                       core::Seconds(order.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            results::sample_file(order, order.failures[i], prediction::graph_sample_extension);
+            experiment::sample_file(order, order.failures[i], samples::graph_sample_extension);
         recorders[i]->writer().write(file);
         fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
     }
 }
 
-void record_pair_samples(const results::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
-    std::vector<std::unique_ptr<PairSampleRecorder>> recorders;
-    Listeners all;
+void record_pair_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+    std::vector<std::unique_ptr<samples::PairSampleRecorder>> recorders;
+    trace::Listeners all;
     for (const std::string& failure : order.failures) {
-        const prediction::PairSampleOrigin origin{.scenario = order.scenario,
-                                                  .failure = failure_name(order, failure),
-                                                  .study_seed = order.study_seed,
-                                                  .replication = order.replication,
-                                                  .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<PairSampleRecorder>(run.network(), rules, origin,
-                                                                 sensor_for(order, failure, run, rules),
-                                                                 core::Seconds(order.interval_s)));
+        const samples::PairSampleOrigin origin{.scenario = order.scenario,
+                                               .failure = failure_name(order, failure),
+                                               .study_seed = order.study_seed,
+                                               .replication = order.replication,
+                                               .link_radius_m = rules.radius_m};
+        recorders.push_back(std::make_unique<samples::PairSampleRecorder>(
+            run.network(), rules, origin, sensor_for(order, failure, run, rules),
+            core::Seconds(order.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            results::sample_file(order, order.failures[i], prediction::pair_sample_ending);
-        prediction::write_pair_samples(file, recorders[i]->samples());
+            experiment::sample_file(order, order.failures[i], samples::pair_sample_ending);
+        samples::write_pair_samples(file, recorders[i]->samples());
         fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
     }
 }
@@ -110,11 +110,11 @@ void record_pair_samples(const results::DatasetOrder& order, UnitRun& run, const
 }  // namespace
 
 core::ExitCode record_dataset(const std::filesystem::path& order_file) {
-    const results::DatasetOrder order = results::read_dataset_order(order_file);
+    const experiment::DatasetOrder order = experiment::read_dataset_order(order_file);
     core::make_folder(order.output);
     const detail::WorkFolder work(order.output /
                                   fmt::format("work-{}-{}", order.scenario, order.replication));
-    results::UnitSpec unit;
+    experiment::UnitSpec unit;
     unit.scenario = order.scenario;
     unit.scenario_file = order.scenario_file;
     unit.network_folder = order.network_folder;
@@ -124,16 +124,16 @@ core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     graph::LinkRules rules;
     rules.radius_m = LoopConfig{}.link_radius_m;
     switch (order.kind) {
-        case results::DatasetKind::published:
+        case experiment::DatasetKind::published:
             record_published(order, run, rules);
             break;
-        case results::DatasetKind::samples:
-            record_samples<SampleRecorder>(order, run, rules, prediction::corrected_schema());
+        case experiment::DatasetKind::samples:
+            record_samples<samples::SampleRecorder>(order, run, rules, prediction::corrected_schema());
             break;
-        case results::DatasetKind::repair:
-            record_samples<RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
+        case experiment::DatasetKind::repair:
+            record_samples<samples::RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
             break;
-        case results::DatasetKind::pair_samples:
+        case experiment::DatasetKind::pair_samples:
             record_pair_samples(order, run, rules);
             break;
     }

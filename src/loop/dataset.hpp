@@ -6,8 +6,8 @@
 
 namespace clearway::loop {
 
-/// Runs the simulation of an order file (results::DatasetOrder) without a policy and writes the data set into
-/// its output folder. Prints one line about each file written. Throws core::Error.
+/// Runs the simulation of an order file (experiment::DatasetOrder) without a policy and writes the data set
+/// into its output folder. Prints one line about each file written. Throws core::Error.
 core::ExitCode record_dataset(const std::filesystem::path& order_file);
 
 }  // namespace clearway::loop

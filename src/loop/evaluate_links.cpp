@@ -1,3 +1,5 @@
+#include "loop/evaluate_links.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <span>
@@ -5,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiment/link_order.hpp"
+#include "links/link_evaluation.hpp"
 #include "loop/detail/work_folder.hpp"
-#include "loop/link_evaluation.hpp"
 #include "loop/unit_run.hpp"
-#include "results/link_order.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::loop {
@@ -21,33 +23,33 @@ sensing::Exits exits_from(const std::string& word) {
     throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
 }
 
-std::unique_ptr<prediction::Predictor> make(const results::LinkPredictorOrder& order,
+std::unique_ptr<prediction::Predictor> make(const experiment::LinkPredictorOrder& order,
                                             const roads::Network& network, const graph::LinkRules& rules) {
     return prediction::make_predictor(
         order.name, {.network = network, .rules = rules, .model_file = order.model_file}, order.settings);
 }
 
-void add_trials(const results::LinkOrder& order, const roads::Network& network, const graph::LinkRules& rules,
-                LinkEvaluator& evaluator) {
+void add_trials(const experiment::LinkOrder& order, const roads::Network& network,
+                const graph::LinkRules& rules, links::LinkEvaluator& evaluator) {
     const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
     for (const std::string& exits : order.exits) {
         for (const std::string& failure : order.failures) {
             sensing::FailureConfig config = sensing::failure_from(failure);
             config.exits = exits_from(exits);
-            LinkTrial::Setup setup{
+            links::LinkTrial::Setup setup{
                 .failure = failure,
                 .exits = exits,
                 .sensor = sensing::make_sensor(config, random, {.network = network, .rules = rules}),
                 .predictors = {}};
-            for (const results::LinkPredictorOrder& predictor : order.predictors)
+            for (const experiment::LinkPredictorOrder& predictor : order.predictors)
                 setup.predictors.push_back(make(predictor, network, rules));
             evaluator.add(std::move(setup));
         }
     }
 }
 
-void check_scored(const results::LinkOrder& order, const LinkEvaluator& evaluator) {
-    for (const LinkTrial& trial : evaluator.trials()) {
+void check_scored(const experiment::LinkOrder& order, const links::LinkEvaluator& evaluator) {
+    for (const links::LinkTrial& trial : evaluator.trials()) {
         if (trial.result(0).truth.reports > 0) continue;
         throw core::InputError(
             {order.scenario,
@@ -57,32 +59,32 @@ void check_scored(const results::LinkOrder& order, const LinkEvaluator& evaluato
     }
 }
 
-void write_results(const results::LinkOrder& order, const std::string& configuration_hash,
-                   const LinkEvaluator& evaluator) {
+void write_results(const experiment::LinkOrder& order, const std::string& configuration_hash,
+                   const links::LinkEvaluator& evaluator) {
     for (std::size_t number = 0; number < order.predictors.size(); ++number) {
-        const results::LinkPredictorOrder& predictor = order.predictors[number];
-        results::LinkRun run{.scenario = order.scenario,
-                             .configuration_hash = configuration_hash,
-                             .study_seed = order.study_seed,
-                             .replication = order.replication,
-                             .predictor = predictor.name,
-                             .cases = {}};
-        results::LinkTiming timing;
-        for (const LinkTrial& trial : evaluator.trials()) {
+        const experiment::LinkPredictorOrder& predictor = order.predictors[number];
+        links::LinkRun run{.scenario = order.scenario,
+                           .configuration_hash = configuration_hash,
+                           .study_seed = order.study_seed,
+                           .replication = order.replication,
+                           .predictor = predictor.name,
+                           .cases = {}};
+        links::LinkTiming timing;
+        for (const links::LinkTrial& trial : evaluator.trials()) {
             run.cases.push_back(trial.result(number));
             timing.cases.push_back(trial.timing(number));
         }
         core::make_folder(predictor.output.parent_path());
-        results::write_link_run(predictor.output, run, timing);
+        links::write_link_run(predictor.output, run, timing);
     }
 }
 
 }  // namespace
 
 core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
-    const results::LinkOrder order = results::read_link_order(order_file);
+    const experiment::LinkOrder order = experiment::read_link_order(order_file);
     const detail::WorkFolder work(order.work_folder);
-    results::UnitSpec unit;
+    experiment::UnitSpec unit;
     unit.scenario = order.scenario;
     unit.scenario_file = order.scenario_file;
     unit.network_folder = order.network_folder;
@@ -90,10 +92,10 @@ core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
     unit.replication = order.replication;
     UnitRun run(unit, work.path(), work.path());
     graph::LinkRules rules;
-    rules.radius_m = LoopConfig{}.link_radius_m;
-    LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
+    rules.radius_m = experiment::LoopConfig{}.link_radius_m;
+    links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(order, run.network(), rules, evaluator);
-    results::ConditionSpec plain_traffic;
+    experiment::ConditionSpec plain_traffic;
     plain_traffic.name = "links";
     run.record(plain_traffic, evaluator);
     check_scored(order, evaluator);

@@ -79,7 +79,7 @@ std::vector<sumo::Spot> ring_around(const roads::Signal& signal, const roads::Ne
     return ring;
 }
 
-const sumo::Drawing& Illustrator::draw(const results::RecordedStep& step) {
+const sumo::Drawing& Illustrator::draw(const trace::RecordedStep& step) {
     const truth::Snapshot& snapshot = *step.snapshot;
     if (step.observation != nullptr && step.observation->is_report) take_dark(snapshot, *step.observation);
     if (step.belief != nullptr) take_links(*step.belief);

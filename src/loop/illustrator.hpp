@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "results/recording.hpp"
 #include "roads/network.hpp"
 #include "sumo/drawing.hpp"
+#include "trace/recording.hpp"
 
 namespace clearway::loop {
 
@@ -27,7 +27,7 @@ class Illustrator {
         : network_(network), held_(network.signals().size(), false) {}
 
     /// Called for every step, in order of time. Valid until the next call.
-    const sumo::Drawing& draw(const results::RecordedStep& step);
+    const sumo::Drawing& draw(const trace::RecordedStep& step);
 
   private:
     struct Link {

@@ -18,7 +18,7 @@ double yellow_s(double friction) {
 
 }  // namespace
 
-LoopConfig loop_config_of(const results::ConditionSpec& condition) {
+LoopConfig loop_config_of(const experiment::ConditionSpec& condition) {
     LoopConfig config;
     std::vector<core::Problem> problems = core::apply_settings(
         condition.loop_settings, fmt::format("condition {}: loop.", condition.name), config);
@@ -26,19 +26,19 @@ LoopConfig loop_config_of(const results::ConditionSpec& condition) {
     return config;
 }
 
-Machinery make_machinery(const results::ConditionSpec& condition, const Surroundings& surroundings) {
+Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings) {
     Machinery machinery;
-    machinery.chain = std::make_unique<replay::DecisionChain>(
-        condition, replay::ChainContext{.network = surroundings.network,
-                                        .random = surroundings.random,
-                                        .policy_period_s = surroundings.loop.policy_period_s,
-                                        .link_radius_m = surroundings.loop.link_radius_m});
+    machinery.chain = std::make_unique<pipeline::DecisionChain>(
+        condition, pipeline::ChainContext{.network = surroundings.network,
+                                          .random = surroundings.random,
+                                          .policy_period_s = surroundings.loop.policy_period_s,
+                                          .link_radius_m = surroundings.loop.link_radius_m});
     actuation::ActuatorConfig actuation;
     actuation.yellow_s = yellow_s(surroundings.friction);
     if (!surroundings.has_pedestrians) actuation.walking_s = 0.0;
     actuation.safety_checks = condition.safety_checks;
-    actuation.lateral_model = condition.engine == results::Engine::sublane ? traffic::LateralModel::sublane
-                                                                           : traffic::LateralModel::lane;
+    actuation.lateral_model = condition.engine == experiment::Engine::sublane ? traffic::LateralModel::sublane
+                                                                              : traffic::LateralModel::lane;
     machinery.actuator = std::make_unique<actuation::Actuator>(surroundings.network, actuation);
     if (surroundings.siren.compliance > 0.0)
         machinery.siren =

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "core/random.hpp"
+#include "experiment/unit.hpp"
 #include "loop/closed_loop.hpp"
-#include "results/unit.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::loop {
 
 /// The loop's configuration under a condition. Throws core::InputError for settings that do not exist.
-LoopConfig loop_config_of(const results::ConditionSpec& condition);
+LoopConfig loop_config_of(const experiment::ConditionSpec& condition);
 
 /// What every condition of a worker shares; references outlive what is made from it.
 struct Surroundings {
@@ -22,7 +22,7 @@ struct Surroundings {
 
 /// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not
 /// exist.
-Machinery make_machinery(const results::ConditionSpec& condition, const Surroundings& surroundings);
+Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings);
 
 /// The names that a session of this network speaks in indices of.
 sumo::Names names_of(const roads::Network& network);

@@ -38,7 +38,7 @@ constexpr const char* own_settings = R"(<viewsettings>
 /// Width and height, pixels.
 constexpr const char* window_size = "1200,800";
 
-std::vector<std::string> window_arguments(const results::WindowSpec& window,
+std::vector<std::string> window_arguments(const experiment::WindowSpec& window,
                                           const std::filesystem::path& folder) {
     if (window.program == "sumo") return {};
     std::filesystem::path settings = window.settings_file;
@@ -51,14 +51,14 @@ std::vector<std::string> window_arguments(const results::WindowSpec& window,
 }
 
 /// Draws every step into the SUMO that drives the run, at a pace that a person can follow.
-class Show : public StepListener {
+class Show : public trace::StepListener {
   public:
     /// Both outlive the object. A step takes at least `delay` of wall time.
     Show(sumo::Session& session, const roads::Network& network, core::Seconds delay)
         : session_(session), illustrator_(network), delay_(delay.value) {}
 
     void on_step(const truth::Snapshot&, const traffic::Roster&) override {}
-    void on_step_end(const results::RecordedStep& step) override {
+    void on_step_end(const trace::RecordedStep& step) override {
         session_.draw(illustrator_.draw(step));
         std::this_thread::sleep_until(next_);
         next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(delay_);
@@ -87,8 +87,8 @@ core::Error reason(const core::SimulatorError& fault, sumo::ChildSumo& child) {
 }  // namespace
 
 core::ExitCode run_shown(const std::filesystem::path& unit_file) {
-    const results::UnitSpec unit = results::read_unit(unit_file);
-    const results::WindowSpec window = unit.window.value_or(results::WindowSpec{});
+    const experiment::UnitSpec unit = experiment::read_unit(unit_file);
+    const experiment::WindowSpec window = unit.window.value_or(experiment::WindowSpec{});
     const results::Store store = results::Store::open(unit.output);
     const std::filesystem::path work = std::filesystem::absolute(unit_file).parent_path();
     const std::filesystem::path demand = work / "demand";

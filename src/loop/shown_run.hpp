@@ -6,7 +6,7 @@
 
 namespace clearway::loop {
 
-/// Runs the one condition of a unit file (results::UnitSpec) with a window as its `window` says, in a SUMO
+/// Runs the one condition of a unit file (experiment::UnitSpec) with a window as its `window` says, in a SUMO
 /// that is a child of this process, and stores the run: the same bytes as without a window. SUMO's files lie
 /// beside the unit file. Throws core::EnvironmentError when that SUMO does not start, core::Error with code
 /// incomplete when its window is closed before the end, core::SimulatorError when it fails,

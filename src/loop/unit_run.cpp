@@ -7,10 +7,10 @@
 #include <sys/resource.h>
 
 #include "core/files.hpp"
-#include "loop/listeners.hpp"
 #include "loop/road_layout.hpp"
-#include "results/recording.hpp"
 #include "sensing/failure_config.hpp"
+#include "trace/listeners.hpp"
+#include "trace/recording.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -18,18 +18,18 @@ namespace {
 /// Width of a lane's lateral cells in the sublane model, m (facts: 0.5).
 constexpr const char* lateral_resolution_m = "0.5";
 
-sumo::SessionConfig session_config(const results::UnitSpec& unit, const scenario::Prepared& prepared,
+sumo::SessionConfig session_config(const experiment::UnitSpec& unit, const scenario::Prepared& prepared,
                                    const roads::Network& network, const std::filesystem::path& folder) {
     sumo::SessionConfig config;
     config.network = prepared.network_file;
-    if (unit.engine != results::Engine::solo) config.route_files = prepared.route_files;
+    if (unit.engine != experiment::Engine::solo) config.route_files = prepared.route_files;
     config.additional_files = prepared.additional_files;
     config.folder = folder;
     config.step_length = core::Seconds(prepared.time.step_length_s);
     config.seed = prepared.simulator_seed;
     if (prepared.time.time_to_teleport_s)
         config.time_to_teleport = core::Seconds(*prepared.time.time_to_teleport_s);
-    if (unit.engine == results::Engine::sublane) {
+    if (unit.engine == experiment::Engine::sublane) {
         config.extra_arguments = {"--lateral-resolution", lateral_resolution_m};
     }
     config.names = names_of(network);
@@ -43,12 +43,12 @@ long peak_kib() {
 }
 
 /// Writes every step into the file of the run.
-class FileRecording : public StepListener {
+class FileRecording : public trace::StepListener {
   public:
-    FileRecording(const std::filesystem::path& file, const results::RecordingInfo& info)
+    FileRecording(const std::filesystem::path& file, const trace::RecordingInfo& info)
         : writer_(prepared(file), info) {}
     void on_step(const truth::Snapshot&, const traffic::Roster&) override {}
-    void on_step_end(const results::RecordedStep& step) override { writer_.write(step); }
+    void on_step_end(const trace::RecordedStep& step) override { writer_.write(step); }
     void finish() { writer_.finish(); }
 
   private:
@@ -56,7 +56,7 @@ class FileRecording : public StepListener {
         core::make_folder(file.parent_path());
         return file;
     }
-    results::RecordingWriter writer_;
+    trace::RecordingWriter writer_;
 };
 
 }  // namespace
@@ -65,7 +65,7 @@ std::unique_ptr<sumo::Session> in_this_process(sumo::SessionConfig config) {
     return std::make_unique<sumo::Session>(std::move(config));
 }
 
-UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
+UnitRun::UnitRun(const experiment::UnitSpec& unit, const std::filesystem::path& demand_folder,
                  const std::filesystem::path& folder, const StartSession& start)
     : unit_(unit),
       config_(scenario::load(unit.scenario_file.string())),
@@ -74,7 +74,7 @@ UnitRun::UnitRun(const results::UnitSpec& unit, const std::filesystem::path& dem
       prepared_(scenario::prepare(config_, network_, core::StudySeed{unit.study_seed},
                                   core::Replication{unit.replication}, demand_folder)),
       session_(start(session_config(unit, prepared_, network_.network, folder))) {
-    if (unit_.engine != results::Engine::solo) warm_up();
+    if (unit_.engine != experiment::Engine::solo) warm_up();
 }
 
 core::Seconds UnitRun::first_emergency() const {
@@ -95,27 +95,27 @@ void UnitRun::warm_up() {
 }
 
 results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
-                                      const results::ConditionSpec& condition, results::RunTiming& timing) {
+                                      const experiment::ConditionSpec& condition,
+                                      results::RunTiming& timing) {
     session_->continue_in(folder);
     return finish_here(condition, timing);
 }
 
-results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition, results::RunTiming& timing,
-                                        StepListener* audience) {
+results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& condition,
+                                        results::RunTiming& timing, trace::StepListener* audience) {
     const auto started = std::chrono::steady_clock::now();
     LoopTiming spent;
     metrics::RunEnd end;
-    if (condition.engine == results::Engine::solo) {
+    if (condition.engine == experiment::Engine::solo) {
         run_solo(audience);
         end.planned = metrics::read_planned({}, prepared_.emergency);
     } else {
-        Listeners listeners;
+        trace::Listeners listeners;
         if (audience != nullptr) listeners.add(*audience);
         std::unique_ptr<FileRecording> recording;
-        if (unit_.recording == results::StepRecording::on) {
-            const results::RecordingInfo info = recording_info(condition);
-            recording =
-                std::make_unique<FileRecording>(results::recording_file(unit_.output, info.key), info);
+        if (unit_.recording == experiment::StepRecording::on) {
+            const trace::RecordingInfo info = recording_info(condition);
+            recording = std::make_unique<FileRecording>(trace::recording_file(unit_.output, info.key), info);
             listeners.add(*recording);
         }
         spent = run_condition(condition, listeners.empty() ? nullptr : &listeners, end.leases);
@@ -141,13 +141,13 @@ results::RunRecord UnitRun::finish_here(const results::ConditionSpec& condition,
             .traffic = std::move(summary.traffic)};
 }
 
-void UnitRun::record(const results::ConditionSpec& condition, StepListener& listener) {
+void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepListener& listener) {
     metrics::LeaseTotals leases;
     run_condition(condition, &listener, leases);
     session_->close();
 }
 
-LoopTiming UnitRun::run_condition(const results::ConditionSpec& condition, StepListener* listener,
+LoopTiming UnitRun::run_condition(const experiment::ConditionSpec& condition, trace::StepListener* listener,
                                   metrics::LeaseTotals& leases) {
     add_emergency_vehicles(condition.bluelight);
     watch_roads();
@@ -184,7 +184,7 @@ void UnitRun::watch_roads() {
     recorder_.watch(std::move(layout));
 }
 
-void UnitRun::run_solo(StepListener* audience) {
+void UnitRun::run_solo(trace::StepListener* audience) {
     open_all_signals();
     for (traffic::EmergencyDeparture departure : prepared_.emergency) {
         departure.depart = session_->time();
@@ -209,7 +209,7 @@ void UnitRun::open_all_signals() {
     session_->apply(commands);
 }
 
-results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& condition) const {
+trace::RecordingInfo UnitRun::recording_info(const experiment::ConditionSpec& condition) const {
     const LoopConfig loop = loop_config_of(condition);
     return {.key = {unit_.scenario, condition.name, unit_.replication},
             .condition = condition,
@@ -220,7 +220,7 @@ results::RecordingInfo UnitRun::recording_info(const results::ConditionSpec& con
                          .network_hash = core::content_hash(core::read_file(network_.file))}};
 }
 
-results::Provenance UnitRun::provenance(const std::string& trace_hash) const {
+experiment::Provenance UnitRun::provenance(const std::string& trace_hash) const {
     return {.clearway_version = CLEARWAY_VERSION,
             .sumo_version = sumo::version(),
             .configuration_hash = scenario_hash_,

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "experiment/unit.hpp"
 #include "loop/closed_loop.hpp"
 #include "loop/machinery.hpp"
 #include "metrics/recorder.hpp"
 #include "results/store.hpp"
-#include "results/unit.hpp"
 #include "scenario/prepare.hpp"
 #include "sumo/session.hpp"
 
@@ -28,18 +28,18 @@ class UnitRun {
   public:
     /// Prepares the demand, loads SUMO and steps to `lead_before_emergency` before the first emergency
     /// vehicle. Outputs go to `folder`, the demand to `demand_folder`.
-    UnitRun(const results::UnitSpec& unit, const std::filesystem::path& demand_folder,
+    UnitRun(const experiment::UnitSpec& unit, const std::filesystem::path& demand_folder,
             const std::filesystem::path& folder, const StartSession& start = in_this_process);
 
     /// Runs one condition to its end in this process, which was forked for it: outputs first move to
     /// `folder`.
-    results::RunRecord finish_in(const std::filesystem::path& folder, const results::ConditionSpec& condition,
-                                 results::RunTiming& timing);
+    results::RunRecord finish_in(const std::filesystem::path& folder,
+                                 const experiment::ConditionSpec& condition, results::RunTiming& timing);
     /// Runs one condition to its end without a fork; `audience` may be null.
-    results::RunRecord finish_here(const results::ConditionSpec& condition, results::RunTiming& timing,
-                                   StepListener* audience = nullptr);
+    results::RunRecord finish_here(const experiment::ConditionSpec& condition, results::RunTiming& timing,
+                                   trace::StepListener* audience = nullptr);
     /// The same with a listener and without results: for recording data.
-    void record(const results::ConditionSpec& condition, StepListener& listener);
+    void record(const experiment::ConditionSpec& condition, trace::StepListener& listener);
 
     const roads::Network& network() const { return network_.network; }
     sumo::Session& session() { return *session_; }
@@ -53,14 +53,14 @@ class UnitRun {
     /// Has the recorder say where time is lost, from now on.
     void watch_roads();
     /// Each emergency vehicle alone, one after the other, with every signal open.
-    void run_solo(StepListener* audience);
+    void run_solo(trace::StepListener* audience);
     void open_all_signals();
-    LoopTiming run_condition(const results::ConditionSpec& condition, StepListener* listener,
+    LoopTiming run_condition(const experiment::ConditionSpec& condition, trace::StepListener* listener,
                              metrics::LeaseTotals& leases);
-    results::RecordingInfo recording_info(const results::ConditionSpec& condition) const;
-    results::Provenance provenance(const std::string& trace_hash) const;
+    trace::RecordingInfo recording_info(const experiment::ConditionSpec& condition) const;
+    experiment::Provenance provenance(const std::string& trace_hash) const;
 
-    results::UnitSpec unit_;
+    experiment::UnitSpec unit_;
     scenario::ScenarioConfig config_;
     std::string scenario_hash_;
     scenario::BuiltNetwork network_;

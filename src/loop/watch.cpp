@@ -42,7 +42,7 @@ ChildSignals::~ChildSignals() {
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-WatchedEnd watch(pid_t child, const results::RunLimits& limits) {
+WatchedEnd watch(pid_t child, const experiment::RunLimits& limits) {
     const auto started = std::chrono::steady_clock::now();
     const sigset_t set = child_ended();
     WatchedEnd end;

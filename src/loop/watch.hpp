@@ -4,7 +4,7 @@
 
 #include <sys/types.h>
 
-#include "results/unit.hpp"
+#include "experiment/unit.hpp"
 
 namespace clearway::loop {
 
@@ -27,6 +27,6 @@ struct WatchedEnd {
 /// Waits for the end of `child`, a child of this process, and kills it (SIGKILL) when it runs longer or holds
 /// more than allowed. Needs a ChildSignals that was there before the fork. Throws core::EnvironmentError when
 /// there is no such child.
-WatchedEnd watch(pid_t child, const results::RunLimits& limits);
+WatchedEnd watch(pid_t child, const experiment::RunLimits& limits);
 
 }  // namespace clearway::loop

@@ -29,18 +29,18 @@ struct Places {
     std::filesystem::path work;
 };
 
-results::RunKey key_of(const results::UnitSpec& unit, const results::ConditionSpec& condition) {
+experiment::RunKey key_of(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) {
     return {unit.scenario, condition.name, unit.replication};
 }
 
 /// What the failures of one unit have in common.
 struct Unit {
-    const results::UnitSpec& spec;
+    const experiment::UnitSpec& spec;
     const results::Store& store;
     std::filesystem::path file;
 };
 
-results::FailureRecord failure_of(const Unit& unit, const results::RunKey& key,
+results::FailureRecord failure_of(const Unit& unit, const experiment::RunKey& key,
                                   const std::filesystem::path& folder) {
     results::FailureRecord failure;
     failure.key = key;
@@ -49,7 +49,7 @@ results::FailureRecord failure_of(const Unit& unit, const results::RunKey& key,
     return failure;
 }
 
-void store_failure(const Unit& unit, const results::RunKey& key, const core::Error& error,
+void store_failure(const Unit& unit, const experiment::RunKey& key, const core::Error& error,
                    const std::filesystem::path& folder) {
     results::FailureRecord failure = failure_of(unit, key, folder);
     failure.cause = error.exit_code() == core::ExitCode::bad_input ? results::FailureCause::bad_input
@@ -67,7 +67,7 @@ void require_space(const std::filesystem::path& folder) {
 }
 
 /// Records the end of a process that could not do it itself.
-void store_failure(const Unit& unit, const results::RunKey& key, const WatchedEnd& end,
+void store_failure(const Unit& unit, const experiment::RunKey& key, const WatchedEnd& end,
                    const std::filesystem::path& folder) {
     results::FailureRecord failure = failure_of(unit, key, folder);
     failure.signal = WTERMSIG(end.status);
@@ -85,22 +85,22 @@ void store_failure(const Unit& unit, const results::RunKey& key, const WatchedEn
 }
 
 /// Ok, or environment when the disk is at fault or the failure cannot be stored either.
-core::ExitCode try_to_store_failure(const Unit& unit, const results::RunKey& key, const core::Error& error,
+core::ExitCode try_to_store_failure(const Unit& unit, const experiment::RunKey& key, const core::Error& error,
                                     const std::filesystem::path& folder) {
     try {
         require_space(folder);
         store_failure(unit, key, error, folder);
         return core::ExitCode::ok;
     } catch (const core::EnvironmentError& environment) {
-        fmt::print(stderr, "{}: {}\n", results::to_text(key), environment.what());
+        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), environment.what());
         return core::ExitCode::environment;
     }
 }
 
 /// The forked child's whole life. Never returns: the parent's objects must not be destroyed twice.
-[[noreturn]] void be_condition(UnitRun& run, const Unit& unit, const results::ConditionSpec& condition,
+[[noreturn]] void be_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                                const std::filesystem::path& folder) {
-    const results::RunKey key = key_of(unit.spec, condition);
+    const experiment::RunKey key = key_of(unit.spec, condition);
     core::ExitCode code = core::ExitCode::ok;
     try {
         core::make_folder(folder);
@@ -109,12 +109,12 @@ core::ExitCode try_to_store_failure(const Unit& unit, const results::RunKey& key
         unit.store.write(record, timing);
         std::filesystem::remove_all(folder);
     } catch (const core::Error& error) {
-        fmt::print(stderr, "{}: {}\n", results::to_text(key), error.what());
+        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         code = error.exit_code();
         if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input)
             code = try_to_store_failure(unit, key, error, folder);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", results::to_text(key), error.what());
+        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         std::fflush(nullptr);
         std::abort();  // our own fault: leave a signal behind, as an assertion would
     }
@@ -123,12 +123,12 @@ core::ExitCode try_to_store_failure(const Unit& unit, const results::RunKey& key
 }
 
 /// Runs a condition in a child of its own; answers the child's exit code, ok when a failure is on record.
-core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const results::ConditionSpec& condition,
+core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                               const std::filesystem::path& folder) {
-    const results::RunKey key = key_of(unit.spec, condition);
+    const experiment::RunKey key = key_of(unit.spec, condition);
     std::fflush(nullptr);
     const pid_t child = fork();
-    if (child < 0) throw core::EnvironmentError(fmt::format("cannot fork for {}", results::to_text(key)));
+    if (child < 0) throw core::EnvironmentError(fmt::format("cannot fork for {}", experiment::to_text(key)));
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGTERM);
         be_condition(run, unit, condition, folder);
@@ -141,7 +141,7 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const results::Con
     return core::ExitCode::ok;
 }
 
-Places places_of(const results::UnitSpec& unit, const results::Store& store,
+Places places_of(const experiment::UnitSpec& unit, const results::Store& store,
                  const std::filesystem::path& unit_file) {
     const std::string replication = std::to_string(unit.replication);
     Places places{.demand = store.scenario_folder(unit.scenario) / "demand" / replication,
@@ -154,31 +154,31 @@ Places places_of(const results::UnitSpec& unit, const results::Store& store,
 }  // namespace
 
 core::ExitCode run_unit(const std::filesystem::path& unit_file) {
-    const results::UnitSpec unit = results::read_unit(unit_file);
+    const experiment::UnitSpec unit = experiment::read_unit(unit_file);
     const results::Store store = results::Store::open(unit.output);
     const Places places = places_of(unit, store, unit_file);
     const Unit shared{unit, store, std::filesystem::absolute(unit_file)};
-    std::vector<results::RunKey> keys;
-    for (const results::ConditionSpec& condition : unit.conditions)
+    std::vector<experiment::RunKey> keys;
+    for (const experiment::ConditionSpec& condition : unit.conditions)
         keys.push_back(key_of(unit, condition));
     std::optional<UnitRun> run;
     try {
         run.emplace(unit, places.demand, places.work);
     } catch (const core::SimulatorError& error) {
         require_space(places.work);
-        for (const results::RunKey& key : keys)
+        for (const experiment::RunKey& key : keys)
             store_failure(shared, key, error, places.work);
         return core::ExitCode::ok;
     }
     const ChildSignals signals;
-    for (const results::ConditionSpec& condition : unit.conditions) {
+    for (const experiment::ConditionSpec& condition : unit.conditions) {
         if (store.done(unit, condition)) continue;
         const core::ExitCode code = fork_condition(*run, shared, condition, places.work / condition.name);
         if (code != core::ExitCode::ok) return code;
     }
     run.reset();
     store.flush(keys);
-    const auto is_complete = [&](const results::RunKey& key) { return store.complete(key); };
+    const auto is_complete = [&](const experiment::RunKey& key) { return store.complete(key); };
     if (std::ranges::all_of(keys, is_complete)) std::filesystem::remove_all(places.work);
     return core::ExitCode::ok;
 }

@@ -161,7 +161,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
         comparisons.push_back({{"scenario", scenario.scenario},
                                {"condition", condition.condition.name},
                                {"compared_with", condition.baseline},
-                               {"safety_checks", results::name(condition.condition.safety_checks)},
+                               {"safety_checks", experiment::name(condition.condition.safety_checks)},
                                {"metrics", std::move(values)}});
     });
     Json gates = Json::array();

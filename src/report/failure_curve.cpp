@@ -67,10 +67,10 @@ Element& find_or_add(std::vector<Element>& elements, const Fits& fits, Element f
     return elements.emplace_back(std::move(fresh));
 }
 
-std::string policy_of(const results::ConditionSpec& condition) {
+std::string policy_of(const experiment::ConditionSpec& condition) {
     std::string text = fmt::format("{}", fmt::join(condition.parts, " + "));
-    if (condition.engine != results::Engine::standard)
-        text += fmt::format(" ({})", results::name(condition.engine));
+    if (condition.engine != experiment::Engine::standard)
+        text += fmt::format(" ({})", experiment::name(condition.engine));
     return text;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/link_judgement.hpp"
+#include "links/link_judgement.hpp"
 
 namespace clearway::report {
 
@@ -22,8 +22,8 @@ struct LinkFacts {
     std::vector<std::string> predictors;
     std::string against;  ///< The opponent of the gains; empty without one.
     std::vector<std::pair<std::string, std::string>> provenance;  ///< Names and values, as shown.
-    std::vector<analysis::LinkResult> results;
-    std::vector<analysis::LinkGain> gains;
+    std::vector<links::LinkResult> results;
+    std::vector<links::LinkGain> gains;
 };
 
 /// AP and F1 by failure and predictor, and errors against the opponent.

@@ -15,10 +15,10 @@
 namespace clearway::report {
 namespace {
 
-using analysis::LinkGain;
-using analysis::LinkResult;
 using analysis::Measured;
 using detail::DataTable;
+using links::LinkGain;
+using links::LinkResult;
 using metrics::LinkSubset;
 
 std::string decimal(const std::optional<double>& value, int decimals) {
@@ -159,7 +159,7 @@ std::string end_to_end_section(const LinkFacts& facts) {
                         {}};
         for (const std::string& failure : facts.failures) {
             for (const LinkResult* const result : pooled(facts, exits, failure)) {
-                const analysis::LinkEndToEnd& all = result->end_to_end;
+                const links::LinkEndToEnd& all = result->end_to_end;
                 table.rows.push_back({failure + ", " + result->predictor, decimal(all.precision.value, 3),
                                       decimal(all.recall.value, 3), decimal(all.f1.value, 3),
                                       with_interval(all.policy_recall, 1, 100.0),
@@ -185,7 +185,7 @@ std::string scenarios_section(const LinkFacts& facts) {
                             {}};
             for (const LinkResult& result : facts.results) {
                 if (result.scenario != scenario || result.exits != exits) continue;
-                const analysis::LinkMeasures& all = result.of(LinkSubset::all);
+                const links::LinkMeasures& all = result.of(LinkSubset::all);
                 table.rows.push_back({result.failure + ", " + result.predictor, grouped(all.pairs),
                                       grouped(all.true_links), with_interval(all.ap, 4),
                                       decimal(all.auc.value, 4), with_interval(all.f1, 4),

@@ -12,10 +12,10 @@
 namespace clearway::report {
 namespace {
 
-using analysis::LinkGain;
-using analysis::LinkMeasures;
-using analysis::LinkResult;
 using analysis::Measured;
+using links::LinkGain;
+using links::LinkMeasures;
+using links::LinkResult;
 using Json = nlohmann::ordered_json;
 using metrics::LinkSubset;
 
@@ -115,7 +115,7 @@ void put_measures(Json& object, const std::string& prefix, const LinkMeasures& m
     put(object, prefix + "ece", measures.ece);
 }
 
-void put_end_to_end(Json& object, const analysis::LinkEndToEnd& end_to_end) {
+void put_end_to_end(Json& object, const links::LinkEndToEnd& end_to_end) {
     object["reports"] = end_to_end.truth.reports;
     object["all_true_links"] = end_to_end.truth.true_links;
     put(object, "end_to_end_precision", end_to_end.precision);

@@ -37,12 +37,12 @@ std::string title_of(const std::string& condition) {
     return found == titles.end() ? condition : found->second;
 }
 
-std::string recipe_of(const results::ConditionSpec& condition) {
+std::string recipe_of(const experiment::ConditionSpec& condition) {
     return fmt::format(
         "sensing {}; repair {}; policy {}; engine {}; safety checks {}{}", condition.failure,
         condition.predictor,
         condition.parts.empty() ? "none" : fmt::format("{}", fmt::join(condition.parts, " + ")),
-        results::name(condition.engine), results::name(condition.safety_checks),
+        experiment::name(condition.engine), experiment::name(condition.safety_checks),
         condition.bluelight == traffic::BlueLight::on ? "; device.bluelight" : "");
 }
 

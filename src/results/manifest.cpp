@@ -6,26 +6,26 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "results/detail/condition_json.hpp"
-#include "results/detail/json.hpp"
+#include "core/json.hpp"
+#include "experiment/condition_json.hpp"
 
 namespace clearway::results {
 namespace {
 
-using detail::Json;
-using detail::ObjectReader;
+using core::Json;
+using core::ObjectReader;
 
-Json to_object(const Manifest& manifest) {
-    Json object;
+core::Json to_object(const Manifest& manifest) {
+    core::Json object;
     object["format"] = manifest.format;
     object["study"] = manifest.study;
     object["clearway_version"] = manifest.clearway_version;
     object["sumo_version"] = manifest.sumo_version;
     object["study_seed"] = manifest.study_seed;
     object["replications"] = manifest.replications;
-    object["scenarios"] = Json::array();
+    object["scenarios"] = core::Json::array();
     for (const ScenarioEntry& scenario : manifest.scenarios) {
-        Json entry;
+        core::Json entry;
         entry["name"] = scenario.name;
         entry["version"] = scenario.version;
         entry["title"] = scenario.title;
@@ -34,9 +34,9 @@ Json to_object(const Manifest& manifest) {
         entry["configuration"] = scenario.configuration;
         object["scenarios"].push_back(std::move(entry));
     }
-    object["conditions"] = Json::array();
-    for (const ConditionSpec& condition : manifest.conditions)
-        object["conditions"].push_back(detail::to_json(condition));
+    object["conditions"] = core::Json::array();
+    for (const experiment::ConditionSpec& condition : manifest.conditions)
+        object["conditions"].push_back(experiment::to_json(condition));
     if (manifest.precision) {
         object["precision"] = {{"metric", manifest.precision->metric},
                                {"half_width", manifest.precision->half_width},
@@ -45,10 +45,10 @@ Json to_object(const Manifest& manifest) {
     return object;
 }
 
-ScenarioEntry scenario_from(const Json& object, const std::string& where,
+ScenarioEntry scenario_from(const core::Json& object, const std::string& where,
                             std::vector<core::Problem>& problems) {
     ScenarioEntry scenario;
-    ObjectReader reader(object, where, problems);
+    core::ObjectReader reader(object, where, problems);
     reader.read("name", scenario.name);
     reader.read("version", scenario.version);
     reader.read("title", scenario.title);
@@ -58,7 +58,7 @@ ScenarioEntry scenario_from(const Json& object, const std::string& where,
     return scenario;
 }
 
-void check_format(const Json& object, const std::string& where) {
+void check_format(const core::Json& object, const std::string& where) {
     const Manifest known;
     const auto format = object.find("format");
     if (format != object.end() && *format == known.format) return;
@@ -69,7 +69,7 @@ void check_format(const Json& object, const std::string& where) {
 
 }  // namespace
 
-void Manifest::for_each_run(const std::function<void(const RunKey&)>& visit) const {
+void Manifest::for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const {
     const auto sorted_names = [](const auto& entries) {
         std::vector<std::string> names;
         for (const auto& entry : entries)
@@ -86,10 +86,10 @@ void Manifest::for_each_run(const std::function<void(const RunKey&)>& visit) con
     }
 }
 
-std::vector<RunKey> Manifest::runs() const {
-    std::vector<RunKey> keys;
+std::vector<experiment::RunKey> Manifest::runs() const {
+    std::vector<experiment::RunKey> keys;
     keys.reserve(run_count());
-    for_each_run([&](const RunKey& key) { keys.push_back(key); });
+    for_each_run([&](const experiment::RunKey& key) { keys.push_back(key); });
     return keys;
 }
 
@@ -110,35 +110,36 @@ std::string differences(const Manifest& left, const Manifest& right) {
 }
 
 std::string manifest_hash(const Manifest& manifest) {
-    return core::content_hash(detail::to_text(to_object(manifest)));
+    return core::content_hash(core::to_text(to_object(manifest)));
 }
 
 std::string to_json(const Manifest& manifest) {
-    Json object = to_object(manifest);
+    core::Json object = to_object(manifest);
     object["hash"] = manifest_hash(manifest);
-    return detail::to_text(object);
+    return core::to_text(object);
 }
 
 Manifest manifest_from_json(const std::string& text, const std::string& where) {
-    const Json object = detail::parse_object(text, where);
+    const core::Json object = core::parse_object(text, where);
     check_format(object, where);
     Manifest manifest;
     std::string hash;
     std::vector<core::Problem> problems;
-    ObjectReader reader(object, where, problems);
+    core::ObjectReader reader(object, where, problems);
     reader.read("study", manifest.study);
     reader.read("clearway_version", manifest.clearway_version);
     reader.read("sumo_version", manifest.sumo_version);
     reader.read("study_seed", manifest.study_seed);
     reader.read("replications", manifest.replications);
-    for (const Json& scenario : reader.child("scenarios", Json::value_t::array))
+    for (const core::Json& scenario : reader.child("scenarios", core::Json::value_t::array))
         manifest.scenarios.push_back(scenario_from(scenario, where + ": scenarios", problems));
-    for (const Json& condition : reader.child("conditions", Json::value_t::array))
-        manifest.conditions.push_back(detail::condition_from(condition, where + ": conditions", problems));
+    for (const core::Json& condition : reader.child("conditions", core::Json::value_t::array))
+        manifest.conditions.push_back(
+            experiment::condition_from(condition, where + ": conditions", problems));
     if (object.contains("precision")) {
         PrecisionTarget& target = manifest.precision.emplace();
-        ObjectReader precision(reader.child("precision", Json::value_t::object), where + ": precision",
-                               problems);
+        core::ObjectReader precision(reader.child("precision", core::Json::value_t::object),
+                                     where + ": precision", problems);
         precision.read("metric", target.metric);
         precision.read("half_width", target.half_width);
         precision.read("at_most", target.at_most);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/unit.hpp"
 #include "results/record.hpp"
-#include "results/unit.hpp"
 
 namespace clearway::results {
 
@@ -42,15 +42,15 @@ struct Manifest {
     std::uint64_t study_seed = 1;
     std::uint32_t replications = 0;  ///< With a precision target: those asked for so far.
     std::vector<ScenarioEntry> scenarios;
-    std::vector<ConditionSpec> conditions;
+    std::vector<experiment::ConditionSpec> conditions;
     std::optional<PrecisionTarget> precision;
 
     bool operator==(const Manifest&) const = default;
     /// Every run of the study, sorted.
-    std::vector<RunKey> runs() const;
+    std::vector<experiment::RunKey> runs() const;
     std::size_t run_count() const { return scenarios.size() * conditions.size() * replications; }
     /// The same one by one, for studies of which a list would be large.
-    void for_each_run(const std::function<void(const RunKey&)>& visit) const;
+    void for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const;
 };
 
 /// Names of the parts in which two manifests differ, `seed, conditions`; empty for the same study.

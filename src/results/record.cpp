@@ -12,10 +12,6 @@ constexpr std::array causes = {FailureCause::simulator, FailureCause::signal,   
 
 }  // namespace
 
-std::string to_text(const RunKey& key) {
-    return fmt::format("{}/{}/{}", key.scenario, key.condition, key.replication);
-}
-
 std::string_view name(FailureCause cause) {
     switch (cause) {
         case FailureCause::simulator:

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "results/detail/csv.hpp"
+#include "core/csv_table.hpp"
 
 namespace clearway::results {
 namespace {
@@ -17,7 +17,7 @@ class Finder {
     template <class Struct>
     void fields(const Struct& one, const Struct& other) {
         core::for_each_field<Struct>([&](const auto& field) {
-            cell(field.name, detail::csv_cell(one.*field.member), detail::csv_cell(other.*field.member));
+            cell(field.name, core::csv_cell(one.*field.member), core::csv_cell(other.*field.member));
         });
     }
 

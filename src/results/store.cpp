@@ -15,7 +15,7 @@
 #include "core/files.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/traffic_files.hpp"
-#include "results/recording.hpp"
+#include "trace/recording.hpp"
 
 namespace clearway::results {
 namespace {
@@ -77,7 +77,7 @@ bool holds_something(const fs::path& folder) {
                        [](const auto& entry) { return !entry.path().filename().string().starts_with("."); });
 }
 
-void require_same(const fs::path& file, const std::string& content, const RunKey& key) {
+void require_same(const fs::path& file, const std::string& content, const experiment::RunKey& key) {
     if (core::read_file(file) == content) return;
     throw core::ConflictError(
         fmt::format("{}: run {} is stored with another content. Equal inputs must give equal bytes; "
@@ -140,11 +140,11 @@ fs::path Store::scenario_folder(const std::string& scenario) const {
     return folder_ / "scenarios" / scenario;
 }
 
-fs::path Store::run_folder(const RunKey& key) const {
+fs::path Store::run_folder(const experiment::RunKey& key) const {
     return folder_ / "runs" / key.scenario / key.condition / fmt::format("{:05}", key.replication);
 }
 
-fs::path Store::failure_file(const RunKey& key) const {
+fs::path Store::failure_file(const experiment::RunKey& key) const {
     return folder_ / "failures" / key.scenario / key.condition / fmt::format("{:05}.json", key.replication);
 }
 
@@ -174,7 +174,7 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
     return first ? Written::first : Written::already_there;
 }
 
-Store::Written Store::adopt(const Store& other, const RunKey& key) const {
+Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) const {
     const fs::path source = other.run_folder(key);
     const fs::path target = run_folder(key);
     bool first = false;
@@ -185,8 +185,8 @@ Store::Written Store::adopt(const Store& other, const RunKey& key) const {
             link_or_copy(entry.path(), part.path() / entry.path().filename());
         first = part.put_in_place();
     }
-    const fs::path recording = recording_file(other.folder_, key);
-    const fs::path recording_place = recording_file(folder_, key);
+    const fs::path recording = trace::recording_file(other.folder_, key);
+    const fs::path recording_place = trace::recording_file(folder_, key);
     if (fs::exists(recording) && !fs::exists(recording_place)) {
         core::make_folder(recording_place.parent_path());
         link_or_copy(recording, recording_place);
@@ -204,25 +204,26 @@ Store::Written Store::adopt(const Store& other, const RunKey& key) const {
     return first ? Written::first : Written::already_there;
 }
 
-std::vector<RunKey> Store::complete_runs() const {
-    std::vector<RunKey> keys;
-    for_each_file(folder_ / "runs", [&](const RunKey& key) {
+std::vector<experiment::RunKey> Store::complete_runs() const {
+    std::vector<experiment::RunKey> keys;
+    for_each_file(folder_ / "runs", [&](const experiment::RunKey& key) {
         if (complete(key)) keys.push_back(key);
     });
     return keys;
 }
 
-std::vector<RunKey> Store::failed_runs() const {
-    std::vector<RunKey> keys;
-    for_each_file(folder_ / "failures", [&](const RunKey& key) {
+std::vector<experiment::RunKey> Store::failed_runs() const {
+    std::vector<experiment::RunKey> keys;
+    for_each_file(folder_ / "failures", [&](const experiment::RunKey& key) {
         if (!complete(key)) keys.push_back(key);
     });
     return keys;
 }
 
-void Store::for_each_file(const fs::path& root, const std::function<void(const RunKey&)>& visit) const {
+void Store::for_each_file(const fs::path& root,
+                          const std::function<void(const experiment::RunKey&)>& visit) const {
     for (const ScenarioEntry& scenario : manifest_.scenarios) {
-        for (const ConditionSpec& condition : manifest_.conditions) {
+        for (const experiment::ConditionSpec& condition : manifest_.conditions) {
             std::error_code none;
             const fs::path folder = root / scenario.name / condition.name;
             for (auto entry = fs::directory_iterator(folder, none);
@@ -239,9 +240,9 @@ void Store::for_each_file(const fs::path& root, const std::function<void(const R
     }
 }
 
-void Store::flush(const std::vector<RunKey>& keys) const {
+void Store::flush(const std::vector<experiment::RunKey>& keys) const {
     std::set<fs::path> folders;
-    for (const RunKey& key : keys) {
+    for (const experiment::RunKey& key : keys) {
         if (complete(key)) folders.insert(run_folder(key).parent_path());
     }
     for (const fs::path& folder : folders)
@@ -255,18 +256,18 @@ void Store::write(const FailureRecord& failure) const {
     core::write_atomically(file, detail::failure_to_json(failure));
 }
 
-bool Store::complete(const RunKey& key) const {
+bool Store::complete(const experiment::RunKey& key) const {
     return fs::exists(run_folder(key) / "run.json");
 }
 
-bool Store::done(const UnitSpec& unit, const ConditionSpec& condition) const {
-    const RunKey key{unit.scenario, condition.name, unit.replication};
+bool Store::done(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) const {
+    const experiment::RunKey key{unit.scenario, condition.name, unit.replication};
     if (!complete(key)) return false;
-    return unit.recording == StepRecording::off || condition.engine == Engine::solo ||
-           fs::exists(recording_file(folder_, key));
+    return unit.recording == experiment::StepRecording::off || condition.engine == experiment::Engine::solo ||
+           fs::exists(trace::recording_file(folder_, key));
 }
 
-RunRecord Store::read_checked(const RunKey& key, std::string& vehicles) const {
+RunRecord Store::read_checked(const experiment::RunKey& key, std::string& vehicles) const {
     const fs::path folder = run_folder(key);
     const std::string file = (folder / "run.json").string();
     vehicles = core::read_file(folder / "vehicles.csv");
@@ -276,7 +277,7 @@ RunRecord Store::read_checked(const RunKey& key, std::string& vehicles) const {
     return record;
 }
 
-std::optional<RunRecord> Store::read(const RunKey& key, VehicleRows rows) const {
+std::optional<RunRecord> Store::read(const experiment::RunKey& key, VehicleRows rows) const {
     if (!complete(key)) return std::nullopt;
     try {
         std::string vehicles;
@@ -293,7 +294,7 @@ std::optional<RunRecord> Store::read(const RunKey& key, VehicleRows rows) const 
     }
 }
 
-void Store::check(const RunKey& key) const {
+void Store::check(const experiment::RunKey& key) const {
     std::string vehicles;
     const fs::path folder = run_folder(key);
     if (fs::exists(folder)) {
@@ -303,9 +304,9 @@ void Store::check(const RunKey& key) const {
     read_failure(key);
 }
 
-std::vector<SetAside> Store::set_damaged_aside(const std::vector<RunKey>& keys) const {
+std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::RunKey>& keys) const {
     std::vector<SetAside> moved;
-    for (const RunKey& key : keys) {
+    for (const experiment::RunKey& key : keys) {
         try {
             check(key);
         } catch (const core::InputError& error) {
@@ -320,25 +321,25 @@ std::vector<SetAside> Store::set_damaged_aside(const std::vector<RunKey>& keys) 
     return moved;
 }
 
-std::vector<metrics::JourneyRow> Store::read_journeys(const RunKey& key) const {
+std::vector<metrics::JourneyRow> Store::read_journeys(const experiment::RunKey& key) const {
     if (!complete(key)) return {};
     const std::string file = (run_folder(key) / "run.json").string();
-    return detail::journeys_from_json(detail::parse_object(core::read_file(file), file), file);
+    return detail::journeys_from_json(core::parse_object(core::read_file(file), file), file);
 }
 
-std::optional<RunTiming> Store::read_timing(const RunKey& key) const {
+std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const {
     const fs::path file = run_folder(key) / "timing.json";
     if (!fs::exists(file)) return std::nullopt;
     return detail::timing_from_json(core::read_file(file), file.string());
 }
 
-std::optional<FailureRecord> Store::read_failure(const RunKey& key) const {
+std::optional<FailureRecord> Store::read_failure(const experiment::RunKey& key) const {
     const fs::path file = failure_file(key);
     if (!fs::exists(file)) return std::nullopt;
     return detail::failure_from_json(core::read_file(file), file.string());
 }
 
-void Store::forget_failure(const RunKey& key) const {
+void Store::forget_failure(const experiment::RunKey& key) const {
     std::error_code ignored;
     fs::remove(failure_file(key), ignored);
 }

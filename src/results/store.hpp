@@ -14,7 +14,7 @@ namespace clearway::results {
 
 /// A run whose files are not what was written, and where they were put.
 struct SetAside {
-    RunKey key;
+    experiment::RunKey key;
     std::filesystem::path place;
     std::string why;  ///< What is wrong, with the file.
 };
@@ -49,7 +49,7 @@ class Store {
     /// Effective configuration and files of a scenario; its network is in `network` below it.
     std::filesystem::path scenario_folder(const std::string& scenario) const;
     /// Folder of a run, whether or not it exists.
-    std::filesystem::path run_folder(const RunKey& key) const;
+    std::filesystem::path run_folder(const experiment::RunKey& key) const;
     std::filesystem::path unit_file(const std::string& unit) const;
     std::filesystem::path log_file(const std::string& unit) const;
     std::filesystem::path runs_csv() const { return folder_ / "runs.csv"; }
@@ -62,45 +62,45 @@ class Store {
     Written write(const RunRecord& record, const RunTiming& timing) const;
     /// Takes a complete run over from another store of the same study: its files are linked, or copied where
     /// that cannot be. As with `write`, the first wins and a second must be equal.
-    Written adopt(const Store& other, const RunKey& key) const;
+    Written adopt(const Store& other, const experiment::RunKey& key) const;
     /// Runs that are complete, and runs that failed and are not, as the folders have them: in no order.
-    std::vector<RunKey> complete_runs() const;
-    std::vector<RunKey> failed_runs() const;
+    std::vector<experiment::RunKey> complete_runs() const;
+    std::vector<experiment::RunKey> failed_runs() const;
     /// Waits until the names of these runs, as far as they are complete, are on the disk. Their content
     /// already is.
-    void flush(const std::vector<RunKey>& keys) const;
+    void flush(const std::vector<experiment::RunKey>& keys) const;
     /// Replaces an earlier failure of the same run; does nothing when the run is complete.
     void write(const FailureRecord& failure) const;
 
-    bool complete(const RunKey& key) const;
+    bool complete(const experiment::RunKey& key) const;
     /// Whether nothing is left to do for a condition of a unit: complete, and recorded where that is asked
     /// for.
-    bool done(const UnitSpec& unit, const ConditionSpec& condition) const;
+    bool done(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) const;
     /// Nothing unless the run is complete. Throws core::InputError for a damaged record.
-    std::optional<RunRecord> read(const RunKey& key, VehicleRows rows = VehicleRows::all) const;
+    std::optional<RunRecord> read(const experiment::RunKey& key, VehicleRows rows = VehicleRows::all) const;
     /// How the emergency vehicles of a run travelled; empty for a run that is not complete and for those
     /// whose journeys were not kept. Throws core::InputError for a damaged record.
-    std::vector<metrics::JourneyRow> read_journeys(const RunKey& key) const;
-    std::optional<RunTiming> read_timing(const RunKey& key) const;
-    std::optional<FailureRecord> read_failure(const RunKey& key) const;
+    std::vector<metrics::JourneyRow> read_journeys(const experiment::RunKey& key) const;
+    std::optional<RunTiming> read_timing(const experiment::RunKey& key) const;
+    std::optional<FailureRecord> read_failure(const experiment::RunKey& key) const;
     /// Forgets a failure so that the run can be tried again.
-    void forget_failure(const RunKey& key) const;
+    void forget_failure(const experiment::RunKey& key) const;
     /// Checks the files of these runs against their hashes and moves what is damaged to `damaged`, so that
     /// such a run counts as not yet made. Reads all of them. Only while nobody writes. Throws
     /// core::EnvironmentError where it cannot be moved.
-    std::vector<SetAside> set_damaged_aside(const std::vector<RunKey>& keys) const;
+    std::vector<SetAside> set_damaged_aside(const std::vector<experiment::RunKey>& keys) const;
     /// Removes what killed writers left behind. Only while nobody writes.
     void remove_leftovers() const;
 
   private:
     Store(std::filesystem::path folder, Manifest manifest);
-    std::filesystem::path failure_file(const RunKey& key) const;
+    std::filesystem::path failure_file(const experiment::RunKey& key) const;
     /// Runs of which `root` (runs or failures) has an entry.
     void for_each_file(const std::filesystem::path& root,
-                       const std::function<void(const RunKey&)>& visit) const;
+                       const std::function<void(const experiment::RunKey&)>& visit) const;
     /// The record without its vehicles, and their text. Throws core::InputError unless both fit their hashes.
-    RunRecord read_checked(const RunKey& key, std::string& vehicles) const;
-    void check(const RunKey& key) const;
+    RunRecord read_checked(const experiment::RunKey& key, std::string& vehicles) const;
+    void check(const experiment::RunKey& key) const;
 
     std::filesystem::path folder_;
     Manifest manifest_;
@@ -111,7 +111,7 @@ struct Results {
     Manifest manifest;
     std::vector<RunRecord> runs;
     std::vector<FailureRecord> failures;
-    std::vector<RunKey> missing;  ///< Neither complete nor failed.
+    std::vector<experiment::RunKey> missing;  ///< Neither complete nor failed.
 };
 Results read_results(const Store& store, VehicleRows rows = VehicleRows::all);
 

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 #include <sqlite3.h>
 
+#include "core/csv_table.hpp"
 #include "core/error.hpp"
-#include "results/detail/csv.hpp"
-#include "results/detail/json.hpp"
+#include "core/json.hpp"
 
 namespace clearway::results {
 namespace {
@@ -90,11 +90,11 @@ std::string csv_cell_at(sqlite3_stmt* row, int column) {
         case SQLITE_FLOAT:
             return fmt::format("{}", sqlite3_column_double(row, column));
         default:
-            return detail::csv_text(Database::text_at(row, column));
+            return core::csv_text(Database::text_at(row, column));
     }
 }
 
-detail::Json json_at(sqlite3_stmt* row, int column) {
+core::Json json_at(sqlite3_stmt* row, int column) {
     switch (sqlite3_column_type(row, column)) {
         case SQLITE_NULL:
             return nullptr;
@@ -126,10 +126,10 @@ void print_json(const Database& database, const std::string& table, std::ostream
     const char* separator = "";
     out << "[";
     database.for_each_row("SELECT * FROM " + table, [&](sqlite3_stmt* row) {
-        detail::Json object = detail::Json::object();
+        core::Json object = core::Json::object();
         for (int column = 0; column < sqlite3_column_count(row); ++column)
             object[sqlite3_column_name(row, column)] = json_at(row, column);
-        out << separator << "\n" << object.dump(-1, ' ', false, detail::Json::error_handler_t::replace);
+        out << separator << "\n" << object.dump(-1, ' ', false, core::Json::error_handler_t::replace);
         separator = ",";
     });
     out << "\n]\n";
@@ -142,7 +142,7 @@ bool tables_are_current(const Store& store) {
     const Database database(store);
     std::uint64_t complete = 0;
     std::uint64_t failed = 0;
-    for (const RunKey& key : store.manifest().runs()) {
+    for (const experiment::RunKey& key : store.manifest().runs()) {
         if (store.complete(key)) {
             ++complete;
         } else if (store.read_failure(key)) {

@@ -19,7 +19,7 @@ class TableWriter {
     // Once for each run of the manifest, in its order (Manifest::for_each_run).
     void add(const RunRecord& run);
     void add(const FailureRecord& failure);
-    void add_missing(const RunKey& key);
+    void add_missing(const experiment::RunKey& key);
 
     void finish();
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
-#include "results/detail/csv.hpp"
+#include "core/csv_table.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/table_writer.hpp"
@@ -9,30 +9,31 @@
 namespace clearway::results {
 namespace {
 
-using detail::csv_text;
+using core::csv_text;
 
-std::string key_cells(const RunKey& key) {
+std::string key_cells(const experiment::RunKey& key) {
     return fmt::format("{},{},{}", csv_text(key.scenario), csv_text(key.condition), key.replication);
 }
 
 std::string complete_line(const RunRecord& run) {
-    std::string line = fmt::format("{},ok,,{}", key_cells(run.key), name(run.condition.safety_checks));
-    detail::append_cells(line, run.metrics);
-    detail::append_cells(line, run.provenance);
+    std::string line =
+        fmt::format("{},ok,,{}", key_cells(run.key), experiment::name(run.condition.safety_checks));
+    core::append_cells(line, run.metrics);
+    core::append_cells(line, run.provenance);
     return line;
 }
 
-std::string incomplete_line(const RunKey& key, std::string_view outcome, std::string_view cause) {
+std::string incomplete_line(const experiment::RunKey& key, std::string_view outcome, std::string_view cause) {
     std::string line = fmt::format("{},{},{},", key_cells(key), outcome, cause);
-    detail::append_empty_cells<metrics::RunMetrics>(line);
-    detail::append_empty_cells<Provenance>(line);
+    core::append_empty_cells<metrics::RunMetrics>(line);
+    core::append_empty_cells<experiment::Provenance>(line);
     return line;
 }
 
 std::string runs_header() {
     std::string line = "scenario,condition,replication,outcome,cause,safety_checks";
-    detail::append_header<metrics::RunMetrics>(line);
-    detail::append_header<Provenance>(line);
+    core::append_header<metrics::RunMetrics>(line);
+    core::append_header<experiment::Provenance>(line);
     return line;
 }
 
@@ -52,7 +53,7 @@ void write_all(const Results& results, Writer& writer) {
     // All three lists are sorted, and together they are the manifest's runs.
     auto run = results.runs.begin();
     auto failure = results.failures.begin();
-    results.manifest.for_each_run([&](const RunKey& key) {
+    results.manifest.for_each_run([&](const experiment::RunKey& key) {
         if (run != results.runs.end() && run->key == key) {
             writer.add(*run++);
         } else if (failure != results.failures.end() && failure->key == key) {
@@ -70,7 +71,7 @@ struct RunLines {
     void add(const FailureRecord& failure) {
         text += incomplete_line(failure.key, "failed", name(failure.cause)) + "\n";
     }
-    void add_missing(const RunKey& key) { text += incomplete_line(key, "missing", "") + "\n"; }
+    void add_missing(const experiment::RunKey& key) { text += incomplete_line(key, "missing", "") + "\n"; }
 };
 
 }  // namespace
@@ -78,7 +79,7 @@ struct RunLines {
 Results read_results(const Store& store, VehicleRows rows) {
     Results results;
     results.manifest = store.manifest();
-    for (const RunKey& key : results.manifest.runs()) {
+    for (const experiment::RunKey& key : results.manifest.runs()) {
         if (auto run = store.read(key, rows)) {
             results.runs.push_back(std::move(*run));
         } else if (auto failure = store.read_failure(key)) {
@@ -132,7 +133,7 @@ void TableWriter::add(const FailureRecord& failure) {
     files_->database.add(failure);
 }
 
-void TableWriter::add_missing(const RunKey& key) {
+void TableWriter::add_missing(const experiment::RunKey& key) {
     files_->runs.write(incomplete_line(key, "missing", "") + "\n");
     files_->database.add_missing(key);
 }
@@ -152,7 +153,7 @@ void write_tables(const Store& store, const Results& results) {
 RunCounts write_tables(const Store& store) {
     TableWriter writer(store);
     RunCounts counts;
-    store.manifest().for_each_run([&](const RunKey& key) {
+    store.manifest().for_each_run([&](const experiment::RunKey& key) {
         if (const auto run = store.read(key)) {
             writer.add(*run);
             ++counts.complete;

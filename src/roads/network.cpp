@@ -45,10 +45,10 @@ ShapePlace place_on_shape(const Lane& lane, core::Metres position) {
 Network Network::read(const std::filesystem::path& file,
                       const std::vector<std::filesystem::path>& additional_files) {
     NetworkBuilder builder(file);
-    stream_xml(file, builder);
+    core::stream_xml(file, builder);
     for (const std::filesystem::path& additional : additional_files) {
         builder.begin_additional(additional);
-        stream_xml(additional, builder);
+        core::stream_xml(additional, builder);
     }
     return builder.finish();
 }

@@ -8,15 +8,15 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/strict_table.hpp"
+#include "experiment/conditions.hpp"
 #include "metrics/run_metrics.hpp"
-#include "study/conditions.hpp"
 #include "study/detail/factors.hpp"
-#include "study/detail/strict_table.hpp"
 
 namespace clearway::study {
 namespace {
 
-using detail::StrictTable;
+using core::StrictTable;
 using Problems = std::vector<core::Problem>;
 
 constexpr std::uint32_t most_replications = 100000;
@@ -86,18 +86,19 @@ scenario::Options options_with(const toml::table& overrides, const detail::Assig
     return options;
 }
 
-results::ConditionSpec read_condition(const toml::table& table, const std::string& file, Problems& problems) {
-    results::ConditionSpec condition;
+experiment::ConditionSpec read_condition(const toml::table& table, const std::string& file,
+                                         Problems& problems) {
+    experiment::ConditionSpec condition;
     StrictTable reader(table, "condition", file, problems);
     reader.text("name", condition.name);
     reader.text("failure", condition.failure);
     reader.text("predictor", condition.predictor);
     reader.texts("parts", condition.parts);
-    reader.word<results::Engine>("engine",
-                                 {{"standard", results::Engine::standard},
-                                  {"sublane", results::Engine::sublane},
-                                  {"solo", results::Engine::solo}},
-                                 condition.engine);
+    reader.word<experiment::Engine>("engine",
+                                    {{"standard", experiment::Engine::standard},
+                                     {"sublane", experiment::Engine::sublane},
+                                     {"solo", experiment::Engine::solo}},
+                                    condition.engine);
     reader.word<traffic::SafetyChecks>(
         "safety_checks", {{"on", traffic::SafetyChecks::on}, {"off", traffic::SafetyChecks::off}},
         condition.safety_checks);
@@ -113,7 +114,7 @@ void read_conditions(StrictTable& root, const std::string& file, Problems& probl
     root.texts("conditions", names);
     for (const std::string& name : names) {
         try {
-            config.conditions.push_back(built_in_condition(name, root.where("conditions")));
+            config.conditions.push_back(experiment::built_in_condition(name, root.where("conditions")));
         } catch (const core::InputError& error) {
             append(problems, error);
         }
@@ -209,8 +210,8 @@ void vary_conditions(const std::vector<detail::Factor>& factors, Problems& probl
                             "a condition beside baseline and solo", "Add one to the conditions"});
         return;
     }
-    std::vector<results::ConditionSpec> varied;
-    for (const results::ConditionSpec& condition : config.conditions) {
+    std::vector<experiment::ConditionSpec> varied;
+    for (const experiment::ConditionSpec& condition : config.conditions) {
         if (!detail::is_varied(condition)) {
             varied.push_back(condition);
             continue;
@@ -313,14 +314,14 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
         }
     }
     if (!problems.empty()) throw core::InputError(problems);
-    for (const BuiltInCondition& known : built_in_conditions())
+    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions())
         config.conditions.push_back(known.condition);
     return config;
 }
 
 StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     const std::string name = file.string();
-    const toml::table table = detail::parse_toml(core::read_file(file), name);
+    const toml::table table = core::parse_toml(core::read_file(file), name);
     Problems problems;
     StrictTable root(table, "", name, problems);
     StudyConfig config;

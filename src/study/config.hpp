@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/unit.hpp"
 #include "results/manifest.hpp"
-#include "results/unit.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::study {
@@ -18,7 +18,7 @@ struct StudyConfig {
     std::uint64_t seed = 1;
     std::uint32_t replications = 20;  ///< 1 to 100000. FHWA asks for at least 10.
     std::vector<scenario::ScenarioConfig> scenarios;
-    std::vector<results::ConditionSpec> conditions;
+    std::vector<experiment::ConditionSpec> conditions;
     /// Instead of a number of replications; `replications` is then that of the first round.
     std::optional<results::PrecisionTarget> precision;
 };

@@ -58,7 +58,7 @@ void copy_surroundings(const results::Store& source, const results::Store& targe
 }
 
 /// The one of `folders` that has a run, for messages.
-std::string holder_of(const results::RunKey& key, std::span<const fs::path> folders) {
+std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> folders) {
     for (const fs::path& folder : folders) {
         if (results::Store::open(folder).complete(key)) return folder.string();
     }
@@ -69,7 +69,7 @@ std::string holder_of(const results::RunKey& key, std::span<const fs::path> fold
 void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const results::Store& target,
                 MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
-    for (const results::RunKey& key : source.complete_runs()) {
+    for (const experiment::RunKey& key : source.complete_runs()) {
         try {
             const bool first = target.adopt(source, key) == results::Store::Written::first;
             ++(first ? result.adopted : result.duplicates);
@@ -81,7 +81,7 @@ void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const 
 }
 
 void adopt_failures(const results::Store& source, const results::Store& target) {
-    for (const results::RunKey& key : source.failed_runs()) {
+    for (const experiment::RunKey& key : source.failed_runs()) {
         if (const auto failure = source.read_failure(key)) target.write(*failure);
     }
 }
@@ -102,9 +102,9 @@ std::vector<std::string> absent_shards(const std::vector<fs::path>& folders) {
     return absent;
 }
 
-std::vector<results::RunKey> first_missing(const results::Store& store) {
-    std::vector<results::RunKey> missing;
-    store.manifest().for_each_run([&](const results::RunKey& key) {
+std::vector<experiment::RunKey> first_missing(const results::Store& store) {
+    std::vector<experiment::RunKey> missing;
+    store.manifest().for_each_run([&](const experiment::RunKey& key) {
         if (missing.size() < named_missing && !store.complete(key) && !store.read_failure(key))
             missing.push_back(key);
     });

@@ -17,11 +17,11 @@ std::vector<std::filesystem::path> run_folders(const std::filesystem::path& path
 
 /// What came of a merge.
 struct MergeResult {
-    results::RunCounts counts;               ///< Of the merged folder.
-    std::size_t adopted = 0;                 ///< Runs that were new to it.
-    std::size_t duplicates = 0;              ///< Runs that it had already, with the same bytes.
-    std::vector<results::RunKey> missing;    ///< The first ten that nobody has, sorted.
-    std::vector<std::string> absent_shards;  ///< `3/8`, where the sources are shards of one count.
+    results::RunCounts counts;                ///< Of the merged folder.
+    std::size_t adopted = 0;                  ///< Runs that were new to it.
+    std::size_t duplicates = 0;               ///< Runs that it had already, with the same bytes.
+    std::vector<experiment::RunKey> missing;  ///< The first ten that nobody has, sorted.
+    std::vector<std::string> absent_shards;   ///< `3/8`, where the sources are shards of one count.
 };
 
 /// Puts the runs of several run folders of one study into `out`, which may hold some already, and writes its

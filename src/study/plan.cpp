@@ -16,7 +16,7 @@ namespace clearway::study {
 namespace {
 
 namespace fs = std::filesystem;
-using results::Engine;
+using experiment::Engine;
 
 constexpr const char* network_name = "network";
 constexpr const char* scenario_file_name = "scenario.toml";
@@ -32,15 +32,15 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
 }
 
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
-    for (const results::ConditionSpec& condition : config.conditions) {
+    for (const experiment::ConditionSpec& condition : config.conditions) {
         if (condition.engine == Engine::solo || !condition.acts()) continue;
-        const auto is_baseline = [&](const results::ConditionSpec& other) {
+        const auto is_baseline = [&](const experiment::ConditionSpec& other) {
             return other.engine == condition.engine && !other.acts();
         };
         if (std::ranges::any_of(config.conditions, is_baseline)) continue;
         problems.push_back(
             {"condition " + condition.name,
-             fmt::format("has no baseline with engine \"{}\"", results::name(condition.engine)),
+             fmt::format("has no baseline with engine \"{}\"", experiment::name(condition.engine)),
              "a condition of the same engine without parts",
              condition.engine == Engine::standard ? "Add \"baseline\" to the conditions"
                                                   : "Add one with [[condition]]"});
@@ -56,7 +56,7 @@ void check(const StudyConfig& config) {
     for (const scenario::ScenarioConfig& scenario : config.scenarios)
         check_name("scenario", scenario.name, scenarios, problems);
     std::set<std::string> conditions;
-    for (const results::ConditionSpec& condition : config.conditions)
+    for (const experiment::ConditionSpec& condition : config.conditions)
         check_name("condition", condition.name, conditions, problems);
     check_baselines(config, problems);
     if (!problems.empty()) throw core::InputError(problems);
@@ -115,7 +115,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
     plan.scenarios = config.scenarios;
     const fs::path output = fs::absolute(folder);
     for (const UnitPlace& place : units_of(plan.manifest)) {
-        results::UnitSpec unit;
+        experiment::UnitSpec unit;
         unit.scenario = plan.manifest.scenarios[place.scenario].name;
         unit.scenario_file = output / "scenarios" / unit.scenario / scenario_file_name;
         unit.network_folder = output / "scenarios" / unit.scenario / network_name;
@@ -126,7 +126,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
                              [&](const auto& condition) { return condition.engine == place.engine; });
         unit.output = output;
         const std::string name =
-            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, results::name(unit.engine));
+            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, experiment::name(unit.engine));
         plan.units.push_back({name, std::move(unit)});
     }
     return plan;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "experiment/unit.hpp"
 #include "results/manifest.hpp"
 #include "results/store.hpp"
-#include "results/unit.hpp"
 #include "study/config.hpp"
 
 namespace clearway::study {
@@ -16,14 +16,14 @@ namespace clearway::study {
 /// A unit and the name of its files: `city-0007-standard`.
 struct PlannedUnit {
     std::string name;
-    results::UnitSpec unit;
+    experiment::UnitSpec unit;
 };
 
 /// Where a unit stands in a study. `scenario` is a row of the manifest's scenarios.
 struct UnitPlace {
     std::size_t scenario = 0;
     std::uint32_t replication = 0;
-    results::Engine engine = results::Engine::standard;
+    experiment::Engine engine = experiment::Engine::standard;
 };
 /// All units of a study in their order: replications first, so that an interrupted study has whole
 /// replications of every scenario.

@@ -17,8 +17,8 @@ namespace clearway::study {
 namespace {
 
 using core::ExitCode;
+using experiment::RunKey;
 using results::FailureCause;
-using results::RunKey;
 
 constexpr auto pause = std::chrono::milliseconds(10);
 constexpr auto progress_period = std::chrono::milliseconds(250);
@@ -29,7 +29,7 @@ unsigned worker_count(const RunnerOptions& options) {
     return options.workers != 0 ? options.workers : std::max(1U, std::thread::hardware_concurrency());
 }
 
-RunKey key_of(const results::UnitSpec& unit, const results::ConditionSpec& condition) {
+RunKey key_of(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) {
     return {unit.scenario, condition.name, unit.replication};
 }
 
@@ -81,9 +81,9 @@ class Runner {
     enum class Report { when_due, now };
 
     /// Conditions of a unit without a record, and without a failure that another attempt cannot change.
-    std::vector<results::ConditionSpec> open_conditions(const results::UnitSpec& unit) const {
-        std::vector<results::ConditionSpec> open;
-        for (const results::ConditionSpec& condition : unit.conditions) {
+    std::vector<experiment::ConditionSpec> open_conditions(const experiment::UnitSpec& unit) const {
+        std::vector<experiment::ConditionSpec> open;
+        for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (store_.done(unit, condition)) continue;
             const auto failure = store_.read_failure(key);
@@ -95,7 +95,7 @@ class Runner {
     void set_damaged_aside() {
         std::vector<RunKey> keys;
         for (const PlannedUnit& planned : plan_.units)
-            for (const results::ConditionSpec& condition : planned.unit.conditions)
+            for (const experiment::ConditionSpec& condition : planned.unit.conditions)
                 keys.push_back(key_of(planned.unit, condition));
         for (const results::SetAside& damaged : store_.set_damaged_aside(keys)) {
             if (options_.on_set_aside) options_.on_set_aside(damaged);
@@ -104,7 +104,7 @@ class Runner {
 
     void queue_units() {
         for (std::size_t job = 0; job < plan_.units.size(); ++job) {
-            const results::UnitSpec& unit = plan_.units[job].unit;
+            const experiment::UnitSpec& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit);
             if (!open.empty()) queue_.push_back(job);
             forget_failures(unit, open);
@@ -115,9 +115,9 @@ class Runner {
         lock_.note(settled_.complete + settled_.failed);
     }
 
-    void forget_failures(const results::UnitSpec& unit,
-                         const std::vector<results::ConditionSpec>& conditions) const {
-        for (const results::ConditionSpec& condition : conditions)
+    void forget_failures(const experiment::UnitSpec& unit,
+                         const std::vector<experiment::ConditionSpec>& conditions) const {
+        for (const experiment::ConditionSpec& condition : conditions)
             store_.forget_failure(key_of(unit, condition));
     }
 
@@ -125,14 +125,14 @@ class Runner {
         const std::size_t job = queue_.front();
         queue_.pop_front();
         const PlannedUnit& planned = plan_.units[job];
-        results::UnitSpec unit = planned.unit;
+        experiment::UnitSpec unit = planned.unit;
         uncount(unit, settled_);
         unit.conditions = open_conditions(unit);
         unit.limits = options_.limits;
         forget_failures(unit, unit.conditions);
         ++attempts_[job];
         const auto file = store_.unit_file(planned.name);
-        core::write_atomically(file, results::to_json(unit));
+        core::write_atomically(file, experiment::to_json(unit));
         core::Command command;
         command.program = options_.worker_program;
         command.arguments = {"--unit", file.string()};
@@ -147,10 +147,10 @@ class Runner {
     }
 
     void handle(const detail::WorkerEnd& end) {
-        const results::UnitSpec& unit = plan_.units[end.job].unit;
+        const experiment::UnitSpec& unit = plan_.units[end.job].unit;
         stop_if_environment(end);
         bool retry = false;
-        for (const results::ConditionSpec& condition : unit.conditions) {
+        for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (!store_.complete(key)) retry = settle(end, key) || retry;
         }
@@ -218,9 +218,9 @@ class Runner {
         std::size_t complete = 0;
         std::size_t failed = 0;
     };
-    Counts counts_of(const results::UnitSpec& unit) const {
+    Counts counts_of(const experiment::UnitSpec& unit) const {
         Counts counts;
-        for (const results::ConditionSpec& condition : unit.conditions) {
+        for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (store_.complete(key)) {
                 ++counts.complete;
@@ -230,12 +230,12 @@ class Runner {
         }
         return counts;
     }
-    void count(const results::UnitSpec& unit, Counts& total) const {
+    void count(const experiment::UnitSpec& unit, Counts& total) const {
         const Counts counts = counts_of(unit);
         total.complete += counts.complete;
         total.failed += counts.failed;
     }
-    void uncount(const results::UnitSpec& unit, Counts& total) const {
+    void uncount(const experiment::UnitSpec& unit, Counts& total) const {
         const Counts counts = counts_of(unit);
         total.complete -= counts.complete;
         total.failed -= counts.failed;

@@ -14,7 +14,7 @@ namespace clearway::study {
 struct RunnerOptions {
     unsigned workers = 0;                  ///< Processes at one time; 0: one per core.
     std::filesystem::path worker_program;  ///< Empty: `clearway-run` beside this program.
-    results::RunLimits limits;             ///< Of each run.
+    experiment::RunLimits limits;          ///< Of each run.
     int attempts = 3;                      ///< For signals and time limits: one try and two more.
     double termination_grace_s = 5.0;      ///< From SIGTERM to SIGKILL.
     /// Called for each damaged record that was found before anything runs; may be empty.
@@ -39,7 +39,7 @@ struct StudyResult {
 /// Runs what is missing in `store` with worker processes: `clearway-run --unit FILE`. The contract with a
 /// worker:
 ///
-/// - FILE is a results::UnitSpec as JSON; its conditions are those without a record.
+/// - FILE is a experiment::UnitSpec as JSON; its conditions are those without a record.
 /// - The worker stores each run that ends by results::Store::write, and each run that fails while the worker
 ///   lives by writing a results::FailureRecord: it holds each run to the unit's limits and sees by which
 ///   signal it died. It exits 0 when every condition has one of the two.

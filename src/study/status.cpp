@@ -13,7 +13,7 @@ namespace {
 std::vector<CellStatus> cells_of(const results::Manifest& manifest, const Shard& shard) {
     std::vector<CellStatus> cells;
     for (const results::ScenarioEntry& scenario : manifest.scenarios) {
-        for (const results::ConditionSpec& condition : manifest.conditions)
+        for (const experiment::ConditionSpec& condition : manifest.conditions)
             cells.push_back({scenario.name, condition.name, condition.safety_checks, 0, 0, 0});
     }
     const std::vector<UnitPlace> units = units_of(manifest);
@@ -65,14 +65,14 @@ StudyStatus read_status(const std::filesystem::path& folder) {
     StudyStatus status;
     status.folder = folder;
     status.cells = cells_of(store.manifest(), shard_of(folder));
-    const auto cell_of = [&](const results::RunKey& key) -> CellStatus& {
+    const auto cell_of = [&](const experiment::RunKey& key) -> CellStatus& {
         return *std::ranges::find_if(status.cells, [&](const CellStatus& cell) {
             return cell.scenario == key.scenario && cell.condition == key.condition;
         });
     };
-    for (const results::RunKey& key : store.complete_runs())
+    for (const experiment::RunKey& key : store.complete_runs())
         ++cell_of(key).complete;
-    for (const results::RunKey& key : store.failed_runs())
+    for (const experiment::RunKey& key : store.failed_runs())
         ++cell_of(key).failed;
     for (const CellStatus& cell : status.cells) {
         status.runs += cell.runs;

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t fewest_pairs = 5;
 
-prediction::PairDataset chosen(const prediction::PairDataset& all, PairChoice pairs) {
+samples::PairDataset chosen(const samples::PairDataset& all, PairChoice pairs) {
     if (pairs == PairChoice::candidates) return all;
-    prediction::PairDataset kept;
+    samples::PairDataset kept;
     kept.feature_count = all.feature_count;
     kept.features = all.features;
     for (std::size_t pair = 0; pair < all.pair_count(); ++pair) {
@@ -99,7 +99,7 @@ void add_warnings(const GraphBatch& train, const GraphBatch& test, AsPublishedRe
 
 }  // namespace
 
-AsPublishedResult train_as_published(const prediction::PairDataset& dataset, PairChoice pairs,
+AsPublishedResult train_as_published(const samples::PairDataset& dataset, PairChoice pairs,
                                      const TrainingConfig& config, const TrainingHooks& hooks,
                                      const std::filesystem::path& data) {
     AsPublishedResult result;
@@ -107,7 +107,7 @@ AsPublishedResult train_as_published(const prediction::PairDataset& dataset, Pai
     const std::size_t count = result.dataset.pair_count();
     if (count < fewest_pairs) {
         throw core::InputError(
-            {(data / prediction::target_file).string(),
+            {(data / samples::target_file).string(),
              fmt::format("{} {}pair{}", count, pairs == PairChoice::true_only ? "true " : "",
                          count == 1 ? "" : "s"),
              fmt::format("{} or more", fewest_pairs),
@@ -126,10 +126,10 @@ AsPublishedResult train_as_published(const prediction::PairDataset& dataset, Pai
 }
 
 UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
-                           const prediction::PairDataset& unseen, const std::string& data) {
+                           const samples::PairDataset& unseen, const std::string& data) {
     const std::uint32_t input = state.front().shape.back();
     if (unseen.feature_count != input) {
-        throw core::InputError({data + "/" + prediction::vehicle_features_file,
+        throw core::InputError({data + "/" + samples::vehicle_features_file,
                                 fmt::format("{} features a vehicle", unseen.feature_count),
                                 fmt::format("{}", input),
                                 "Give the unseen data the features that the net was trained on"});
@@ -143,7 +143,7 @@ UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
     result.data = data;
     GraphBatch batch = as_published_batch(unseen, 0, unseen.pair_count());
     result.listed = quality(batch);
-    const prediction::PairDataset links = chosen(unseen, PairChoice::true_only);
+    const samples::PairDataset links = chosen(unseen, PairChoice::true_only);
     const GraphBatch only_links = as_published_batch(links, 0, links.pair_count());
     batch.message_source = only_links.pair_left;
     batch.message_target = only_links.pair_right;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "metrics/link_quality.hpp"
-#include "prediction/dataset_files.hpp"
+#include "samples/dataset_files.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -35,8 +35,8 @@ struct AsPublishedResult {
     /// none at all when the first epoch diverged.
     StateDict state;
     OrderedSplit split;
-    prediction::PairDataset dataset;  ///< The pairs that were used.
-    std::vector<float> logits;  ///< By `state`, one a pair, each part with the messages of its own pairs.
+    samples::PairDataset dataset;  ///< The pairs that were used.
+    std::vector<float> logits;     ///< By `state`, one a pair, each part with the messages of its own pairs.
     metrics::LinkQuality train_quality;
     metrics::LinkQuality test_quality;
     /// Log loss of the test labels when every pair gets the share of true links among the training pairs:
@@ -51,14 +51,14 @@ struct AsPublishedResult {
 /// after three quarters; messages along the very pairs whose links are predicted; one Adam step an epoch on
 /// all training pairs; both losses computed before the step. Throws core::InputError when fewer than 5 pairs
 /// are left (the test part would be empty); `data` is the folder that it names. Deterministic.
-AsPublishedResult train_as_published(const prediction::PairDataset& dataset, PairChoice pairs,
+AsPublishedResult train_as_published(const samples::PairDataset& dataset, PairChoice pairs,
                                      const TrainingConfig& config, const TrainingHooks& hooks = {},
                                      const std::filesystem::path& data = {});
 
 /// Scores the net of `state` on `unseen`; `data` names it in messages. Throws core::InputError when its
 /// vehicles have another number of features than the net takes.
 UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
-                           const prediction::PairDataset& unseen, const std::string& data);
+                           const samples::PairDataset& unseen, const std::string& data);
 
 /// The schema of the published features with so many columns (2 or 5).
 prediction::FeatureSchema as_published_schema(std::uint32_t feature_count);

@@ -15,8 +15,8 @@
 namespace clearway::training {
 namespace {
 
-using prediction::GraphSample;
-using prediction::GraphSampleFile;
+using samples::GraphSample;
+using samples::GraphSampleFile;
 
 constexpr double reach_m = prediction::corrected_reach_m;
 
@@ -24,7 +24,7 @@ void check_origins(const std::vector<GraphSampleFile>& files) {
     if (files.empty())
         throw core::InputError(
             {"--data", "no graph samples", "", "Record some with clearway dataset SCENARIO --samples"});
-    const prediction::GraphSampleOrigin& first = files.front().origin;
+    const samples::GraphSampleOrigin& first = files.front().origin;
     for (const GraphSampleFile& file : files) {
         if (file.origin.features != first.features || file.origin.link_radius_m != first.link_radius_m) {
             throw core::InputError({fmt::format("--data: {}, {}, replication {}", file.origin.scenario,
@@ -58,7 +58,7 @@ std::vector<const GraphSample*> samples_of(const std::vector<GraphSampleFile>& f
 detail::LabelCounts labels_of(const std::vector<const GraphSample*>& samples) {
     detail::LabelCounts counts;
     for (const GraphSample* const sample : samples) {
-        for (const prediction::CandidatePair& pair : sample->candidates) {
+        for (const samples::CandidatePair& pair : sample->candidates) {
             if (pair.dead_reckoned_m < reach_m) counts.add(pair.linked);
         }
     }
@@ -122,7 +122,7 @@ Scores scores_of(const TorchNet& net, const GraphSampleFile& file) {
         const std::vector<double> within =
             batch.pair_count() == 0 ? std::vector<double>{} : probabilities(net.logits(batch));
         std::size_t next = 0;
-        for (const prediction::CandidatePair& pair : sample.candidates) {
+        for (const samples::CandidatePair& pair : sample.candidates) {
             scores.net.push_back(pair.dead_reckoned_m < reach_m ? within[next++] : 0.0);
             scores.dead_reckoning.push_back(file.origin.link_radius_m /
                                             (file.origin.link_radius_m + pair.dead_reckoned_m));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "metrics/link_quality.hpp"
-#include "prediction/graph_sample.hpp"
+#include "samples/graph_sample.hpp"
 #include "training/seeds.hpp"
 #include "training/trainer.hpp"
 
@@ -62,7 +62,7 @@ struct CorrectedResult {
 /// seeds. Candidates beyond `prediction::corrected_reach_m` count with probability 0, as in inference. Throws
 /// core::InputError when the files do not share one feature schema, hold fewer than three seeds, or a part
 /// lacks linked or unlinked pairs. Deterministic.
-CorrectedResult train_corrected(const std::vector<prediction::GraphSampleFile>& files,
+CorrectedResult train_corrected(const std::vector<samples::GraphSampleFile>& files,
                                 const CorrectedConfig& config, const TrainingHooks& hooks = {});
 
 }  // namespace clearway::training

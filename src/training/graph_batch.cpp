@@ -10,7 +10,7 @@ OrderedSplit ordered_split(std::size_t pair_count) {
     return {train, pair_count - train};
 }
 
-GraphBatch as_published_batch(const prediction::PairDataset& dataset, std::size_t first, std::size_t count) {
+GraphBatch as_published_batch(const samples::PairDataset& dataset, std::size_t first, std::size_t count) {
     assert(first + count <= dataset.pair_count());
     GraphBatch batch;
     batch.feature_count = dataset.feature_count;
@@ -26,19 +26,19 @@ GraphBatch as_published_batch(const prediction::PairDataset& dataset, std::size_
     return batch;
 }
 
-void append_sample(const prediction::GraphSample& sample, std::uint32_t width, double reach_m,
+void append_sample(const samples::GraphSample& sample, std::uint32_t width, double reach_m,
                    GraphBatch& batch) {
     assert(batch.feature_count == 0 || batch.feature_count == width);
     batch.feature_count = width;
     const auto offset = static_cast<std::int64_t>(batch.vehicle_count());
     batch.features.insert(batch.features.end(), sample.features.begin(), sample.features.end());
-    for (const prediction::ObservedEdge& edge : sample.observed_edges) {
+    for (const samples::ObservedEdge& edge : sample.observed_edges) {
         const std::int64_t left = offset + edge.left;
         const std::int64_t right = offset + edge.right;
         batch.message_source.insert(batch.message_source.end(), {left, right});
         batch.message_target.insert(batch.message_target.end(), {right, left});
     }
-    for (const prediction::CandidatePair& pair : sample.candidates) {
+    for (const samples::CandidatePair& pair : sample.candidates) {
         if (pair.dead_reckoned_m >= reach_m) continue;
         batch.pair_left.push_back(offset + pair.left);
         batch.pair_right.push_back(offset + pair.right);

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "prediction/dataset_files.hpp"
-#include "prediction/graph_sample.hpp"
+#include "samples/dataset_files.hpp"
+#include "samples/graph_sample.hpp"
 
 namespace clearway::training {
 
@@ -36,12 +36,12 @@ OrderedSplit ordered_split(std::size_t pair_count);
 
 /// Pairs `first` to `first + count - 1` of the list over all vehicles, *as published*: the messages flow
 /// along the very pairs that are to be predicted, from the first vehicle of a pair to the second.
-GraphBatch as_published_batch(const prediction::PairDataset& dataset, std::size_t first, std::size_t count);
+GraphBatch as_published_batch(const samples::PairDataset& dataset, std::size_t first, std::size_t count);
 
 /// *Corrected*: appends a snapshot. Messages flow both ways along observed edges and nowhere else; pairs are
 /// the candidates nearer than `reach_m` by dead reckoning (the others are unlinked by definition). Asserts
 /// that `width` is the batch's feature count.
-void append_sample(const prediction::GraphSample& sample, std::uint32_t width, double reach_m,
+void append_sample(const samples::GraphSample& sample, std::uint32_t width, double reach_m,
                    GraphBatch& batch);
 
 }  // namespace clearway::training

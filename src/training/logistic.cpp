@@ -21,7 +21,7 @@ namespace {
 
 using detail::json_from;
 using prediction::pair_feature_count;
-using prediction::PairSampleFile;
+using samples::PairSampleFile;
 
 /// The last parameter is the bias.
 constexpr std::size_t parameter_count = pair_feature_count + 1;

@@ -8,7 +8,7 @@
 
 #include "core/fields.hpp"
 #include "metrics/link_quality.hpp"
-#include "prediction/pair_samples.hpp"
+#include "samples/pair_samples.hpp"
 #include "training/output_folder.hpp"
 #include "training/seeds.hpp"
 
@@ -62,7 +62,7 @@ struct LogisticResult {
 /// Tibshirani, Friedman 2009, "The Elements of Statistical Learning", 4.4.1) with a small ridge. Split by
 /// seed as the net's training. Deterministic. Throws core::InputError: fewer than three seeds, files of
 /// different link radius, pairs of one class only in a part of the split.
-LogisticResult train_logistic(const std::vector<prediction::PairSampleFile>& files,
+LogisticResult train_logistic(const std::vector<samples::PairSampleFile>& files,
                               const LogisticConfig& config);
 
 /// What makes this training the one that it is.

@@ -16,8 +16,8 @@
 namespace clearway::training {
 namespace {
 
-using prediction::RepairSample;
-using prediction::RepairSampleFile;
+using samples::RepairSample;
+using samples::RepairSampleFile;
 using Samples = std::vector<const RepairSample*>;
 
 Samples samples_of(const std::vector<RepairSampleFile>& files, const std::vector<DataSeed>& seeds) {

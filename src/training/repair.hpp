@@ -9,7 +9,7 @@
 
 #include "core/fields.hpp"
 #include "metrics/link_quality.hpp"
-#include "prediction/repair_sample.hpp"
+#include "samples/repair_sample.hpp"
 #include "training/seeds.hpp"
 #include "training/torch_repair_net.hpp"
 #include "training/trainer.hpp"
@@ -120,7 +120,7 @@ struct Checkpoint {
 /// and data goes on from it and gives the same net as one that was never interrupted. Deterministic. Throws
 /// core::InputError: fewer than three seeds; a part without pairs, or with labels of one class only; a
 /// checkpoint of another configuration or data set (naming the difference).
-RepairResult train_repair(const std::vector<prediction::RepairSampleFile>& files, const RepairConfig& config,
+RepairResult train_repair(const std::vector<samples::RepairSampleFile>& files, const RepairConfig& config,
                           const Checkpoint& checkpoint, const TrainingHooks& hooks = {});
 
 }  // namespace clearway::training

@@ -15,7 +15,7 @@ bool is_easy(float rule_probability) {
 }
 
 /// Numbers of the batch for the rows of its samples: receivers first.
-std::vector<std::vector<std::int64_t>> numbers_of(std::span<const prediction::RepairSample* const> samples) {
+std::vector<std::vector<std::int64_t>> numbers_of(std::span<const samples::RepairSample* const> samples) {
     std::vector<std::vector<std::int64_t>> numbers(samples.size());
     std::int64_t next = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -55,7 +55,7 @@ void append_edges(const RepairInputs& inputs, const std::vector<std::int64_t>& n
     }
 }
 
-void append_pairs(const prediction::RepairSample& sample, const std::vector<std::int64_t>& numbers,
+void append_pairs(const samples::RepairSample& sample, const std::vector<std::int64_t>& numbers,
                   const PairSampling& sampling, RepairBatch& batch) {
     const RepairInputs& inputs = sample.inputs;
     for (std::size_t at = 0; at < inputs.pairs.size(); ++at) {
@@ -77,7 +77,7 @@ void append_pairs(const prediction::RepairSample& sample, const std::vector<std:
 
 }  // namespace
 
-RepairBatch batch_of(std::span<const prediction::RepairSample* const> samples, MessageEdges edges,
+RepairBatch batch_of(std::span<const samples::RepairSample* const> samples, MessageEdges edges,
                      const PairSampling& sampling) {
     const std::vector<std::vector<std::int64_t>> numbers = numbers_of(samples);
     RepairBatch batch;

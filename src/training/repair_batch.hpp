@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "prediction/repair_sample.hpp"
+#include "samples/repair_sample.hpp"
 
 namespace clearway::training {
 
@@ -46,7 +46,7 @@ struct PairSampling {
     core::KeyedRandom random{core::StudySeed{0}, core::Replication{0}};
 };
 
-RepairBatch batch_of(std::span<const prediction::RepairSample* const> samples, MessageEdges edges,
+RepairBatch batch_of(std::span<const samples::RepairSample* const> samples, MessageEdges edges,
                      const PairSampling& sampling = {});
 
 }  // namespace clearway::training

@@ -8,8 +8,8 @@
 namespace clearway::analysis {
 namespace {
 
+using experiment::Engine;
 using metrics::VehicleOutcome;
-using results::Engine;
 using results::RunRecord;
 using traffic::VehicleClass;
 
@@ -19,10 +19,10 @@ class SmallStudy : public testing::Test {
     SmallStudy() {
         results_.manifest = results::synthetic::manifest(4);
         results_.manifest.scenarios.resize(1);
-        results::ConditionSpec solo;
+        experiment::ConditionSpec solo;
         solo.name = "solo";
         solo.engine = Engine::solo;
-        results::ConditionSpec other = results_.manifest.conditions[1];
+        experiment::ConditionSpec other = results_.manifest.conditions[1];
         other.name = "other";
         results_.manifest.conditions.push_back(other);
         results_.manifest.conditions.push_back(solo);

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "city/town.hpp"
+#include "scenario_import/town.hpp"
 #include "user.hpp"
 
 namespace clearway::cli {
@@ -18,7 +18,7 @@ using testing::Not;
 class CityTest : public UserTest {};
 
 TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
-    write("town.osm", city::town_map());
+    write("town.osm", scenario_import::town_map());
     const Ended import = clearway({"import", "town.osm", "--name", "town"});
     ASSERT_EQ(import.code, 0) << import.err;
     EXPECT_THAT(import.out, AllOf(HasSubstr("76 open to cars"), HasSubstr("1 fire_station, 1 hospital"),
@@ -149,7 +149,7 @@ TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
 }
 
 TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {
-    write("town.osm", city::town_map());
+    write("town.osm", scenario_import::town_map());
     const Ended relative = clearway({"import", "town.osm", "--name", "my folder/town"});
     ASSERT_EQ(relative.code, 0) << relative.err;
     EXPECT_THAT(relative.out, HasSubstr("Next: clearway check './my folder/town'\n"));
@@ -168,7 +168,7 @@ TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {
 }
 
 TEST_F(CityTest, an_interrupted_import_leaves_nothing) {
-    write("town.osm", city::town_map());
+    write("town.osm", scenario_import::town_map());
     const core::Child child = start({"import", "town.osm", "--name", "town"});
     while (!std::filesystem::exists(folder() / fmt::format(".town.importing-{}", child.pid)) &&
            !std::filesystem::exists(folder() / "town")) {

@@ -32,7 +32,7 @@ class IllustratorTest : public testing::Test {
 
     const sumo::Drawing& draw(std::vector<traffic::Command> commands = {}) {
         commands_ = std::move(commands);
-        results::RecordedStep step{&scene_.snapshot(), &scene_.roster(), &events_};
+        trace::RecordedStep step{&scene_.snapshot(), &scene_.roster(), &events_};
         step.observation = &observation_;
         if (belief_.first_link.size() == belief_.vehicles.size() + 1) step.belief = &belief_;
         step.commands = commands_;

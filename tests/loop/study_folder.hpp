@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "experiment/unit.hpp"
 #include "results/store.hpp"
-#include "results/unit.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
 
@@ -16,7 +16,7 @@ namespace clearway::test {
 class StudyFolder {
   public:
     StudyFolder(const std::string& scenario, const scenario::Options& options,
-                std::vector<results::ConditionSpec> conditions)
+                std::vector<experiment::ConditionSpec> conditions)
         : folder_(make_temporary()),
           config_(scenario::load(scenario, options)),
           conditions_(std::move(conditions)) {
@@ -44,26 +44,26 @@ class StudyFolder {
     results::Store store() const { return results::Store::open(folder_); }
     const std::filesystem::path& path() const { return folder_; }
 
-    results::UnitSpec unit(std::uint32_t replication,
-                           results::Engine engine = results::Engine::standard) const {
-        results::UnitSpec unit;
+    experiment::UnitSpec unit(std::uint32_t replication,
+                              experiment::Engine engine = experiment::Engine::standard) const {
+        experiment::UnitSpec unit;
         unit.scenario = config_.name;
         unit.scenario_file = store().scenario_folder(config_.name) / "scenario.toml";
         unit.network_folder = store().scenario_folder(config_.name);
         unit.replication = replication;
         unit.engine = engine;
         unit.output = folder_;
-        for (const results::ConditionSpec& condition : conditions_) {
+        for (const experiment::ConditionSpec& condition : conditions_) {
             if (condition.engine == engine) unit.conditions.push_back(condition);
         }
         return unit;
     }
 
     /// Writes the unit's file and tells where it is.
-    std::filesystem::path write(const results::UnitSpec& unit) const {
+    std::filesystem::path write(const experiment::UnitSpec& unit) const {
         const std::filesystem::path file = folder_ / ("unit-" + std::to_string(unit.replication) + "-" +
-                                                      std::string(results::name(unit.engine)) + ".json");
-        core::write_atomically(file, results::to_json(unit));
+                                                      std::string(experiment::name(unit.engine)) + ".json");
+        core::write_atomically(file, experiment::to_json(unit));
         return file;
     }
 
@@ -76,7 +76,7 @@ class StudyFolder {
 
     std::filesystem::path folder_;
     scenario::ScenarioConfig config_;
-    std::vector<results::ConditionSpec> conditions_;
+    std::vector<experiment::ConditionSpec> conditions_;
 };
 
 }  // namespace clearway::test

@@ -18,8 +18,8 @@
 namespace clearway {
 namespace {
 
-using results::ConditionSpec;
-using results::Engine;
+using experiment::ConditionSpec;
+using experiment::Engine;
 
 ConditionSpec condition(const std::string& name, const std::string& failure, const std::string& predictor,
                         std::vector<std::string> parts, Engine engine = Engine::standard) {
@@ -37,7 +37,7 @@ const ConditionSpec perfect = condition("perfect", "perfect", "none", {"disserta
 const ConditionSpec repaired = condition("repaired", "B10", "dead_reckoning", {"dissertation"});
 const ConditionSpec solo = condition("solo", "perfect", "none", {}, Engine::solo);
 
-core::Exit run_worker(const test::StudyFolder& folder, const results::UnitSpec& unit) {
+core::Exit run_worker(const test::StudyFolder& folder, const experiment::UnitSpec& unit) {
     const std::filesystem::path file = folder.write(unit);
     return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                       .arguments = {"--unit", file.string()},
@@ -156,7 +156,7 @@ TEST(Worker, MeetsThePersonsOfAScenarioAlikeInEveryConditionAndNotAlone) {
 
 /// Counts letters that turn green, in states that Clearway set, while somebody walks on a crossing in the
 /// way.
-class CrossingWatch : public loop::StepListener {
+class CrossingWatch : public trace::StepListener {
   public:
     CrossingWatch(const roads::Network& network, const sumo::Session& session)
         : network_(network), session_(session) {}
@@ -253,7 +253,7 @@ TEST(Worker, GivesTheSameRecordWhetherAConditionIsForkedFirstLastOrAlone) {
 }
 
 /// The bytes that a run left in a folder.
-std::map<std::string, std::string> stored_bytes(const results::Store& store, const results::RunKey& key) {
+std::map<std::string, std::string> stored_bytes(const results::Store& store, const experiment::RunKey& key) {
     std::map<std::string, std::string> files;
     for (const char* const name : {"run.json", "vehicles.csv"})
         files[name] = core::read_file(store.run_folder(key) / name);
@@ -271,7 +271,7 @@ void expect_equal_without_fork(const std::string& scenario, const scenario::Opti
     EXPECT_FALSE(record.traffic.approaches.empty());
     EXPECT_FALSE(record.traffic.recovery.empty());
     EXPECT_FALSE(record.traffic.journeys.empty());
-    const results::RunKey key{alone.unit(0).scenario, "repaired", 0};
+    const experiment::RunKey key{alone.unit(0).scenario, "repaired", 0};
     EXPECT_EQ(record.traffic.journeys, forked.store().read_journeys(key));
     alone.store().write(record, timing);
     EXPECT_GT(alone.store().read(key)->metrics.leases_issued, 0U);
@@ -315,16 +315,16 @@ TEST(Worker, EqualsARunInASumoThatWasStartedElsewhere) {
                       });
     results::RunTiming timing;
     remote.store().write(run.finish_here(corridor, timing), timing);
-    const results::RunKey key{"intersection", "corridor", 0};
+    const experiment::RunKey key{"intersection", "corridor", 0};
     EXPECT_GT(remote.store().read(key)->metrics.leases_issued, 0U);
     EXPECT_EQ(stored_bytes(remote.store(), key), stored_bytes(local.store(), key));
 }
 
 /// A run with a window, but for the window: the simulation in a child, over a connection, with all drawing.
-core::Exit show_without_window(const test::StudyFolder& folder, results::UnitSpec unit,
+core::Exit show_without_window(const test::StudyFolder& folder, experiment::UnitSpec unit,
                                const ConditionSpec& shown) {
     unit.conditions = {shown};
-    unit.window = results::WindowSpec{.delay_s = 0.0, .settings_file = {}, .program = "sumo"};
+    unit.window = experiment::WindowSpec{.delay_s = 0.0, .settings_file = {}, .program = "sumo"};
     return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                       .arguments = {"--show", folder.write(unit).string()},
                       .environment = {},
@@ -340,7 +340,7 @@ TEST(Worker, EqualsARunThatIsShown) {
     for (const ConditionSpec& shown : {corridor, solo}) {
         const core::Exit exit = show_without_window(watched, watched.unit(0, shown.engine), shown);
         ASSERT_TRUE(exit.ok()) << exit.describe() << core::tail(watched.path() / "worker.log", 20);
-        const results::RunKey key{"intersection", shown.name, 0};
+        const experiment::RunKey key{"intersection", shown.name, 0};
         EXPECT_EQ(stored_bytes(watched.store(), key), stored_bytes(usual.store(), key)) << shown.name;
     }
 }
@@ -402,7 +402,7 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
                                             .output = folder.path() / "worker.log"});
     kill(child_of(worker.pid), SIGSEGV);
     EXPECT_TRUE(core::wait(worker).ok());
-    const results::RunKey key{"city", "repaired", 0};
+    const experiment::RunKey key{"city", "repaired", 0};
     const auto failure = folder.store().read_failure(key);
     ASSERT_TRUE(failure.has_value());
     EXPECT_EQ(failure->cause, results::FailureCause::signal);
@@ -415,8 +415,8 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
 
 TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
     const test::StudyFolder folder("city", {}, {baseline});
-    const results::RunKey key{"city", "baseline", 0};
-    results::UnitSpec unit = folder.unit(0);
+    const experiment::RunKey key{"city", "baseline", 0};
+    experiment::UnitSpec unit = folder.unit(0);
     unit.limits.wall_s = 0.01;
     ASSERT_TRUE(run_worker(folder, unit).ok());
     EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::time_limit);

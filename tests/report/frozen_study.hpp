@@ -17,7 +17,7 @@ class FrozenStudy {
     explicit FrozenStudy(const std::filesystem::path& folder)
         : store_(results::Store::create(folder, manifest())) {
         for (const results::ScenarioEntry& scenario : store_.manifest().scenarios) {
-            for (const results::ConditionSpec& condition : store_.manifest().conditions) {
+            for (const experiment::ConditionSpec& condition : store_.manifest().conditions) {
                 for (std::uint32_t replication = 0; replication < store_.manifest().replications;
                      ++replication)
                     add({scenario.name, condition.name, replication}, condition);
@@ -41,23 +41,23 @@ class FrozenStudy {
         manifest.scenarios = {
             {"crossing", "v1", "Crossing", "name = \"crossing\"\n", "c1", "Map: <somebody>"},
             {"merge", "v1", "Merge", "name = \"merge\"\n", "c2", ""}};
-        results::ConditionSpec baseline;
+        experiment::ConditionSpec baseline;
         baseline.name = "baseline";
-        results::ConditionSpec helps;
+        experiment::ConditionSpec helps;
         helps.name = "helps";
         helps.parts = {"corridor"};
-        results::ConditionSpec hardly;
+        experiment::ConditionSpec hardly;
         hardly.name = "hardly";
         hardly.parts = {"dissertation"};
         hardly.safety_checks = traffic::SafetyChecks::off;
-        results::ConditionSpec solo;
+        experiment::ConditionSpec solo;
         solo.name = "solo";
-        solo.engine = results::Engine::solo;
+        solo.engine = experiment::Engine::solo;
         manifest.conditions = {baseline, helps, hardly, solo};
         return manifest;
     }
 
-    static double travel_time_s(const results::RunKey& key, int vehicle) {
+    static double travel_time_s(const experiment::RunKey& key, int vehicle) {
         const double luck_s = 7.0 * ((key.replication * 5 + static_cast<std::uint32_t>(vehicle) * 3) % 6);
         if (key.condition == "solo") return 60.0;
         if (key.condition == "helps") return 75.0 + 0.5 * luck_s;
@@ -65,7 +65,7 @@ class FrozenStudy {
         return 100.0 + luck_s;
     }
 
-    static metrics::VehicleRow vehicle(const results::RunKey& key, int number) {
+    static metrics::VehicleRow vehicle(const experiment::RunKey& key, int number) {
         metrics::VehicleRow row;
         row.id = "emergency<" + std::to_string(number) + ">";
         row.key = core::vehicle_key(row.id);
@@ -82,7 +82,7 @@ class FrozenStudy {
         return row;
     }
 
-    static void add_traffic(const results::RunKey& key, metrics::TrafficTables& traffic) {
+    static void add_traffic(const experiment::RunKey& key, metrics::TrafficTables& traffic) {
         const bool helps = key.condition == "helps";
         const double luck_s = 3.0 * ((key.replication * 5) % 6);
         const auto row = [&](const char* edge, double baseline_s, double change_s) {
@@ -106,7 +106,7 @@ class FrozenStudy {
         traffic.journeys.push_back({"emergency<0>", "J<1>", "green", 91.0, 220.0});
     }
 
-    void add(const results::RunKey& key, const results::ConditionSpec& condition) {
+    void add(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
         if (key.scenario == "merge" && key.condition == "hardly" && key.replication == 2) {
             results::FailureRecord failure;
             failure.key = key;
@@ -140,7 +140,7 @@ class FrozenStudy {
         numbers.collisions = key.condition == "hardly" ? key.replication % 2 : 0;
         numbers.leases_issued = condition.parts.empty() ? 0 : 40 + key.replication;
         numbers.leases_refused = condition.parts.empty() ? 0 : key.replication;
-        if (condition.engine != results::Engine::solo && key.scenario == "crossing")
+        if (condition.engine != experiment::Engine::solo && key.scenario == "crossing")
             add_traffic(key, run.traffic);
         store_.write(run, {});
     }

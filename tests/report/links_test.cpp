@@ -18,13 +18,13 @@ Measured measured(double value) {
     return {value, Interval{value - 0.01, value + 0.01}};
 }
 
-analysis::LinkResult result_of(const std::string& predictor, const std::string& scenario, double ap) {
+links::LinkResult result_of(const std::string& predictor, const std::string& scenario, double ap) {
     metrics::LinkScores scores;
     for (int i = 0; i < 2000; ++i) {
         const float probability = static_cast<float>(i) / 1999.0F;
         scores.add(probability, i % 2 == 0 && i > 600, {.age_class = static_cast<std::size_t>(i % 3)});
     }
-    analysis::LinkResult result;
+    links::LinkResult result;
     result.scenario = scenario;
     result.failure = "B10";
     result.exits = "known";
@@ -117,7 +117,7 @@ TEST(LinksPage, is_self_contained_and_escapes_what_others_named) {
 
 TEST(LinksPage, of_nothing_scored_has_no_curves) {
     LinkFacts facts = sample();
-    for (analysis::LinkResult& result : facts.results) {
+    for (links::LinkResult& result : facts.results) {
         result.scores = {};
         result.subsets = {};
     }

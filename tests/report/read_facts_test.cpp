@@ -31,7 +31,7 @@ metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass vehicle
 }
 
 /// The baseline takes 100, 102, 104 s; a helpful condition 20 s less, one second apart.
-results::RunRecord run(const results::ConditionSpec& condition, std::uint32_t replication,
+results::RunRecord run(const experiment::ConditionSpec& condition, std::uint32_t replication,
                        double travel_time_s) {
     results::RunRecord record;
     record.key = {"merge", condition.name, replication};
@@ -63,11 +63,11 @@ class RunFolder : public ::testing::Test {
         manifest.sumo_version = "1.15.0";
         manifest.replications = 3;
         manifest.scenarios = {{"merge", "v1", "Merge", "name = \"merge\"\n", "abc", "Map data: somebody"}};
-        results::ConditionSpec baseline{.name = "baseline", .parts = {}};
-        results::ConditionSpec helpful{.name = "graph_simulation", .parts = {"dissertation"}};
+        experiment::ConditionSpec baseline{.name = "baseline", .parts = {}};
+        experiment::ConditionSpec helpful{.name = "graph_simulation", .parts = {"dissertation"}};
         helpful.safety_checks = traffic::SafetyChecks::off;
-        results::ConditionSpec broken{.name = "broken", .parts = {"dissertation"}};
-        results::ConditionSpec solo{.name = "solo", .parts = {}, .engine = results::Engine::solo};
+        experiment::ConditionSpec broken{.name = "broken", .parts = {"dissertation"}};
+        experiment::ConditionSpec solo{.name = "solo", .parts = {}, .engine = experiment::Engine::solo};
         manifest.conditions = {baseline, helpful, broken, solo};
         const results::Store store = results::Store::create(folder.path() / "study", manifest);
         for (std::uint32_t replication = 0; replication < 3; ++replication) {

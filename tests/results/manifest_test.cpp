@@ -17,7 +17,7 @@ TEST(Manifest, ListsEveryRunOnceSorted) {
     const auto runs = synthetic::manifest(3).runs();
     EXPECT_EQ(runs.size(), 2U * 2U * 3U);
     EXPECT_TRUE(std::ranges::is_sorted(runs));
-    EXPECT_EQ(runs.front(), (RunKey{"alpha", "baseline", 0}));
+    EXPECT_EQ(runs.front(), (experiment::RunKey{"alpha", "baseline", 0}));
 }
 
 TEST(Manifest, HasAnotherHashWhenAnythingDiffers) {

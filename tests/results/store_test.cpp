@@ -20,7 +20,7 @@ namespace {
 using synthetic::failure;
 using synthetic::record;
 
-const RunKey key{"alpha", "baseline", 1};
+const experiment::RunKey key{"alpha", "baseline", 1};
 
 class StoreOfAStudy : public testing::Test {
   protected:
@@ -120,8 +120,8 @@ TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
 }
 
 TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
-    const std::vector<RunKey> keys = store_.manifest().runs();
-    for (const RunKey& each : keys)
+    const std::vector<experiment::RunKey> keys = store_.manifest().runs();
+    for (const experiment::RunKey& each : keys)
         store_.write(record(each), {});
     EXPECT_TRUE(store_.set_damaged_aside(keys).empty());
     const auto file = [&](std::size_t run, const char* name) { return store_.run_folder(keys[run]) / name; };
@@ -212,7 +212,7 @@ TEST_F(StoreOfAStudy, LeavesWholeRunsOrNoneWhenAWriterIsKilled) {
     waitpid(writer, nullptr, 0);
     std::uint32_t whole = 0;
     while (store_.complete({"beta", "treated", whole})) {
-        const RunKey written{"beta", "treated", whole};
+        const experiment::RunKey written{"beta", "treated", whole};
         EXPECT_EQ(*store_.read(written), record(written));
         ++whole;
     }

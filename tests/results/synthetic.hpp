@@ -18,9 +18,9 @@ inline Manifest manifest(std::uint32_t replications = 2) {
     for (const char* scenario : {"alpha", "beta"})
         result.scenarios.push_back({scenario, "v1", "Scenario", "name = \"" + std::string(scenario) + "\"\n",
                                     std::string(32, 'a'), ""});
-    ConditionSpec baseline;
+    experiment::ConditionSpec baseline;
     baseline.name = "baseline";
-    ConditionSpec treated;
+    experiment::ConditionSpec treated;
     treated.name = "treated";
     treated.parts = {"dissertation"};
     result.conditions = {baseline, treated};
@@ -47,10 +47,10 @@ inline metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass 
 }
 
 /// One EV and one other; the EV's travel time in s.
-inline RunRecord record(const RunKey& key, double travel_time_s = 50.1) {
+inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50.1) {
     RunRecord result;
     result.key = key;
-    for (const ConditionSpec& condition : manifest().conditions) {
+    for (const experiment::ConditionSpec& condition : manifest().conditions) {
         if (condition.name == key.condition) result.condition = condition;
     }
     result.provenance = {"0.1.0", "1.15.0", std::string(32, 'a'), std::string(32, 'd'),
@@ -72,7 +72,7 @@ inline RunRecord record(const RunKey& key, double travel_time_s = 50.1) {
     return result;
 }
 
-inline FailureRecord failure(const RunKey& key) {
+inline FailureRecord failure(const experiment::RunKey& key) {
     FailureRecord result;
     result.key = key;
     result.cause = FailureCause::signal;

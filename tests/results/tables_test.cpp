@@ -14,13 +14,13 @@ namespace {
 using synthetic::record;
 
 /// Four runs of a study of eight; one failed, three are missing.
-void fill(const Store& store, std::vector<RunKey> keys) {
-    for (const RunKey& key : keys)
+void fill(const Store& store, std::vector<experiment::RunKey> keys) {
+    for (const experiment::RunKey& key : keys)
         store.write(record(key), {});
     store.write(synthetic::failure({"alpha", "treated", 0}));
 }
 
-const std::vector<RunKey> keys = {
+const std::vector<experiment::RunKey> keys = {
     {"alpha", "baseline", 0}, {"alpha", "baseline", 1}, {"alpha", "treated", 1}, {"beta", "baseline", 0}};
 
 std::vector<std::string> lines_of(const std::string& text) {

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "study/conditions.hpp"
+#include "experiment/conditions.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::study {
@@ -54,7 +54,7 @@ safety_checks = "off"
     EXPECT_DOUBLE_EQ(config.scenarios[0].time.step_length_s, 0.1);
     EXPECT_GT(config.scenarios[0].demand.emergency, 3);
     ASSERT_EQ(config.conditions.size(), 3U);
-    EXPECT_EQ(config.conditions[1], built_in_condition("solo", ""));
+    EXPECT_EQ(config.conditions[1], experiment::built_in_condition("solo", ""));
     EXPECT_EQ(config.conditions[2].failure, "B20");
     EXPECT_EQ(config.conditions[2].safety_checks, traffic::SafetyChecks::off);
 }

@@ -22,7 +22,7 @@ void pause_ms(int duration) {
 }
 
 /// True the first time that it is called for a run.
-bool first_time(const results::Store& store, const results::RunKey& key) {
+bool first_time(const results::Store& store, const experiment::RunKey& key) {
     const auto marker =
         store.folder() / ("." + key.scenario + key.condition + std::to_string(key.replication));
     if (std::filesystem::exists(marker)) return false;
@@ -30,7 +30,7 @@ bool first_time(const results::Store& store, const results::RunKey& key) {
     return true;
 }
 
-void tell(const results::Store& store, const results::RunKey& key, results::FailureCause cause,
+void tell(const results::Store& store, const experiment::RunKey& key, results::FailureCause cause,
           const std::string& message) {
     results::FailureRecord failure;
     failure.key = key;
@@ -48,9 +48,9 @@ void hog() {
 }
 
 /// Ends the process where the condition says so; true when a record was written.
-void work(const results::Store& store, const results::RunKey& key) {
+void work(const results::Store& store, const experiment::RunKey& key) {
     const std::string& name = key.condition;
-    std::printf("run %s\n", results::to_text(key).c_str());
+    std::printf("run %s\n", experiment::to_text(key).c_str());
     std::fflush(stdout);
     if (name.starts_with("crash_once") && first_time(store, key)) std::raise(SIGSEGV);
     if (name == "crash") std::raise(SIGSEGV);
@@ -70,9 +70,9 @@ void work(const results::Store& store, const results::RunKey& key) {
 
 int main(int, char** arguments) {
     try {
-        const results::UnitSpec unit = results::read_unit(arguments[2]);
+        const experiment::UnitSpec unit = experiment::read_unit(arguments[2]);
         const results::Store store = results::Store::open(unit.output);
-        for (const results::ConditionSpec& condition : unit.conditions)
+        for (const experiment::ConditionSpec& condition : unit.conditions)
             work(store, {unit.scenario, condition.name, unit.replication});
         return 0;
     } catch (const core::Error& error) {

@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiment/conditions.hpp"
 #include "scenario/network.hpp"
-#include "study/conditions.hpp"
 #include "study/plan.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,7 +18,7 @@ class RunFolder : public testing::Test {
         setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);
         setenv("SUMO_HOME", "/usr/share/sumo", 0);
         config_.scenarios = {scenario::load("merge")};
-        config_.conditions = {built_in_condition("baseline", "")};
+        config_.conditions = {experiment::built_in_condition("baseline", "")};
         config_.replications = 1;
     }
     Plan plan() const { return make_plan(config_, {"0.1.0", "1.15.0"}, out_); }
@@ -30,7 +30,7 @@ class RunFolder : public testing::Test {
 
 TEST_F(RunFolder, HoldsScenarioAndNetworkAsUnitsNameThem) {
     const results::Store store = prepare_folder(plan(), out_);
-    const results::UnitSpec unit = plan().units.front().unit;
+    const experiment::UnitSpec unit = plan().units.front().unit;
     const scenario::ScenarioConfig stored = scenario::load(unit.scenario_file.string());
     EXPECT_EQ(scenario::scenario_hash(stored), store.manifest().scenarios.front().configuration_hash);
     EXPECT_TRUE(std::filesystem::exists(scenario::open_network(stored, unit.network_folder).file));

@@ -18,7 +18,7 @@
 namespace clearway::study {
 namespace {
 
-using results::RunKey;
+using experiment::RunKey;
 using results::Store;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -120,7 +120,7 @@ TEST_F(Merge, SaysWhatIsMissingAndIsCompletedLater) {
     EXPECT_EQ(part.counts.missing, 5U);
     EXPECT_THAT(part.absent_shards, ElementsAre("4/4"));
     ASSERT_EQ(part.missing.size(), 5U);
-    EXPECT_EQ(results::to_text(part.missing.front()), "alpha/baseline/3");
+    EXPECT_EQ(experiment::to_text(part.missing.front()), "alpha/baseline/3");
     EXPECT_EQ(merge_into("out", {last}).counts.complete, 20U);
     merge_into("whole", divided(1, "b"));
     EXPECT_EQ(tables_of("out"), tables_of("whole"));

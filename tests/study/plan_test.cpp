@@ -3,19 +3,19 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "study/conditions.hpp"
+#include "experiment/conditions.hpp"
 
 namespace clearway::study {
 namespace {
 
-using results::Engine;
+using experiment::Engine;
 
 StudyConfig example() {
     StudyConfig config;
     config.replications = 2;
     for (const char* name : {"alpha", "beta"})
         config.scenarios.emplace_back().name = name;
-    for (const BuiltInCondition& known : built_in_conditions())
+    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions())
         config.conditions.push_back(known.condition);
     return config;
 }
@@ -50,9 +50,9 @@ TEST(Plan, HasOneUnitPerReplicationScenarioAndEngine) {
 
 TEST(Plan, CoversTheRunsOfTheManifestExactly) {
     const Plan plan = plan_of(example());
-    std::vector<results::RunKey> runs;
+    std::vector<experiment::RunKey> runs;
     for (const PlannedUnit& planned : plan.units)
-        for (const results::ConditionSpec& condition : planned.unit.conditions)
+        for (const experiment::ConditionSpec& condition : planned.unit.conditions)
             runs.push_back({planned.unit.scenario, condition.name, planned.unit.replication});
     std::ranges::sort(runs);
     EXPECT_EQ(runs, plan.manifest.runs());
@@ -70,7 +70,7 @@ TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
     StudyConfig config = example();
     config.conditions[1].engine = Engine::sublane;
     EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with engine \"sublane\""));
-    results::ConditionSpec baseline;
+    experiment::ConditionSpec baseline;
     baseline.name = "baseline_sublane";
     baseline.engine = Engine::sublane;
     config.conditions.push_back(baseline);
@@ -79,7 +79,7 @@ TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
 
 TEST(Plan, TakesNoConditionWithABluelightForABaseline) {
     StudyConfig config = example();
-    results::ConditionSpec opponent;
+    experiment::ConditionSpec opponent;
     opponent.name = "bluelight_sublane";
     opponent.engine = Engine::sublane;
     opponent.bluelight = traffic::BlueLight::on;

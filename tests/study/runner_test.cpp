@@ -16,8 +16,8 @@ namespace clearway::study {
 namespace {
 
 using core::ExitCode;
+using experiment::RunKey;
 using results::FailureCause;
-using results::RunKey;
 
 class Study : public testing::Test {
   protected:
@@ -161,7 +161,7 @@ TEST_F(Study, TellsHowToMakeACrashAgain) {
     const results::Store store = store_in("out");
     const auto unit = store.unit_file("alpha-00000-standard");
     EXPECT_EQ(failure->command, options_.worker_program.string() + " --unit " + unit.string());
-    EXPECT_EQ(results::read_unit(unit).conditions.at(0).name, "crash");
+    EXPECT_EQ(experiment::read_unit(unit).conditions.at(0).name, "crash");
     EXPECT_NE(std::system((failure->command + " > /dev/null").c_str()), 0);
 }
 

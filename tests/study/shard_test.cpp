@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "study/conditions.hpp"
+#include "experiment/conditions.hpp"
 #include "study/submission.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,7 +19,7 @@ Plan example() {
     config.replications = 7;
     for (const char* name : {"alpha", "beta"})
         config.scenarios.emplace_back().name = name;
-    for (const BuiltInCondition& known : built_in_conditions())
+    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions())
         config.conditions.push_back(known.condition);
     return make_plan(config, {"0.1.0", "1.15.0"}, "/out");
 }
@@ -45,7 +45,7 @@ TEST(Shards, MixEnginesAndScenarios) {
     for (std::uint32_t index = 1; index <= 4; ++index) {
         Plan plan = example();
         keep_shard(plan, {index, 4});
-        std::map<std::pair<std::string, results::Engine>, int> kinds;
+        std::map<std::pair<std::string, experiment::Engine>, int> kinds;
         for (const PlannedUnit& unit : plan.units)
             ++kinds[{unit.unit.scenario, unit.unit.engine}];
         EXPECT_EQ(kinds.size(), 4U) << "shard " << index << " lacks a kind of unit";

@@ -20,10 +20,10 @@ using testing::HasSubstr;
 
 /// Vehicles on a road of two lanes; every pair within 120 m is listed, linked below 50 m. Positions in km, so
 /// that the losses stay moderate.
-prediction::PairDataset road(std::uint32_t seed, std::uint32_t vehicles) {
+samples::PairDataset road(std::uint32_t seed, std::uint32_t vehicles) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> place(0.0F, 1.0F);
-    prediction::PairDataset dataset;
+    samples::PairDataset dataset;
     dataset.feature_count = 2;
     for (std::uint32_t vehicle = 0; vehicle < vehicles; ++vehicle) {
         dataset.features.insert(dataset.features.end(),
@@ -53,7 +53,7 @@ TEST(OrderedSplit, takes_int_of_three_quarters_and_one_more) {
 }
 
 TEST(AsPublishedBatch, messages_are_the_pairs_of_its_part) {
-    const prediction::PairDataset dataset{2, {0, 0, 1, 0, 2, 0}, {0, 1, 2}, {1, 2, 0}, {1, 0, 1}};
+    const samples::PairDataset dataset{2, {0, 0, 1, 0, 2, 0}, {0, 1, 2}, {1, 2, 0}, {1, 0, 1}};
     const GraphBatch batch = as_published_batch(dataset, 1, 2);
     EXPECT_EQ(batch.vehicle_count(), 3U);
     EXPECT_THAT(batch.pair_left, ElementsAre(1, 2));
@@ -64,7 +64,7 @@ TEST(AsPublishedBatch, messages_are_the_pairs_of_its_part) {
 }
 
 TEST(TrainAsPublished, runs_all_epochs_and_scores_every_pair) {
-    const prediction::PairDataset dataset = road(1, 40);
+    const samples::PairDataset dataset = road(1, 40);
     std::vector<std::uint32_t> epochs;
     const AsPublishedResult result =
         train_as_published(dataset, PairChoice::candidates, {},
@@ -81,7 +81,7 @@ TEST(TrainAsPublished, runs_all_epochs_and_scores_every_pair) {
 }
 
 TEST(TrainAsPublished, losses_are_those_before_the_step_and_logits_those_after_the_last) {
-    const prediction::PairDataset dataset = road(2, 30);
+    const samples::PairDataset dataset = road(2, 30);
     TrainingConfig config;
     config.epochs = 3;
     const AsPublishedResult result = train_as_published(dataset, PairChoice::candidates, config);
@@ -100,7 +100,7 @@ TEST(TrainAsPublished, losses_are_those_before_the_step_and_logits_those_after_t
 }
 
 TEST(TrainAsPublished, same_seed_same_bytes_other_seed_other_bytes) {
-    const prediction::PairDataset dataset = road(3, 30);
+    const samples::PairDataset dataset = road(3, 30);
     const auto bytes = [&](std::uint64_t seed) {
         TrainingConfig config;
         config.epochs = 20;
@@ -123,7 +123,7 @@ TEST(TrainAsPublished, a_list_of_true_edges_gives_a_low_loss_that_a_constant_has
 
 TEST(TrainAsPublished, the_constant_s_loss_is_that_of_the_training_share) {
     // 4 train pairs, 3 of them linked; 1 test pair, not linked: -ln(1 - 3/4).
-    const prediction::PairDataset dataset{
+    const samples::PairDataset dataset{
         2, {0, 0, 1, 0, 2, 0}, {0, 1, 2, 0, 1}, {1, 2, 0, 2, 0}, {1, 1, 0, 1, 0}};
     const AsPublishedResult result = train_as_published(dataset, PairChoice::candidates, {});
     EXPECT_NEAR(result.constant_test_loss, std::log(4.0), 1e-6);
@@ -131,7 +131,7 @@ TEST(TrainAsPublished, the_constant_s_loss_is_that_of_the_training_share) {
 }
 
 TEST(TrainAsPublished, too_few_pairs_are_refused) {
-    prediction::PairDataset dataset{2, {0, 0, 1, 0}, {0, 1, 0, 1}, {1, 0, 1, 0}, {1, 0, 1, 0}};
+    samples::PairDataset dataset{2, {0, 0, 1, 0}, {0, 1, 0, 1}, {1, 0, 1, 0}, {1, 0, 1, 0}};
     EXPECT_THROW(train_as_published(dataset, PairChoice::candidates, {}), core::InputError);
     dataset = road(5, 30);
     std::ranges::fill(dataset.label, 0.0F);
@@ -146,7 +146,7 @@ TEST(TrainAsPublished, too_few_pairs_are_refused) {
 TEST(TrainAsPublished, divergence_keeps_the_last_parameters_with_finite_losses) {
     TrainingConfig config;
     config.learning_rate = 1e20;
-    const prediction::PairDataset dataset = road(6, 30);
+    const samples::PairDataset dataset = road(6, 30);
     const AsPublishedResult result = train_as_published(dataset, PairChoice::candidates, config);
     EXPECT_EQ(result.outcome, Outcome::diverged);
     ASSERT_EQ(result.losses.size(), 2U);
@@ -168,7 +168,7 @@ TEST(TrainAsPublished, divergence_in_the_last_step_is_noticed) {
 }
 
 TEST(TrainAsPublished, data_that_diverge_at_once_leave_no_parameters) {
-    prediction::PairDataset dataset = road(7, 30);
+    samples::PairDataset dataset = road(7, 30);
     for (float& value : dataset.features)
         value *= 1e38F;
     const AsPublishedResult result = train_as_published(dataset, PairChoice::candidates, {});
@@ -185,7 +185,7 @@ TEST(QualityOfLogits, ranks_logits_whose_probabilities_round_to_one) {
 }
 
 TEST(ScoreUnseen, messages_are_listed_pairs_true_links_or_none) {
-    const prediction::PairDataset unseen = road(21, 30);
+    const samples::PairDataset unseen = road(21, 30);
     TrainingConfig config;
     const StateDict state = TorchNet({{2, 10, 5}, 4, 0.01}).state();
     const UnseenQuality quality = score_unseen(state, config, unseen, "other");

@@ -34,8 +34,8 @@ std::vector<DataSeed> seeds_upto(std::uint32_t count) {
 }
 
 TEST(AppendSample, moves_indices_behind_the_vehicles_already_there) {
-    const prediction::GraphSample two{0.0, 2, {1, 2}, {{0, 1}}, {{0, 1, 10.0F, 1}}};
-    const prediction::GraphSample three{1.0, 3, {3, 4, 5}, {{1, 2}}, {{0, 2, 60.0F, 0}}};
+    const samples::GraphSample two{0.0, 2, {1, 2}, {{0, 1}}, {{0, 1, 10.0F, 1}}};
+    const samples::GraphSample three{1.0, 3, {3, 4, 5}, {{1, 2}}, {{0, 2, 60.0F, 0}}};
     GraphBatch batch;
     append_sample(two, 1, 200.0, batch);
     append_sample(three, 1, 200.0, batch);
@@ -48,11 +48,11 @@ TEST(AppendSample, moves_indices_behind_the_vehicles_already_there) {
 }
 
 TEST(AppendSample, a_batch_scores_each_snapshot_as_if_alone) {
-    const prediction::GraphSampleFile file = SyntheticRun(5).file(0, 4);
+    const samples::GraphSampleFile file = SyntheticRun(5).file(0, 4);
     const TorchNet net({{5, 10, 5}, 5, 0.01});
     GraphBatch together;
     std::vector<float> alone;
-    for (const prediction::GraphSample& sample : file.samples) {
+    for (const samples::GraphSample& sample : file.samples) {
         append_sample(sample, 5, 200.0, together);
         GraphBatch single;
         append_sample(sample, 5, 200.0, single);
@@ -64,12 +64,12 @@ TEST(AppendSample, a_batch_scores_each_snapshot_as_if_alone) {
 }
 
 TEST(AppendSample, messages_flow_along_observed_edges_only) {
-    prediction::GraphSample sample = SyntheticRun(6).file(0, 1).samples[0];
+    samples::GraphSample sample = SyntheticRun(6).file(0, 1).samples[0];
     GraphBatch before;
     append_sample(sample, 5, 200.0, before);
     EXPECT_EQ(before.message_source.size(), 2 * sample.observed_edges.size());
     // Labels and candidates move no message.
-    for (prediction::CandidatePair& pair : sample.candidates)
+    for (samples::CandidatePair& pair : sample.candidates)
         pair.linked = 1 - pair.linked;
     GraphBatch flipped;
     append_sample(sample, 5, 200.0, flipped);
@@ -80,7 +80,7 @@ TEST(AppendSample, messages_flow_along_observed_edges_only) {
 }
 
 TEST(AppendSample, pairs_out_of_reach_are_left_out) {
-    const prediction::GraphSample sample{
+    const samples::GraphSample sample{
         0.0, 3, {1, 2, 3}, {}, {{0, 1, 199.0F, 0}, {0, 2, 200.0F, 0}, {1, 2, 250.0F, 1}}};
     GraphBatch batch;
     append_sample(sample, 1, 200.0, batch);
@@ -149,11 +149,11 @@ TEST(TrainCorrected, learns_links_of_unseen_seeds) {
 }
 
 TEST(TrainCorrected, shuffled_labels_teach_nothing) {
-    std::vector<prediction::GraphSampleFile> files = synthetic_files(10, 40);
+    std::vector<samples::GraphSampleFile> files = synthetic_files(10, 40);
     std::mt19937 random(1);
-    for (prediction::GraphSampleFile& file : files) {
-        for (prediction::GraphSample& sample : file.samples) {
-            for (prediction::CandidatePair& pair : sample.candidates)
+    for (samples::GraphSampleFile& file : files) {
+        for (samples::GraphSample& sample : file.samples) {
+            for (samples::CandidatePair& pair : sample.candidates)
                 pair.linked = random() % 2 == 0 ? 1 : 0;
         }
     }
@@ -191,7 +191,7 @@ TEST(TrainCorrected, candidates_out_of_reach_count_as_predicted_unlinked) {
     CorrectedConfig config;
     config.training.epochs = 2;
     within = train_corrected(files, config).groups[0].net.pairs;
-    for (prediction::GraphSampleFile& file : files)
+    for (samples::GraphSampleFile& file : files)
         file.samples[0].candidates.push_back({0, 1, 500.0F, 1});
     const CorrectedResult result = train_corrected(files, config);
     EXPECT_EQ(result.groups[0].net.pairs, within + 1);

@@ -20,9 +20,9 @@ constexpr std::array<double, 8> true_weight = {1.0, -0.5, 0.25, 0.0, 2.0, 0.0, -
 constexpr double true_bias = -0.75;
 
 /// Pairs of one seed, drawn from a logistic model with the weights above.
-prediction::PairSampleFile drawn_pairs(std::uint32_t replication, std::size_t count) {
+samples::PairSampleFile drawn_pairs(std::uint32_t replication, std::size_t count) {
     const core::KeyedRandom random(core::StudySeed{5}, core::Replication{replication});
-    prediction::PairSampleFile file;
+    samples::PairSampleFile file;
     file.origin.scenario = "drawn";
     file.origin.failure = "B10";
     file.origin.replication = replication;
@@ -40,14 +40,14 @@ prediction::PairSampleFile drawn_pairs(std::uint32_t replication, std::size_t co
     return file;
 }
 
-std::vector<prediction::PairSampleFile> drawn_files(std::uint32_t seeds) {
-    std::vector<prediction::PairSampleFile> files;
+std::vector<samples::PairSampleFile> drawn_files(std::uint32_t seeds) {
+    std::vector<samples::PairSampleFile> files;
     for (std::uint32_t seed = 0; seed < seeds; ++seed)
         files.push_back(drawn_pairs(seed, 6000));
     return files;
 }
 
-std::string refusal(const std::vector<prediction::PairSampleFile>& files, const LogisticConfig& config = {}) {
+std::string refusal(const std::vector<samples::PairSampleFile>& files, const LogisticConfig& config = {}) {
     try {
         train_logistic(files, config);
     } catch (const core::InputError& error) {
@@ -72,12 +72,12 @@ TEST(TrainLogistic, FindsTheModelThatMadeTheData) {
 }
 
 TEST(TrainLogistic, ReachesAMinimumOfTheLoss) {
-    std::vector<prediction::PairSampleFile> files = drawn_files(5);
+    std::vector<samples::PairSampleFile> files = drawn_files(5);
     const LogisticResult result = train_logistic(files, {});
     // The gradient, by an own sum: mean of (p - y) x must vanish.
     std::array<double, 9> gradient{};
     double pairs = 0.0;
-    for (const prediction::PairSampleFile& file : files) {
+    for (const samples::PairSampleFile& file : files) {
         const DataSeed seed{file.origin.study_seed, file.origin.replication};
         if (std::ranges::find(result.seeds.train, seed) == result.seeds.train.end()) continue;
         for (std::size_t pair = 0; pair < file.linked.size(); ++pair) {
@@ -99,8 +99,8 @@ TEST(TrainLogistic, ReachesAMinimumOfTheLoss) {
 }
 
 TEST(TrainLogistic, StaysFiniteWhereTheClassesCanBeSeparated) {
-    std::vector<prediction::PairSampleFile> files = drawn_files(3);
-    for (prediction::PairSampleFile& file : files) {
+    std::vector<samples::PairSampleFile> files = drawn_files(3);
+    for (samples::PairSampleFile& file : files) {
         for (std::size_t pair = 0; pair < file.linked.size(); ++pair) {
             file.linked[pair] = file.features[pair][0] > 0.0F ? 1 : 0;
         }
@@ -112,21 +112,21 @@ TEST(TrainLogistic, StaysFiniteWhereTheClassesCanBeSeparated) {
 
 TEST(TrainLogistic, RefusesDataThatTeachNothing) {
     EXPECT_THAT(refusal(drawn_files(2)), HasSubstr("3 seeds or more"));
-    std::vector<prediction::PairSampleFile> one_class = drawn_files(4);
-    for (prediction::PairSampleFile& file : one_class)
+    std::vector<samples::PairSampleFile> one_class = drawn_files(4);
+    for (samples::PairSampleFile& file : one_class)
         std::ranges::fill(file.linked, std::uint8_t{1});
     EXPECT_THAT(refusal(one_class), HasSubstr("the training seeds hold only pairs that are linked"));
-    std::vector<prediction::PairSampleFile> empty = drawn_files(4);
-    for (prediction::PairSampleFile& file : empty) {
+    std::vector<samples::PairSampleFile> empty = drawn_files(4);
+    for (samples::PairSampleFile& file : empty) {
         file.features.clear();
         file.linked.clear();
     }
     EXPECT_THAT(refusal(empty), HasSubstr("the training seeds hold no candidate pair"));
-    std::vector<prediction::PairSampleFile> mixed = drawn_files(4);
+    std::vector<samples::PairSampleFile> mixed = drawn_files(4);
     mixed[2].origin.link_radius_m = 80.0;
     EXPECT_THAT(refusal(mixed), HasSubstr("links below 80 m"));
-    std::vector<prediction::PairSampleFile> constant = drawn_files(4);
-    for (prediction::PairSampleFile& file : constant) {
+    std::vector<samples::PairSampleFile> constant = drawn_files(4);
+    for (samples::PairSampleFile& file : constant) {
         for (prediction::PairFeatures& features : file.features)
             features[3] = 1.0F;
     }

@@ -84,7 +84,7 @@ TEST(LossCurve, leaves_a_gap_where_a_loss_is_not_finite) {
 }
 
 AsPublishedResult small_result() {
-    const prediction::PairDataset dataset{
+    const samples::PairDataset dataset{
         2, {0, 0, 1, 0, 2, 1}, {0, 1, 2, 0, 1}, {1, 2, 0, 2, 0}, {1, 1, 0, 1, 0}};
     TrainingConfig config;
     config.epochs = 4;
@@ -142,7 +142,7 @@ TEST(Outputs, files_of_one_content_are_named) {
 }
 
 TEST(Outputs, too_few_pairs_are_told_with_their_file) {
-    const prediction::PairDataset one{2, {0, 0, 1, 0}, {0}, {1}, {1}};
+    const samples::PairDataset one{2, {0, 0, 1, 0}, {0}, {1}, {1}};
     try {
         train_as_published(one, PairChoice::true_only, {}, {}, "data");
         FAIL() << "accepted";

@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
-#include "prediction/graph_sample.hpp"
+#include "samples/graph_sample.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_samples.hpp"
 
@@ -167,7 +167,7 @@ TEST_F(TrainProgramTest, divergence_exits_with_1_says_so_and_keeps_a_model) {
 
 TEST_F(TrainProgramTest, corrected_training_reads_sample_files) {
     for (const auto& file : synthetic_files(4, 5)) {
-        prediction::GraphSampleWriter writer(file.origin);
+        samples::GraphSampleWriter writer(file.origin);
         for (const auto& sample : file.samples)
             writer.add(sample);
         writer.write(folder_.path() / ("line_B10_" + std::to_string(file.origin.replication) + ".samples"));

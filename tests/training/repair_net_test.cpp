@@ -16,7 +16,7 @@ namespace {
 using prediction::BelievedMotion;
 using prediction::Kernel;
 using prediction::RepairNet;
-using prediction::RepairSample;
+using samples::RepairSample;
 
 RepairNetConfig sizes(std::uint32_t hidden, std::uint32_t layers) {
     RepairNetConfig config;

@@ -15,7 +15,7 @@
 namespace clearway::training {
 namespace {
 
-using prediction::RepairSampleFile;
+using samples::RepairSampleFile;
 using ::testing::HasSubstr;
 
 std::vector<RepairSampleFile> runs(std::uint32_t count, int samples = 12) {
@@ -172,7 +172,7 @@ TEST(TrainRepair, says_what_the_data_lack) {
     EXPECT_THAT(message_of([] { train_repair(runs(2), {}, {}); }), HasSubstr("3 seeds or more"));
     std::vector<RepairSampleFile> one_class = runs(4, 4);
     for (RepairSampleFile& file : one_class) {
-        for (prediction::RepairSample& sample : file.samples)
+        for (samples::RepairSample& sample : file.samples)
             std::ranges::fill(sample.linked, std::uint8_t{0});
     }
     EXPECT_THAT(message_of([&] { train_repair(one_class, {}, {}); }),
@@ -215,8 +215,8 @@ TEST(TrainRepair, ablations_leave_out_what_they_say) {
 
 TEST(TrainRepair, samples_easy_pairs_without_changing_what_they_weigh) {
     SyntheticRepair world(5);
-    const prediction::RepairSample sample = world.sample(3.0);
-    const prediction::RepairSample* const one = &sample;
+    const samples::RepairSample sample = world.sample(3.0);
+    const samples::RepairSample* const one = &sample;
     const RepairBatch all = batch_of(std::span(&one, 1), MessageEdges::believed);
     double weight = 0.0;
     std::size_t pairs = 0;
@@ -281,8 +281,8 @@ class RepairSampleFileTest : public ::testing::Test {
     std::filesystem::path write() {
         SyntheticRepair world(1);
         file_ = world.file(4, 3);
-        prediction::RepairSampleWriter writer(file_.origin);
-        for (const prediction::RepairSample& sample : file_.samples)
+        samples::RepairSampleWriter writer(file_.origin);
+        for (const samples::RepairSample& sample : file_.samples)
             writer.add(sample);
         const std::filesystem::path path = folder_.path() / "some.samples";
         writer.write(path);
@@ -293,7 +293,7 @@ class RepairSampleFileTest : public ::testing::Test {
 };
 
 TEST_F(RepairSampleFileTest, what_was_written_is_read) {
-    const RepairSampleFile read = prediction::read_repair_samples(write());
+    const RepairSampleFile read = samples::read_repair_samples(write());
     EXPECT_EQ(read.origin, file_.origin);
     ASSERT_EQ(read.samples.size(), 3u);
     for (std::size_t at = 0; at < 3; ++at) {
@@ -318,20 +318,19 @@ TEST_F(RepairSampleFileTest, a_file_cut_or_changed_is_refused) {
     const std::string bytes = core::read_file(path);
     for (const std::size_t size : {std::size_t{10}, bytes.size() / 2, bytes.size() - 3}) {
         core::write_atomically(path, bytes.substr(0, size));
-        EXPECT_NE(message_of([&] { prediction::read_repair_samples(path); }), "") << size;
+        EXPECT_NE(message_of([&] { samples::read_repair_samples(path); }), "") << size;
     }
     std::string changed = bytes;
     changed[bytes.size() / 2] ^= 1;
     core::write_atomically(path, changed);
-    EXPECT_THAT(message_of([&] { prediction::read_repair_samples(path); }),
-                HasSubstr("its content hashes to"));
+    EXPECT_THAT(message_of([&] { samples::read_repair_samples(path); }), HasSubstr("its content hashes to"));
 }
 
 TEST_F(RepairSampleFileTest, numbers_that_contradict_each_other_are_a_fault_of_the_recorder) {
     SyntheticRepair world(1);
-    const prediction::RepairSample good = world.sample(0.0);
-    prediction::RepairSampleWriter writer({"line", "B10", prediction::repair_schema(), 1, 0, 50.0});
-    prediction::RepairSample bad = good;
+    const samples::RepairSample good = world.sample(0.0);
+    samples::RepairSampleWriter writer({"line", "B10", prediction::repair_schema(), 1, 0, 50.0});
+    samples::RepairSample bad = good;
     bad.inputs.source.front() = 1000;
     EXPECT_THROW(writer.add(bad), std::logic_error);
     bad = good;

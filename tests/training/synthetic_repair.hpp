@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "prediction/repair_sample.hpp"
+#include "samples/repair_sample.hpp"
 
 namespace clearway::training {
 
@@ -14,17 +14,17 @@ class SyntheticRepair {
   public:
     explicit SyntheticRepair(std::uint32_t seed) : random_(seed) {}
 
-    prediction::RepairSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
-        prediction::RepairSampleFile file;
+    samples::RepairSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
+        samples::RepairSampleFile file;
         file.origin = {"line", failure, prediction::repair_schema(), 1, replication, 50.0};
         for (int second = 0; second < samples; ++second)
             file.samples.push_back(sample(second));
         return file;
     }
 
-    prediction::RepairSample sample(double time_s) {
+    samples::RepairSample sample(double time_s) {
         constexpr std::uint32_t rows = 24;
-        prediction::RepairSample sample;
+        samples::RepairSample sample;
         sample.time_s = time_s;
         prediction::RepairInputs& inputs = sample.inputs;
         inputs.rows = rows;
@@ -85,7 +85,7 @@ class SyntheticRepair {
     }
 
     void add_pair(prediction::RowPair pair, const std::vector<float>& true_x_m,
-                  prediction::RepairSample& sample) {
+                  samples::RepairSample& sample) {
         const float distance_m =
             std::abs(rule_x_m(sample.inputs, pair.left) - rule_x_m(sample.inputs, pair.right));
         sample.inputs.pairs.push_back(pair);

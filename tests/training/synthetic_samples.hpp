@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "prediction/features.hpp"
-#include "prediction/graph_sample.hpp"
+#include "samples/graph_sample.hpp"
 
 namespace clearway::training {
 
@@ -17,8 +17,8 @@ class SyntheticRun {
   public:
     explicit SyntheticRun(std::uint32_t seed) : random_(seed) {}
 
-    prediction::GraphSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
-        prediction::GraphSampleFile file;
+    samples::GraphSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
+        samples::GraphSampleFile file;
         file.origin = {"line", failure, prediction::corrected_schema(), 1, replication, 50.0};
         for (int second = 0; second < samples; ++second)
             file.samples.push_back(sample(second));
@@ -30,8 +30,8 @@ class SyntheticRun {
         float true_x, believed_x, age;
     };
 
-    prediction::GraphSample sample(double time_s) {
-        prediction::GraphSample sample;
+    samples::GraphSample sample(double time_s) {
+        samples::GraphSample sample;
         sample.time_s = time_s;
         sample.vehicle_count = 25;
         std::vector<Point> points;
@@ -60,7 +60,7 @@ class SyntheticRun {
     }
 
     static void add_pair(const std::vector<Point>& points, std::uint32_t left, std::uint32_t right,
-                         prediction::GraphSample& sample) {
+                         samples::GraphSample& sample) {
         const float believed = std::abs(points[left].believed_x - points[right].believed_x);
         const bool linked = std::abs(points[left].true_x - points[right].true_x) < 50.0F;
         if (points[left].age == 0.0F && points[right].age == 0.0F) {
@@ -74,8 +74,8 @@ class SyntheticRun {
     std::uniform_real_distribution<float> uniform_{0.0F, 1.0F};
 };
 
-inline std::vector<prediction::GraphSampleFile> synthetic_files(std::uint32_t seeds, int samples_each) {
-    std::vector<prediction::GraphSampleFile> files;
+inline std::vector<samples::GraphSampleFile> synthetic_files(std::uint32_t seeds, int samples_each) {
+    std::vector<samples::GraphSampleFile> files;
     for (std::uint32_t replication = 0; replication < seeds; ++replication) {
         files.push_back(SyntheticRun(100 + replication).file(replication, samples_each));
     }

@@ -9,7 +9,7 @@ namespace clearway::report::detail {
 
 /// What is drawn of one failure: the pooled results of some predictors, with the style of each.
 struct DrawnResult {
-    const analysis::LinkResult* result = nullptr;
+    const links::LinkResult* result = nullptr;
     std::size_t series = 0;
 };
 

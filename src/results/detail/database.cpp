@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/fields.hpp"
 #include "core/files.hpp"
-#include "results/detail/json.hpp"
+#include "core/json.hpp"
 
 namespace clearway::results::detail {
 namespace {
@@ -81,7 +81,7 @@ class Inserter {
     void add_fields(const Struct& source) {
         core::for_each_field<Struct>([&](const auto& field) { add(source.*field.member); });
     }
-    void add_key(const RunKey& key) {
+    void add_key(const experiment::RunKey& key) {
         add(std::string_view(key.scenario));
         add(std::string_view(key.condition));
         add(key.replication);
@@ -100,7 +100,7 @@ class Inserter {
 
 template <class Value>
 constexpr const char* column_type() {
-    if constexpr (OptionalValue<Value>::value) {
+    if constexpr (core::OptionalValue<Value>::value) {
         return column_type<typename Value::value_type>();
     } else if constexpr (std::is_integral_v<Value>) {
         return "INTEGER";
@@ -147,7 +147,7 @@ void write_study(Database& database, const Manifest& manifest) {
 void create_tables(Database& database) {
     database.execute(fmt::format(
         "CREATE TABLE runs ({}, safety_checks TEXT{}{}, PRIMARY KEY (scenario, condition, replication))",
-        key_columns, columns<metrics::RunMetrics>(), columns<Provenance>()));
+        key_columns, columns<metrics::RunMetrics>(), columns<experiment::Provenance>()));
     database.execute(
         fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
@@ -173,11 +173,11 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
 struct DatabaseWriter::Tables {
     Tables(const std::filesystem::path& part, const Manifest& manifest)
         : database(begin_database(part, manifest)),
-          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, Provenance>(1)),
+          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(1)),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
           failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
 
-    void add_failure(const RunKey& key, std::string_view outcome, std::string_view cause,
+    void add_failure(const experiment::RunKey& key, std::string_view outcome, std::string_view cause,
                      std::string_view message) {
         failures.add_key(key);
         failures.add(outcome);
@@ -215,7 +215,7 @@ void DatabaseWriter::discard() {
 void DatabaseWriter::add(const RunRecord& run) {
     Inserter& row = tables_->runs;
     row.add_key(run.key);
-    row.add(name(run.condition.safety_checks));
+    row.add(experiment::name(run.condition.safety_checks));
     row.add_fields(run.metrics);
     row.add_fields(run.provenance);
     row.insert();
@@ -223,7 +223,7 @@ void DatabaseWriter::add(const RunRecord& run) {
         add(run.key, vehicle);
 }
 
-void DatabaseWriter::add(const RunKey& key, const metrics::VehicleRow& vehicle) {
+void DatabaseWriter::add(const experiment::RunKey& key, const metrics::VehicleRow& vehicle) {
     Inserter& row = tables_->vehicles;
     row.add_key(key);
     row.add(std::string_view(vehicle.id));
@@ -238,7 +238,7 @@ void DatabaseWriter::add(const FailureRecord& failure) {
     tables_->add_failure(failure.key, "failed", name(failure.cause), failure.message);
 }
 
-void DatabaseWriter::add_missing(const RunKey& key) {
+void DatabaseWriter::add_missing(const experiment::RunKey& key) {
     tables_->add_failure(key, "missing", "", "");
 }
 

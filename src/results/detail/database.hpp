@@ -19,12 +19,12 @@ class DatabaseWriter {
 
     void add(const RunRecord& run);
     void add(const FailureRecord& failure);
-    void add_missing(const RunKey& key);
+    void add_missing(const experiment::RunKey& key);
     void finish();
 
   private:
     struct Tables;
-    void add(const RunKey& key, const metrics::VehicleRow& vehicle);
+    void add(const experiment::RunKey& key, const metrics::VehicleRow& vehicle);
     void discard();
 
     std::filesystem::path file_;

@@ -2,22 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "core/csv_table.hpp"
 #include "core/files.hpp"
-#include "results/detail/condition_json.hpp"
-#include "results/detail/csv.hpp"
-#include "results/detail/json.hpp"
+#include "core/json.hpp"
+#include "experiment/condition_json.hpp"
 #include "results/detail/traffic_files.hpp"
 
 namespace clearway::results::detail {
 namespace {
 
-void write_key(Json& object, const RunKey& key) {
+void write_key(core::Json& object, const experiment::RunKey& key) {
     object["scenario"] = key.scenario;
     object["condition"] = key.condition;
     object["replication"] = key.replication;
 }
 
-void read_key(ObjectReader& reader, RunKey& key) {
+void read_key(core::ObjectReader& reader, experiment::RunKey& key) {
     reader.read("scenario", key.scenario);
     reader.read("condition", key.condition);
     reader.read("replication", key.replication);
@@ -43,7 +43,7 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
     std::size_t column = first_number;
     core::for_each_field<metrics::VehicleRow>([&](const auto& field) {
         if (column == cells.size()) throw std::runtime_error("is too short");
-        read_cell(cells[column++], row.*field.member);
+        core::read_cell(cells[column++], row.*field.member);
     });
     if (column != cells.size()) throw std::runtime_error("is too long");
     const auto vehicle_class = traffic::vehicle_class_from(cells[1]);
@@ -62,31 +62,33 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
 }  // namespace
 
 std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv) {
-    Json object;
+    core::Json object;
     write_key(object, record.key);
     object["condition_spec"] = to_json(record.condition);
-    write_fields(object["provenance"], record.provenance);
-    write_fields(object["metrics"], record.metrics);
+    core::write_fields(object["provenance"], record.provenance);
+    core::write_fields(object["metrics"], record.metrics);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
-    if (Json traffic = traffic_to_json(record.traffic); !traffic.is_null())
+    if (core::Json traffic = traffic_to_json(record.traffic); !traffic.is_null())
         object["traffic"] = std::move(traffic);
-    object[hash_key] = core::content_hash(to_text(object));
-    return to_text(object);
+    object[hash_key] = core::content_hash(core::to_text(object));
+    return core::to_text(object);
 }
 
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where) {
-    const Json object = parse_object(text, where);
+    const core::Json object = core::parse_object(text, where);
     RunRecord record;
     std::string hash;
     std::string vehicles_hash;
     std::vector<core::Problem> problems;
-    ObjectReader reader(object, where, problems);
+    core::ObjectReader reader(object, where, problems);
     reader.read(hash_key, hash);
     read_key(reader, record.key);
-    record.condition = condition_from(reader.child("condition_spec", Json::value_t::object), where, problems);
-    ObjectReader(reader.child("provenance", Json::value_t::object), where + ": provenance", problems)
+    record.condition = experiment::condition_from(reader.child("condition_spec", core::Json::value_t::object),
+                                                  where, problems);
+    core::ObjectReader(reader.child("provenance", core::Json::value_t::object), where + ": provenance",
+                       problems)
         .read_fields(record.provenance);
-    ObjectReader(reader.child("metrics", Json::value_t::object), where + ": metrics", problems)
+    core::ObjectReader(reader.child("metrics", core::Json::value_t::object), where + ": metrics", problems)
         .read_fields(record.metrics);
     reader.read("vehicles_hash", vehicles_hash);
     if (problems.empty() && hash != core::content_hash(without_hash(text)))
@@ -100,14 +102,15 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
 
 std::string vehicle_header() {
     std::string line = "id,class,kind,outcome";
-    append_header<metrics::VehicleRow>(line);
+    core::append_header<metrics::VehicleRow>(line);
     return line;
 }
 
 std::string vehicle_cells(const metrics::VehicleRow& vehicle) {
-    std::string line = fmt::format("{},{},{},{}", csv_text(vehicle.id), traffic::name(vehicle.vehicle_class),
-                                   traffic::name(vehicle.kind), metrics::name(vehicle.outcome));
-    append_cells(line, vehicle);
+    std::string line =
+        fmt::format("{},{},{},{}", core::csv_text(vehicle.id), traffic::name(vehicle.vehicle_class),
+                    traffic::name(vehicle.kind), metrics::name(vehicle.outcome));
+    core::append_cells(line, vehicle);
     return line;
 }
 
@@ -125,7 +128,7 @@ std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, cons
         throw core::InputError({where + ":1", "is not the header of this version", vehicle_header(), ""});
     std::size_t line = 1;
     try {
-        CsvReader reader(text);
+        core::CsvReader reader(text);
         reader.next();
         for (; reader.next(); ++line) {
             const bool wanted = rows == VehicleRows::all || reader.cells().size() <= 1 ||
@@ -139,22 +142,22 @@ std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, cons
 }
 
 std::string timing_to_json(const RunTiming& timing) {
-    Json object;
-    write_fields(object, timing);
-    return to_text(object);
+    core::Json object;
+    core::write_fields(object, timing);
+    return core::to_text(object);
 }
 
 RunTiming timing_from_json(const std::string& text, const std::string& where) {
-    const Json object = parse_object(text, where);
+    const core::Json object = core::parse_object(text, where);
     RunTiming timing;
     std::vector<core::Problem> problems;
-    ObjectReader(object, where, problems).read_fields(timing);
+    core::ObjectReader(object, where, problems).read_fields(timing);
     if (!problems.empty()) throw core::InputError(problems);
     return timing;
 }
 
 std::string failure_to_json(const FailureRecord& failure) {
-    Json object;
+    core::Json object;
     write_key(object, failure.key);
     object["cause"] = name(failure.cause);
     object["message"] = failure.message;
@@ -163,14 +166,14 @@ std::string failure_to_json(const FailureRecord& failure) {
     object["attempts"] = failure.attempts;
     object["log_tail"] = failure.log_tail;
     object["command"] = failure.command;
-    return to_text(object);
+    return core::to_text(object);
 }
 
 FailureRecord failure_from_json(const std::string& text, const std::string& where) {
-    const Json object = parse_object(text, where);
+    const core::Json object = core::parse_object(text, where);
     FailureRecord failure;
     std::vector<core::Problem> problems;
-    ObjectReader reader(object, where, problems);
+    core::ObjectReader reader(object, where, problems);
     read_key(reader, failure.key);
     reader.read_name("cause", failure.cause, failure_cause_from);
     reader.read("message", failure.message);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "results/detail/csv.hpp"
+#include "core/csv_table.hpp"
 
 namespace clearway::results::detail {
 namespace {
@@ -15,10 +15,11 @@ using metrics::RecoveryRow;
 
 /// The words that stand before the numbers of a row.
 std::string words_of(const ApproachRow& row) {
-    return fmt::format("{},{}", csv_text(row.edge), traffic::name(row.vehicle_class));
+    return fmt::format("{},{}", core::csv_text(row.edge), traffic::name(row.vehicle_class));
 }
 std::string words_of(const JourneyRow& row) {
-    return fmt::format("{},{},{}", csv_text(row.vehicle), csv_text(row.signal), csv_text(row.state));
+    return fmt::format("{},{},{}", core::csv_text(row.vehicle), core::csv_text(row.signal),
+                       core::csv_text(row.state));
 }
 
 using Cells = std::vector<std::string_view>;
@@ -44,31 +45,31 @@ template <class Row>
 std::string to_csv(const std::vector<Row>& rows, const char* words) {
     if (rows.empty()) return {};
     std::string head = words;
-    append_header<Row>(head);
+    core::append_header<Row>(head);
     std::string text = (head.starts_with(',') ? head.substr(1) : head) + "\n";
     for (const Row& row : rows) {
         std::string line;
         if constexpr (!std::is_same_v<Row, RecoveryRow>) line = words_of(row);
-        append_cells(line, row);
+        core::append_cells(line, row);
         text += (line.starts_with(',') && *words == '\0' ? line.substr(1) : line) + "\n";
     }
     return text;
 }
 
 template <class Row>
-std::vector<Row> from_csv(const Json& run, const char* name, const std::string& where) {
+std::vector<Row> from_csv(const core::Json& run, const char* name, const std::string& where) {
     const auto tables = run.find("traffic");
     if (tables == run.end()) return {};
     std::vector<Row> rows;
     std::size_t line = 1;
     try {
-        CsvReader reader(tables->at(name).get_ref<const std::string&>());
+        core::CsvReader reader(tables->at(name).get_ref<const std::string&>());
         reader.next();
         for (; reader.next(); ++line) {
             Row row;
             std::size_t column = read_words(reader.cells(), row);
             core::for_each_field<Row>(
-                [&](const auto& field) { read_cell(reader.cells().at(column++), row.*field.member); });
+                [&](const auto& field) { core::read_cell(reader.cells().at(column++), row.*field.member); });
             rows.push_back(std::move(row));
         }
     } catch (const std::exception& error) {
@@ -80,21 +81,21 @@ std::vector<Row> from_csv(const Json& run, const char* name, const std::string& 
 
 }  // namespace
 
-Json traffic_to_json(const metrics::TrafficTables& tables) {
+core::Json traffic_to_json(const metrics::TrafficTables& tables) {
     if (tables == metrics::TrafficTables{}) return nullptr;
-    Json object;
+    core::Json object;
     object["approaches"] = to_csv(tables.approaches, "edge,class");
     object["recovery"] = to_csv(tables.recovery, "");
     object["journeys"] = to_csv(tables.journeys, "vehicle,signal,state");
     return object;
 }
 
-metrics::TrafficTables traffic_from_json(const Json& run, const std::string& where) {
+metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where) {
     return {
         from_csv<ApproachRow>(run, "approaches", where), from_csv<RecoveryRow>(run, "recovery", where), {}};
 }
 
-std::vector<JourneyRow> journeys_from_json(const Json& run, const std::string& where) {
+std::vector<JourneyRow> journeys_from_json(const core::Json& run, const std::string& where) {
     return from_csv<JourneyRow>(run, "journeys", where);
 }
 

@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "metrics/traffic_tables.hpp"
-#include "results/detail/json.hpp"
 
 namespace clearway::results::detail {
 
 /// The tables of a run as CSV texts of one JSON object: they stay with the run's other numbers in one file,
 /// which is written, flushed and compared as a whole. Nothing for tables that are all empty.
-Json traffic_to_json(const metrics::TrafficTables& tables);
+core::Json traffic_to_json(const metrics::TrafficTables& tables);
 
 /// Approaches and recovery; journeys are left where they are, for they are large and few readers want them.
 /// Throws core::InputError, naming `where`.
-metrics::TrafficTables traffic_from_json(const Json& run, const std::string& where);
-std::vector<metrics::JourneyRow> journeys_from_json(const Json& run, const std::string& where);
+metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where);
+std::vector<metrics::JourneyRow> journeys_from_json(const core::Json& run, const std::string& where);
 
 }  // namespace clearway::results::detail

@@ -41,11 +41,12 @@ void NetworkBuilder::begin_additional(const std::filesystem::path& file) {
 }
 
 /// Signals of railways are not among the known ones.
-bool NetworkBuilder::is_known_program(std::string_view element, const XmlAttributes& attributes) const {
+bool NetworkBuilder::is_known_program(std::string_view element, const core::XmlAttributes& attributes) const {
     return element == "tlLogic" && network_.find_signal(attributes.find("id").value_or(""));
 }
 
-void NetworkBuilder::start(std::string_view element, const XmlAttributes& attributes, unsigned long line) {
+void NetworkBuilder::start(std::string_view element, const core::XmlAttributes& attributes,
+                           unsigned long line) {
     line_ = line;
     ++depth_;
     if (depth_ == 1) {
@@ -89,12 +90,12 @@ void NetworkBuilder::add_problem(std::string what, std::string allowed, std::str
     throw core::InputError(std::move(problems_));
 }
 
-double NetworkBuilder::number_or(const XmlAttributes& attributes, const char* name, double minimum,
+double NetworkBuilder::number_or(const core::XmlAttributes& attributes, const char* name, double minimum,
                                  double maximum, double missing) {
     return attributes.find(name) ? number(attributes, name, minimum, maximum) : missing;
 }
 
-double NetworkBuilder::number(const XmlAttributes& attributes, const char* name, double minimum,
+double NetworkBuilder::number(const core::XmlAttributes& attributes, const char* name, double minimum,
                               double maximum) {
     const std::string_view given = attributes.find(name).value_or("");
     const auto value = detail::parse_number(given);
@@ -105,13 +106,13 @@ double NetworkBuilder::number(const XmlAttributes& attributes, const char* name,
     return 0.0;
 }
 
-std::string NetworkBuilder::text(const XmlAttributes& attributes, const char* name) {
+std::string NetworkBuilder::text(const core::XmlAttributes& attributes, const char* name) {
     const auto value = attributes.find(name);
     if (!value || value->empty()) add_problem(fmt::format("lacks the attribute {}", name));
     return std::string(value.value_or(""));
 }
 
-std::vector<Point> NetworkBuilder::shape(const XmlAttributes& attributes) {
+std::vector<Point> NetworkBuilder::shape(const core::XmlAttributes& attributes) {
     const std::string_view given = attributes.find("shape").value_or("");
     std::vector<Point> points;
     bool sound = true;
@@ -131,7 +132,7 @@ std::vector<Point> NetworkBuilder::shape(const XmlAttributes& attributes) {
     return points;
 }
 
-void NetworkBuilder::read_location(const XmlAttributes& attributes) {
+void NetworkBuilder::read_location(const core::XmlAttributes& attributes) {
     std::vector<double> numbers;
     const std::string given = text(attributes, "netOffset") + "," + text(attributes, "convBoundary");
     detail::for_each_word(given, ',', [&](std::string_view word) {
@@ -147,7 +148,7 @@ void NetworkBuilder::read_location(const XmlAttributes& attributes) {
                           numbers[4], numbers[5]};
 }
 
-void NetworkBuilder::read_edge(const XmlAttributes& attributes) {
+void NetworkBuilder::read_edge(const core::XmlAttributes& attributes) {
     Edge edge;
     edge.id = text(attributes, "id");
     edge.name = attributes.find("name").value_or("");
@@ -169,7 +170,7 @@ void NetworkBuilder::read_edge(const XmlAttributes& attributes) {
     network_.edges_.push_back(std::move(edge));
 }
 
-void NetworkBuilder::read_lane(const XmlAttributes& attributes) {
+void NetworkBuilder::read_lane(const core::XmlAttributes& attributes) {
     Edge& edge = network_.edges_.back();
     Lane lane;
     lane.id = text(attributes, "id");
@@ -203,7 +204,7 @@ void NetworkBuilder::end_edge() {
     if (edge.lane_count == 0) add_problem(fmt::format("edge \"{}\" has no lane", edge.id));
 }
 
-void NetworkBuilder::read_program(const XmlAttributes& attributes) {
+void NetworkBuilder::read_program(const core::XmlAttributes& attributes) {
     const std::string id = text(attributes, "id");
     const auto row = static_cast<std::uint32_t>(network_.signals_.size());
     const auto [entry, is_new] = network_.signal_rows_.try_emplace(id, row);
@@ -219,7 +220,7 @@ void NetworkBuilder::read_program(const XmlAttributes& attributes) {
     phases_.clear();
 }
 
-void NetworkBuilder::read_phase(const XmlAttributes& attributes) {
+void NetworkBuilder::read_phase(const core::XmlAttributes& attributes) {
     phases_.push_back({number(attributes, "duration", 0, any), text(attributes, "state")});
     const Phase& phase = phases_.back();
     if (phase.state.size() != phases_.front().state.size()) {
@@ -263,7 +264,7 @@ void NetworkBuilder::end_program() {
     signal.fixed_time = is_fixed_time_;
 }
 
-void NetworkBuilder::read_junction(const XmlAttributes& attributes) {
+void NetworkBuilder::read_junction(const core::XmlAttributes& attributes) {
     const std::string_view type = attributes.find("type").value_or("");
     in_junction_ = type.starts_with("traffic_light");
     if (type.starts_with("rail_")) railway_signals_.insert(text(attributes, "id"));
@@ -275,7 +276,7 @@ void NetworkBuilder::read_junction(const XmlAttributes& attributes) {
     junctions_.push_back(std::move(junction));
 }
 
-void NetworkBuilder::read_request(const XmlAttributes& attributes) {
+void NetworkBuilder::read_request(const core::XmlAttributes& attributes) {
     Junction& junction = junctions_.back();
     const double index = number(attributes, "index", 0, 1e4);
     if (index != static_cast<double>(junction.foes.size())) {
@@ -284,7 +285,7 @@ void NetworkBuilder::read_request(const XmlAttributes& attributes) {
     junction.foes.push_back(text(attributes, "foes"));
 }
 
-core::LaneIndex NetworkBuilder::connection_end(const XmlAttributes& attributes, const char* edge_name,
+core::LaneIndex NetworkBuilder::connection_end(const core::XmlAttributes& attributes, const char* edge_name,
                                                const char* lane_name) {
     const std::string id = text(attributes, edge_name);
     const auto edge = network_.find_edge(id);
@@ -301,7 +302,7 @@ core::LaneIndex NetworkBuilder::connection_end(const XmlAttributes& attributes, 
     return lane;
 }
 
-void NetworkBuilder::read_connection(const XmlAttributes& attributes) {
+void NetworkBuilder::read_connection(const core::XmlAttributes& attributes) {
     Connection connection;
     connection.from = connection_end(attributes, "from", "fromLane");
     connection.to = connection_end(attributes, "to", "toLane");
@@ -328,7 +329,7 @@ void NetworkBuilder::read_connection(const XmlAttributes& attributes) {
     network_.connections_.push_back(connection);
 }
 
-void NetworkBuilder::set_signal(const XmlAttributes& attributes, Connection& connection) {
+void NetworkBuilder::set_signal(const core::XmlAttributes& attributes, Connection& connection) {
     const auto id = attributes.find("tl");
     if (!id || railway_signals_.contains(std::string(*id))) return;
     const auto signal = network_.find_signal(*id);

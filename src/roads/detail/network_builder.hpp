@@ -9,21 +9,21 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/xml_stream.hpp"
 #include "roads/network.hpp"
-#include "roads/xml_stream.hpp"
 
 namespace clearway::roads {
 
 /// Turns the elements of a network file, and the signal programs of additional files after it, into a
 /// Network. Elements must come in SUMO's order: edges, signal programs, junctions, connections. Problems are
 /// collected (at most 20) and thrown at the end.
-class NetworkBuilder : public XmlHandler {
+class NetworkBuilder : public core::XmlHandler {
   public:
     explicit NetworkBuilder(const std::filesystem::path& file) : file_(file.string()) {}
 
     /// What is read from now on comes from an additional file; only its programs of known signals count.
     void begin_additional(const std::filesystem::path& file);
-    void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) override;
+    void start(std::string_view element, const core::XmlAttributes& attributes, unsigned long line) override;
     void end(std::string_view element) override;
     /// Everything that needs the whole file. Throws core::InputError with all problems met.
     Network finish();
@@ -41,28 +41,28 @@ class NetworkBuilder : public XmlHandler {
         std::uint16_t link = 0;
     };
 
-    bool is_known_program(std::string_view element, const XmlAttributes& attributes) const;
+    bool is_known_program(std::string_view element, const core::XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
     /// A required number; reports a missing, malformed or out-of-range one and answers 0.
-    double number(const XmlAttributes& attributes, const char* name, double minimum, double maximum);
-    double number_or(const XmlAttributes& attributes, const char* name, double minimum, double maximum,
+    double number(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum);
+    double number_or(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum,
                      double missing);
-    std::string text(const XmlAttributes& attributes, const char* name);
-    std::vector<Point> shape(const XmlAttributes& attributes);
+    std::string text(const core::XmlAttributes& attributes, const char* name);
+    std::vector<Point> shape(const core::XmlAttributes& attributes);
 
-    void read_location(const XmlAttributes& attributes);
-    void read_edge(const XmlAttributes& attributes);
-    void read_lane(const XmlAttributes& attributes);
+    void read_location(const core::XmlAttributes& attributes);
+    void read_edge(const core::XmlAttributes& attributes);
+    void read_lane(const core::XmlAttributes& attributes);
     void end_edge();
-    void read_program(const XmlAttributes& attributes);
-    void read_phase(const XmlAttributes& attributes);
+    void read_program(const core::XmlAttributes& attributes);
+    void read_phase(const core::XmlAttributes& attributes);
     void end_program();
     std::size_t letters_in_use(const Signal& signal) const;
-    void read_junction(const XmlAttributes& attributes);
-    void read_request(const XmlAttributes& attributes);
-    void read_connection(const XmlAttributes& attributes);
-    void set_signal(const XmlAttributes& attributes, Connection& connection);
-    core::LaneIndex connection_end(const XmlAttributes& attributes, const char* edge_name,
+    void read_junction(const core::XmlAttributes& attributes);
+    void read_request(const core::XmlAttributes& attributes);
+    void read_connection(const core::XmlAttributes& attributes);
+    void set_signal(const core::XmlAttributes& attributes, Connection& connection);
+    core::LaneIndex connection_end(const core::XmlAttributes& attributes, const char* edge_name,
                                    const char* lane_name);
 
     void group_connections();

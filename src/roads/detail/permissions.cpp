@@ -17,7 +17,7 @@ Permissions listed(std::string_view classes) {
 
 }  // namespace
 
-Permissions permissions_of(const XmlAttributes& attributes) {
+Permissions permissions_of(const core::XmlAttributes& attributes) {
     const auto allow = attributes.find("allow");
     if (allow && !allow->empty()) return listed(*allow);
     const auto disallow = attributes.find("disallow");

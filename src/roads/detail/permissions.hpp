@@ -1,6 +1,6 @@
 #pragma once
 
-#include "roads/xml_stream.hpp"
+#include "core/xml_stream.hpp"
 
 namespace clearway::roads::detail {
 
@@ -12,6 +12,6 @@ struct Permissions {
 };
 
 /// SUMO's rule: `allow` alone counts when it is there, else everybody but those of `disallow`.
-Permissions permissions_of(const XmlAttributes& attributes);
+Permissions permissions_of(const core::XmlAttributes& attributes);
 
 }  // namespace clearway::roads::detail

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/settings.hpp"
-#include "results/loop_config.hpp"
+#include "experiment/loop_config.hpp"
 
 namespace clearway::study::detail {
 namespace {
@@ -104,7 +104,7 @@ void check_names(const std::vector<Factor>& factors, Problems& problems) {
             std::ranges::find(condition_keys, factor.key) == condition_keys.end())
             add_unknown(factor.where, factor.key, condition_keys, problems);
         if (factor.group != "loop") continue;
-        results::LoopConfig loop;
+        experiment::LoopConfig loop;
         for (const FactorValue& value : factor.values) {
             for (const core::Problem& problem : core::apply_settings({{factor.key, value.text}}, "", loop))
                 problems.push_back({factor.where, problem.what, problem.allowed, problem.cure});
@@ -122,16 +122,16 @@ void set_word(const Factor& factor, const FactorValue& value, FromName&& from_na
     }
 }
 
-void set_condition_key(const Factor& factor, const FactorValue& value, results::ConditionSpec& condition,
+void set_condition_key(const Factor& factor, const FactorValue& value, experiment::ConditionSpec& condition,
                        Problems& problems) {
     if (factor.key == "failure") condition.failure = value.text;
     if (factor.key == "predictor") condition.predictor = value.text;
     if (factor.key == "parts") condition.parts = value.words.empty() ? std::vector{value.text} : value.words;
-    if (factor.key == "engine") set_word(factor, value, results::engine_from, condition.engine, problems);
+    if (factor.key == "engine") set_word(factor, value, experiment::engine_from, condition.engine, problems);
     if (factor.key == "bluelight")
-        set_word(factor, value, results::switch_from<traffic::BlueLight>, condition.bluelight, problems);
+        set_word(factor, value, experiment::switch_from<traffic::BlueLight>, condition.bluelight, problems);
     if (factor.key == "safety_checks")
-        set_word(factor, value, results::switch_from<traffic::SafetyChecks>, condition.safety_checks,
+        set_word(factor, value, experiment::switch_from<traffic::SafetyChecks>, condition.safety_checks,
                  problems);
 }
 
@@ -202,8 +202,8 @@ std::string name_of(const Assignment& assignment, const std::vector<Factor>& fac
     return name;
 }
 
-results::ConditionSpec with(results::ConditionSpec condition, const Assignment& assignment,
-                            Problems& problems) {
+experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
+                               Problems& problems) {
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
         // Groups come in the order of their names, so the failure itself is set before its fields.
@@ -213,11 +213,11 @@ results::ConditionSpec with(results::ConditionSpec condition, const Assignment& 
     return condition;
 }
 
-bool is_varied(const results::ConditionSpec& condition) {
-    results::ConditionSpec plain;
+bool is_varied(const experiment::ConditionSpec& condition) {
+    experiment::ConditionSpec plain;
     plain.name = condition.name;
     plain.engine = condition.engine;
-    return condition.engine != results::Engine::solo && condition != plain;
+    return condition.engine != experiment::Engine::solo && condition != plain;
 }
 
 }  // namespace clearway::study::detail

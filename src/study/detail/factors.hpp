@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/error.hpp"
-#include "results/unit.hpp"
+#include "experiment/unit.hpp"
 
 namespace clearway::study::detail {
 
@@ -44,11 +44,11 @@ std::vector<Assignment> combinations(const std::vector<Factor>& factors,
 std::string name_of(const Assignment& assignment, const std::vector<Factor>& factors);
 
 /// The condition under a combination. What is wrong with it is added to `problems`.
-results::ConditionSpec with(results::ConditionSpec condition, const Assignment& assignment,
-                            std::vector<core::Problem>& problems);
+experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
+                               std::vector<core::Problem>& problems);
 
 /// Whether factors of conditions change anything: baselines and solo runs have no sensing, predictor or
 /// policy.
-bool is_varied(const results::ConditionSpec& condition);
+bool is_varied(const experiment::ConditionSpec& condition);
 
 }  // namespace clearway::study::detail

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+
+namespace clearway::core {
+
+/// Keeps the order of its keys, so that equal values give equal bytes.
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+struct OptionalValue : std::false_type {};
+template <class Value>
+struct OptionalValue<std::optional<Value>> : std::true_type {};
+
+/// Text of a value: two blanks of indent, a line end at the end. Bytes that are not UTF-8 are replaced, for
+/// names come from files of others.
+std::string to_text(const Json& json);
+
+/// Reads one object of a file strictly and collects what is wrong with it.
+class ObjectReader {
+  public:
+    ObjectReader(const Json& object, std::string where, std::vector<core::Problem>& problems);
+
+    /// A key that must be there.
+    template <class Value>
+    void read(const char* key, Value& target) {
+        const Json* node = find(key);
+        if (node == nullptr) return;
+        if constexpr (OptionalValue<Value>::value) {
+            if (node->is_null()) {
+                target = std::nullopt;
+            } else {
+                typename Value::value_type value{};
+                convert(key, *node, value);
+                target = value;
+            }
+        } else {
+            convert(key, *node, target);
+        }
+    }
+    /// A key that may be left out.
+    template <class Value>
+    void read_if_there(const char* key, Value& target) {
+        if (object_.is_object() && object_.contains(key)) read(key, target);
+    }
+    /// A key that must be there and hold the name of an enumerator.
+    template <class Enum, class FromName>
+    void read_name(const char* key, Enum& target, FromName&& from_name) {
+        std::string word;
+        read(key, word);
+        if (find(key) == nullptr) return;
+        if (const auto value = from_name(word)) {
+            target = *value;
+        } else {
+            problem(key, fmt::format("\"{}\" is not known", word));
+        }
+    }
+    /// Every member of a field table.
+    template <class Struct>
+    void read_fields(Struct& target) {
+        core::for_each_field<Struct>([&](const auto& field) { read(field.name, target.*field.member); });
+    }
+    /// A key that must hold an object or an array; an empty value when it does not.
+    const Json& child(const char* key, Json::value_t type);
+    void problem(const char* key, std::string what);
+
+  private:
+    const Json* find(const char* key);
+
+    template <class Value>
+    void convert(const char* key, const Json& node, Value& target) {
+        try {
+            if constexpr (std::is_arithmetic_v<Value>) {
+                if (!node.is_number()) return problem(key, "is not a number");
+            }
+            node.get_to(target);
+        } catch (const Json::exception&) {
+            problem(key, "is of another type");
+        }
+    }
+
+    const Json& object_;
+    std::string where_;
+    std::vector<core::Problem>& problems_;
+};
+
+/// Every member of a field table; null for an empty optional.
+template <class Struct>
+void write_fields(Json& object, const Struct& source) {
+    core::for_each_field<Struct>([&](const auto& field) {
+        const auto& value = source.*field.member;
+        if constexpr (OptionalValue<std::decay_t<decltype(value)>>::value) {
+            if (value) {
+                object[field.name] = *value;
+            } else {
+                object[field.name] = nullptr;
+            }
+        } else {
+            object[field.name] = value;
+        }
+    });
+}
+
+/// Throws core::InputError, naming `where`, for text that is not one JSON object.
+Json parse_object(const std::string& text, const std::string& where);
+
+}  // namespace clearway::core

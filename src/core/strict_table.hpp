@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "core/error.hpp"
+
+namespace clearway::core {
+
+/// Reads one table of a TOML file and collects what is wrong with it. Every key that is asked for becomes a
+/// valid one; `finish` reports the others.
+class StrictTable {
+  public:
+    StrictTable(const toml::table& table, std::string path, std::string file,
+                std::vector<core::Problem>& problems);
+
+    void text(const std::string& key, std::string& target);
+    void texts(const std::string& key, std::vector<std::string>& target);
+    void number(const std::string& key, std::optional<double>& target);
+    template <class Integer>
+    void integer(const std::string& key, Integer minimum, Integer maximum, Integer& target) {
+        const auto value = whole_number(key, minimum, maximum);
+        if (value) target = static_cast<Integer>(*value);
+    }
+    /// One of some words.
+    template <class Enum, class Target>
+    void word(const std::string& key, const std::vector<std::pair<std::string, Enum>>& words,
+              Target& target) {
+        std::string found;
+        text(key, found);
+        if (found.empty()) return;
+        std::string list;
+        for (const auto& [name, value] : words) {
+            if (name == found) {
+                target = value;
+                return;
+            }
+            list += (list.empty() ? "" : ", ") + name;
+        }
+        problem(key, "\"" + found + "\" is not known", list, "");
+    }
+    /// A subtable, or nullptr.
+    const toml::table* table(const std::string& key);
+    /// The tables of `[[key]]`.
+    std::vector<const toml::table*> tables(const std::string& key);
+    void finish();
+    bool has(const std::string& key) const { return table_.contains(key); }
+
+    /// `study.toml:3:1: condition.name`; of a key that is not there, the place of the table.
+    std::string where(const std::string& key) const;
+    void problem(const std::string& key, std::string what, std::string allowed, std::string cure);
+
+  private:
+    const toml::node* find(const std::string& key);
+    std::optional<std::int64_t> whole_number(const std::string& key, std::uint64_t minimum,
+                                             std::uint64_t maximum);
+
+    const toml::table& table_;
+    std::string path_;
+    std::string file_;
+    std::vector<core::Problem>& problems_;
+    std::set<std::string> known_;
+};
+
+/// Throws core::InputError with line and column for text that is not TOML.
+toml::table parse_toml(const std::string& text, const std::string& file);
+
+}  // namespace clearway::core

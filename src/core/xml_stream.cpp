@@ -1,0 +1,111 @@
+#include "core/xml_stream.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include <expat.h>
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include "core/error.hpp"
+
+namespace clearway::core {
+namespace {
+
+constexpr int chunk_bytes = 1 << 18;
+
+using ParserHandle = std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)>;
+using GzipHandle = std::unique_ptr<gzFile_s, decltype(&gzclose_r)>;
+
+/// What the callbacks need. Exceptions must not cross expat, which is C: they wait in `failure`.
+struct Job {
+    XML_Parser parser;
+    XmlHandler& handler;
+    std::exception_ptr failure;
+
+    template <class Action>
+    void guarded(const Action& action) {
+        if (failure) return;
+        try {
+            action();
+        } catch (...) {
+            failure = std::current_exception();
+            XML_StopParser(parser, XML_FALSE);
+        }
+    }
+};
+
+void on_start(void* user, const XML_Char* element, const XML_Char** attributes) {
+    auto& job = *static_cast<Job*>(user);
+    job.guarded(
+        [&] { job.handler.start(element, XmlAttributes(attributes), XML_GetCurrentLineNumber(job.parser)); });
+}
+
+void on_end(void* user, const XML_Char* element) {
+    auto& job = *static_cast<Job*>(user);
+    job.guarded([&] { job.handler.end(element); });
+}
+
+void on_text(void* user, const XML_Char* text, int length) {
+    auto& job = *static_cast<Job*>(user);
+    job.guarded([&] { job.handler.characters({text, static_cast<std::size_t>(length)}); });
+}
+
+[[noreturn]] void fail_unreadable(const std::filesystem::path& file, const std::string& reason) {
+    throw core::InputError({file.string(), "cannot be read: " + reason, "",
+                            "Check that the file exists, is readable and is complete"});
+}
+
+/// The next part of the file; 0 at its end.
+int read_chunk(gzFile input, void* buffer, const std::filesystem::path& file) {
+    const int count = gzread(input, buffer, chunk_bytes);
+    int code = Z_OK;
+    const char* reason = gzerror(input, &code);
+    if (count < 0 || code == Z_BUF_ERROR || code == Z_DATA_ERROR) {
+        fail_unreadable(file, code == Z_ERRNO ? std::strerror(errno) : reason);
+    }
+    return count;
+}
+
+[[noreturn]] void fail_at_parser(XML_Parser parser, const std::filesystem::path& file) {
+    throw core::InputError({fmt::format("{}:{}", file.string(), XML_GetCurrentLineNumber(parser)),
+                            fmt::format("is not valid XML: {}", XML_ErrorString(XML_GetErrorCode(parser))),
+                            "", "Check that the file is complete and was not edited by mistake"});
+}
+
+}  // namespace
+
+std::optional<std::string_view> XmlAttributes::find(std::string_view name) const {
+    for (const char** pair = pairs_; *pair != nullptr; pair += 2) {
+        if (name == pair[0]) return std::string_view(pair[1]);
+    }
+    return std::nullopt;
+}
+
+void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) fail_unreadable(file, "it is a folder");
+    errno = 0;
+    const GzipHandle input(gzopen(file.c_str(), "rb"), &gzclose_r);
+    if (!input) fail_unreadable(file, std::strerror(errno));
+    const ParserHandle parser(XML_ParserCreate(nullptr), &XML_ParserFree);
+    if (!parser) throw std::bad_alloc();
+
+    Job job{parser.get(), handler, nullptr};
+    XML_SetUserData(parser.get(), &job);
+    XML_SetElementHandler(parser.get(), on_start, on_end);
+    XML_SetCharacterDataHandler(parser.get(), on_text);
+    for (bool at_end = false; !at_end;) {
+        void* buffer = XML_GetBuffer(parser.get(), chunk_bytes);
+        if (buffer == nullptr) throw std::bad_alloc();
+        const int count = read_chunk(input.get(), buffer, file);
+        at_end = count == 0;
+        const XML_Status status = XML_ParseBuffer(parser.get(), count, at_end ? XML_TRUE : XML_FALSE);
+        if (job.failure) std::rethrow_exception(job.failure);
+        if (status == XML_STATUS_ERROR) fail_at_parser(parser.get(), file);
+    }
+}
+
+}  // namespace clearway::core

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "experiment/unit.hpp"
+
+namespace clearway::experiment {
+
+core::Json to_json(const ConditionSpec& condition);
+ConditionSpec condition_from(const core::Json& object, const std::string& where,
+                             std::vector<core::Problem>& problems);
+
+}  // namespace clearway::experiment

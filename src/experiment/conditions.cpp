@@ -1,0 +1,65 @@
+#include "experiment/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace clearway::experiment {
+namespace {
+
+/// Bursty outages of 10 s on average, dark 30 % of the time: where repair matters most.
+constexpr const char* usual_failure = "B10";
+constexpr const char* dissertation_part = "dissertation";
+
+BuiltInCondition with_policy(const char* name, const char* failure, const char* predictor,
+                             const char* summary) {
+    ConditionSpec condition;
+    condition.name = name;
+    condition.failure = failure;
+    condition.predictor = predictor;
+    condition.parts = {dissertation_part};
+    return {summary, condition};
+}
+
+std::vector<BuiltInCondition> make_conditions() {
+    ConditionSpec baseline;
+    baseline.name = "baseline";
+    ConditionSpec solo;
+    solo.name = "solo";
+    solo.engine = Engine::solo;
+    return {
+        {"The car-following model alone (IDM); what all others are compared with", baseline},
+        with_policy("graph_simulation", "perfect", "none",
+                    "The dissertation's policy on the graph from simulation attributes: perfect sensing"),
+        with_policy("graph_graphsage", usual_failure, "graphsage_corrected",
+                    "The dissertation's policy on the graph that GraphSAGE rebuilds under B10 failures"),
+        with_policy("b10_no_repair", usual_failure, "none", "Control: the same failures without repair"),
+        with_policy("b10_dead_reckoning", usual_failure, "dead_reckoning",
+                    "Control: the same failures repaired by dead reckoning"),
+        {"Each emergency vehicle alone on the road, every signal open: the practical floor", solo},
+    };
+}
+
+}  // namespace
+
+const std::vector<BuiltInCondition>& built_in_conditions() {
+    static const std::vector<BuiltInCondition> conditions = make_conditions();
+    return conditions;
+}
+
+ConditionSpec built_in_condition(const std::string& name, const std::string& where) {
+    std::vector<std::string> names;
+    std::string list;
+    for (const BuiltInCondition& known : built_in_conditions()) {
+        if (known.condition.name == name) return known.condition;
+        names.push_back(known.condition.name);
+        list += (list.empty() ? "" : ", ") + known.condition.name;
+    }
+    const std::string near = core::nearest(name, names);
+    throw core::InputError({where, fmt::format("'{}' is not a condition that comes with Clearway", name),
+                            list,
+                            near.empty() ? "Define it in [[condition]], or use a known name"
+                                         : fmt::format("Did you mean '{}'?", near)});
+}
+
+}  // namespace clearway::experiment

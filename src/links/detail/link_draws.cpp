@@ -1,0 +1,177 @@
+#include "links/detail/link_draws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace clearway::links::detail {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t coarseness = 8;
+
+/// Values by run and column, summed with weights.
+class Table {
+  public:
+    Table(std::size_t runs, std::size_t columns) : columns_(columns), values_(runs * columns, 0.0) {}
+
+    double& at(std::size_t run, std::size_t column) { return values_[run * columns_ + column]; }
+    void sum(std::span<const double> weights, std::vector<double>& total) const {
+        total.assign(columns_, 0.0);
+        for (std::size_t run = 0; run < weights.size(); ++run) {
+            const double weight = weights[run];
+            if (weight == 0.0) continue;
+            const double* const row = values_.data() + run * columns_;
+            for (std::size_t column = 0; column < columns_; ++column)
+                total[column] += weight * row[column];
+        }
+    }
+
+  private:
+    std::size_t columns_;
+    std::vector<double> values_;
+};
+
+/// Counts of every run on the coarse grid, empty bins left out.
+struct CoarseCounts {
+    Table linked;
+    Table unlinked;
+};
+
+CoarseCounts coarse_counts(const std::vector<metrics::LinkSummary>& runs) {
+    std::vector<std::uint32_t> used;
+    for (const metrics::LinkSummary& run : runs) {
+        for (const metrics::LinkSummary::Bin& bin : run.bins)
+            used.push_back(bin.bin / coarseness);
+    }
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    CoarseCounts counts{Table(runs.size(), used.size()), Table(runs.size(), used.size())};
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        for (const metrics::LinkSummary::Bin& bin : runs[run].bins) {
+            const auto column =
+                static_cast<std::size_t>(std::ranges::lower_bound(used, bin.bin / coarseness) - used.begin());
+            counts.linked.at(run, column) += static_cast<double>(bin.linked);
+            counts.unlinked.at(run, column) += static_cast<double>(bin.unlinked);
+        }
+    }
+    return counts;
+}
+
+/// Moves all draws so that `sample`, the draw of the whole sample, becomes `exact`.
+void move_to(Drawn& drawn, const std::optional<double>& exact, const std::optional<double>& sample) {
+    drawn.value = exact;
+    if (!exact || !sample) return;
+    for (double& draw : drawn.draws)
+        draw += *exact - *sample;
+}
+
+void draw_rankings(const std::vector<metrics::LinkSummary>& runs, const analysis::RunResampling& resampling,
+                   const metrics::LinkQuality& exact, DrawnMeasures& measures) {
+    const CoarseCounts counts = coarse_counts(runs);
+    std::vector<double> linked;
+    std::vector<double> unlinked;
+    const auto ranked = [&](std::span<const double> weights) {
+        counts.linked.sum(weights, linked);
+        counts.unlinked.sum(weights, unlinked);
+        return metrics::RankedCounts{linked, unlinked};
+    };
+    for (std::size_t number = 0; number < resampling.resamples(); ++number) {
+        const metrics::RankedCounts drawn = ranked(resampling.weights(number));
+        measures.ap.draws.push_back(metrics::average_precision(drawn).value_or(undefined));
+        measures.auc.draws.push_back(metrics::area_under_roc(drawn).value_or(undefined));
+    }
+    const std::vector<double> once(runs.size(), 1.0);
+    const metrics::RankedCounts sample = ranked(once);
+    move_to(measures.ap, exact.ap, metrics::average_precision(sample));
+    move_to(measures.auc, exact.auc, metrics::area_under_roc(sample));
+}
+
+Drawn draw_f1(const std::vector<metrics::LinkSummary>& runs, double threshold,
+              const analysis::RunResampling& resampling) {
+    const std::uint32_t first = metrics::LinkGrid::bin_of(static_cast<float>(threshold));
+    std::vector<double> twice_found(runs.size(), 0.0);
+    std::vector<double> predicted_and_true(runs.size(), 0.0);
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        for (const metrics::LinkSummary::Bin& bin : runs[run].bins) {
+            const auto linked = static_cast<double>(bin.linked);
+            predicted_and_true[run] += linked;
+            if (bin.bin < first) continue;
+            twice_found[run] += 2.0 * linked;
+            predicted_and_true[run] += linked + static_cast<double>(bin.unlinked);
+        }
+    }
+    return draw_ratio(twice_found, predicted_and_true, resampling);
+}
+
+Drawn draw_log_loss(const std::vector<metrics::LinkSummary>& runs,
+                    const analysis::RunResampling& resampling) {
+    std::vector<double> losses;
+    std::vector<double> pairs;
+    for (const metrics::LinkSummary& run : runs) {
+        losses.push_back(static_cast<double>(run.log_loss) * metrics::LinkSummary::log_loss_unit);
+        pairs.push_back(static_cast<double>(run.pairs()));
+    }
+    return draw_ratio(losses, pairs, resampling);
+}
+
+Drawn draw_ece(const std::vector<metrics::LinkSummary>& runs, const analysis::RunResampling& resampling) {
+    Table excess(runs.size(), metrics::calibration_bins + 1);  // the last column counts pairs
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        for (std::size_t bin = 0; bin < metrics::calibration_bins; ++bin) {
+            const metrics::LinkSummary::Calibration& calibration = runs[run].calibration[bin];
+            excess.at(run, bin) =
+                static_cast<double>(calibration.probability) * metrics::LinkSummary::probability_unit -
+                static_cast<double>(calibration.linked);
+            excess.at(run, metrics::calibration_bins) += static_cast<double>(calibration.pairs);
+        }
+    }
+    std::vector<double> total;
+    const auto error = [&](std::span<const double> weights) {
+        excess.sum(weights, total);
+        const double pairs = total.back();
+        if (pairs == 0.0) return undefined;
+        return std::accumulate(total.begin(), total.end() - 1, 0.0,
+                               [](double so_far, double bin) { return so_far + std::abs(bin); }) /
+               pairs;
+    };
+    Drawn drawn;
+    for (std::size_t number = 0; number < resampling.resamples(); ++number)
+        drawn.draws.push_back(error(resampling.weights(number)));
+    const double sample = error(std::vector<double>(runs.size(), 1.0));
+    if (std::isfinite(sample)) drawn.value = sample;
+    return drawn;
+}
+
+}  // namespace
+
+DrawnMeasures draw_measures(const std::vector<metrics::LinkSummary>& runs, double threshold,
+                            const analysis::RunResampling& resampling) {
+    DrawnMeasures measures;
+    for (const metrics::LinkSummary& run : runs)
+        measures.sum.add(run);
+    const metrics::LinkQuality exact = metrics::link_quality(measures.sum, threshold);
+    draw_rankings(runs, resampling, exact, measures);
+    measures.f1 = draw_f1(runs, threshold, resampling);
+    measures.log_loss = draw_log_loss(runs, resampling);
+    measures.ece = draw_ece(runs, resampling);
+    return measures;
+}
+
+Drawn draw_ratio(const std::vector<double>& numerators, const std::vector<double>& denominators,
+                 const analysis::RunResampling& resampling) {
+    const auto ratio = [&](std::span<const double> weights) {
+        const double below = std::inner_product(weights.begin(), weights.end(), denominators.begin(), 0.0);
+        if (below == 0.0) return undefined;
+        return std::inner_product(weights.begin(), weights.end(), numerators.begin(), 0.0) / below;
+    };
+    Drawn drawn;
+    for (std::size_t number = 0; number < resampling.resamples(); ++number)
+        drawn.draws.push_back(ratio(resampling.weights(number)));
+    const double sample = ratio(std::vector<double>(numerators.size(), 1.0));
+    if (std::isfinite(sample)) drawn.value = sample;
+    return drawn;
+}
+
+}  // namespace clearway::links::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/resampling.hpp"
+#include "links/link_judgement.hpp"
+#include "metrics/link_histogram.hpp"
+
+namespace clearway::links::detail {
+
+/// A measure of the whole sample, and of every resample; NaN where it is not defined.
+struct Drawn {
+    std::optional<double> value;
+    std::vector<double> draws;
+
+    analysis::Measured measured(const analysis::RunResampling& resampling) const {
+        return {value, value ? resampling.interval(draws) : std::nullopt};
+    }
+};
+
+/// The measures of one kind of pairs.
+struct DrawnMeasures {
+    metrics::LinkSummary sum;
+    Drawn ap, auc, f1, log_loss, ece;
+};
+
+/// `runs` has one summary a run. Ranking measures of resamples come from a grid eight times as coarse, moved
+/// by the difference between both grids on the whole sample.
+DrawnMeasures draw_measures(const std::vector<metrics::LinkSummary>& runs, double threshold,
+                            const analysis::RunResampling& resampling);
+
+/// numerator / denominator of sums over runs.
+Drawn draw_ratio(const std::vector<double>& numerators, const std::vector<double>& denominators,
+                 const analysis::RunResampling& resampling);
+
+}  // namespace clearway::links::detail

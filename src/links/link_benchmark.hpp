@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::links {
+
+/// Replications `first` to `first + count - 1`.
+struct SeedRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+
+    bool operator==(const SeedRange&) const = default;
+};
+
+/// What is wrong with the seeds of a judgement: none to test on, none to choose thresholds on, or some in
+/// both. `where` is the option or file that set them.
+std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& validation,
+                                       const std::string& where);
+
+/// On what predictors are judged.
+struct LinkBenchmark {
+    std::string name;
+    std::uint64_t study_seed = 1;
+    SeedRange test;        ///< On which figures are taken.
+    SeedRange validation;  ///< On which thresholds are chosen and settings tuned.
+    std::vector<std::string> failures;
+    std::vector<std::string> exits;  ///< `known`, `unknown`.
+    std::vector<scenario::ScenarioConfig> scenarios;
+};
+
+/// Reads a benchmark file (TOML, strict). Each scenario states the hash of its effective configuration;
+/// throws core::InputError with all problems, among them a scenario that is not what the benchmark was frozen
+/// with. Names of failures are not checked here.
+LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
+
+}  // namespace clearway::links

@@ -1,0 +1,253 @@
+#include "links/link_evaluation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "roads/route.hpp"
+
+namespace clearway::links {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr core::VehicleIndex nowhere = std::numeric_limits<core::VehicleIndex>::max();
+/// Pairs count as the policy's within this distance along the route: that of policy::ClearLane. (Candidates
+/// are nearer than that in any case.)
+constexpr core::Metres policy_horizon{150.0};
+/// Slack for step times that are sums of decimals, s.
+constexpr double time_slack_s = 1e-6;
+
+/// Rows of `into` by rows of `from`, both ascending by key; `nowhere` without a counterpart.
+template <class From, class Into>
+void match_by_key(const From& from, const Into& into, std::vector<core::VehicleIndex>& rows) {
+    rows.assign(from.size(), nowhere);
+    std::size_t at = 0;
+    for (std::size_t row = 0; row < from.size(); ++row) {
+        while (at < into.size() && into[at] < from[row])
+            ++at;
+        if (at < into.size() && into[at] == from[row]) rows[row] = static_cast<core::VehicleIndex>(at);
+    }
+}
+
+/// Distance from one vehicle to another ahead on its route; nothing where either has no place on it.
+std::optional<core::Metres> distance_ahead(const roads::Network& network, const traffic::Roster& roster,
+                                           core::VehicleKey emergency, const traffic::MotionState& state,
+                                           const traffic::MotionState& other) {
+    const traffic::VehicleInfo* const info = roster.find(emergency);
+    if (info == nullptr || !info->route.exists() || !state.lane.exists() || !other.lane.exists())
+        return std::nullopt;
+    const roads::Route route = roster.route(info->route);
+    if (state.route_edge >= route.size()) return std::nullopt;
+    const core::EdgeIndex edge = network.lane(state.lane).edge;
+    if (!network.edge(edge).internal && edge != route[state.route_edge]) return std::nullopt;
+    return roads::distance_ahead(network, route, state, other, policy_horizon);
+}
+
+bool is_emergency(traffic::VehicleClass vehicle_class) {
+    return vehicle_class == traffic::VehicleClass::emergency;
+}
+
+}  // namespace
+
+LinkTruthView::LinkTruthView(const roads::Network& network, const graph::LinkRules& rules)
+    : network_(network), rules_(rules) {}
+
+void LinkTruthView::look(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, graph_);
+    policy_links_.clear();
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (!is_emergency(snapshot.vehicle_class[row])) continue;
+        for (const core::VehicleIndex other : graph_.neighbours_of(row)) {
+            if (distance_ahead(network_, roster, snapshot.key[row], snapshot.motion(row),
+                               snapshot.motion(other)))
+                policy_links_.push_back({row, other});
+        }
+    }
+}
+
+bool LinkTruthView::linked(core::VehicleIndex left, core::VehicleIndex right) const {
+    return std::ranges::binary_search(graph_.neighbours_of(left), right);
+}
+
+LinkTrial::LinkTrial(const roads::Network& network, const graph::LinkRules& rules, Setup setup)
+    : network_(network),
+      rules_(rules),
+      failure_(std::move(setup.failure)),
+      exits_(std::move(setup.exits)),
+      sensor_(std::move(setup.sensor)) {
+    for (auto& predictor : setup.predictors)
+        contestants_.emplace_back().predictor = std::move(predictor);
+}
+
+void LinkTrial::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    sensor_->observe(snapshot, roster, observation_);
+}
+
+void LinkTrial::ask(const truth::Snapshot& snapshot, const LinkTruthView& truth, bool scored) {
+    const prediction::Scene* scene = nullptr;
+    for (Contestant& contestant : contestants_) {
+        const auto started = Clock::now();
+        contestant.predictor->predict(observation_, contestant.belief);
+        const double spent_s = std::chrono::duration<double>(Clock::now() - started).count();
+        if (!scored) continue;
+        contestant.predict_s += spent_s;
+        const prediction::Scene& own = *contestant.predictor->scores().scene;
+        if (scene == nullptr) {
+            scene = &own;
+            match_rows(snapshot, own.tracks);
+            describe_candidates(own, truth);
+            count_truth(snapshot, own, truth);
+        }
+        if (own.candidates.rows != scene->candidates.rows) {
+            throw std::logic_error(fmt::format("{} scores other candidates than {}",
+                                               contestant.predictor->name(),
+                                               contestants_.front().predictor->name()));
+        }
+        score(contestant);
+        count_belief(contestant, snapshot, truth);
+    }
+}
+
+void LinkTrial::match_rows(const truth::Snapshot& snapshot, const prediction::Tracks& tracks) {
+    match_by_key(tracks.key, snapshot.key, snapshot_row_);
+}
+
+bool LinkTrial::truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const {
+    const core::VehicleIndex left = snapshot_row_[pair.left];
+    const core::VehicleIndex right = snapshot_row_[pair.right];
+    return left != nowhere && right != nowhere && truth.linked(left, right);
+}
+
+void LinkTrial::describe_candidates(const prediction::Scene& scene, const LinkTruthView& truth) {
+    const prediction::PairList& pairs = scene.candidates;
+    const auto radius_m = static_cast<float>(rules_.radius_m);
+    label_.resize(pairs.size());
+    traits_.resize(pairs.size());
+    for (std::size_t at = 0; at < pairs.size(); ++at) {
+        const prediction::RowPair rows = pairs.rows[at];
+        label_[at] = truly_linked(rows, truth) ? 1 : 0;
+        const float age_s = std::max(scene.tracks.age_s[rows.left], scene.tracks.age_s[rows.right]);
+        traits_[at] = {metrics::age_class_of(age_s),
+                       metrics::is_hard(pairs.last_seen_m[at], pairs.dead_reckoned_m[at], radius_m),
+                       is_ahead_of_emergency(scene.tracks, rows)};
+    }
+}
+
+bool LinkTrial::is_ahead_of_emergency(const prediction::Tracks& tracks, prediction::RowPair pair) const {
+    const auto is_ahead = [&](std::uint32_t from, std::uint32_t to) {
+        if (!is_emergency(tracks.vehicle_class[from])) return false;
+        const traffic::Roster& roster = *observation_.roster;
+        return distance_ahead(network_, roster, tracks.key[from], tracks.state[from], tracks.state[to]) ||
+               distance_ahead(network_, roster, tracks.key[from], tracks.last[from], tracks.last[to]);
+    };
+    return is_ahead(pair.left, pair.right) || is_ahead(pair.right, pair.left);
+}
+
+void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,
+                            const LinkTruthView& truth) {
+    sensor_->log_failures(snapshot, truth.graph(), log_);
+    const auto never_seen = static_cast<std::uint64_t>(std::ranges::count(
+        log_.lost_links, sensing::FailureLog::Cause::never_seen, &sensing::FailureLog::LostLink::cause));
+    auto in_reach = static_cast<std::uint64_t>(std::ranges::count(label_, 1));
+    for (const prediction::PairList* const pairs : {&scene.known, &scene.detected}) {
+        for (const prediction::RowPair rows : pairs->rows)
+            in_reach += truly_linked(rows, truth) ? 1 : 0;
+    }
+    ++truth_.reports;
+    truth_.vehicles += snapshot.size();
+    truth_.true_links += truth.link_count();
+    truth_.never_seen += never_seen;
+    truth_.outside += truth.link_count() - never_seen - in_reach;
+    truth_.policy_links += truth.policy_links().size();
+    observed_vehicles_ += observation_.vehicles.size();
+}
+
+void LinkTrial::score(Contestant& contestant) const {
+    const std::span<const float> probability = contestant.predictor->scores().probability;
+    for (std::size_t at = 0; at < probability.size(); ++at) {
+        const float value = probability[at];
+        if (!(value >= 0.0F && value <= 1.0F)) {
+            throw std::logic_error(
+                fmt::format("{} gave a probability of {}", contestant.predictor->name(), value));
+        }
+        contestant.scores.add(value, label_[at] != 0, traits_[at]);
+    }
+}
+
+void LinkTrial::count_belief(Contestant& contestant, const truth::Snapshot& snapshot,
+                             const LinkTruthView& truth) {
+    const traffic::BelievedGraph& belief = contestant.belief;
+    metrics::LinkBelief& counts = contestant.counts;
+    believed_snapshot_row_.assign(belief.vehicles.size(), nowhere);
+    row_believed_.assign(snapshot.size(), nowhere);
+    std::size_t row = 0;  // Both are ordered by key.
+    for (core::VehicleIndex believed = 0; believed < belief.vehicles.size(); ++believed) {
+        const core::VehicleKey key = belief.vehicles[believed].key;
+        while (row < snapshot.size() && snapshot.key[row] < key)
+            ++row;
+        if (row == snapshot.size() || snapshot.key[row] != key) {
+            ++counts.ghosts;
+            continue;
+        }
+        believed_snapshot_row_[believed] = static_cast<core::VehicleIndex>(row);
+        row_believed_[row] = believed;
+    }
+    counts.believed_vehicles += belief.vehicles.size();
+    for (core::VehicleIndex left = 0; left < belief.vehicles.size(); ++left) {
+        for (const traffic::BelievedLink& link : belief.links_of(left)) {
+            if (link.neighbour <= left) continue;
+            const core::VehicleIndex from = believed_snapshot_row_[left];
+            const core::VehicleIndex to = believed_snapshot_row_[link.neighbour];
+            const bool is_true = from != nowhere && to != nowhere && truth.linked(from, to);
+            ++(is_true ? counts.listed_true : counts.listed_false);
+        }
+    }
+    for (const prediction::RowPair pair : truth.policy_links()) {
+        const core::VehicleIndex emergency = row_believed_[pair.left];
+        const core::VehicleIndex other = row_believed_[pair.right];
+        if (emergency == nowhere || other == nowhere) continue;
+        const auto links = belief.links_of(emergency);
+        if (std::ranges::binary_search(links, other, {}, &traffic::BelievedLink::neighbour))
+            ++counts.policy_found;
+    }
+}
+
+LinkCase LinkTrial::result(std::size_t predictor) const {
+    const Contestant& contestant = contestants_[predictor];
+    return {failure_, exits_, truth_, contestant.counts, contestant.scores.summary()};
+}
+
+LinkTiming::Case LinkTrial::timing(std::size_t predictor) const {
+    return {failure_, exits_, truth_.reports, observed_vehicles_, contestants_[predictor].predict_s};
+}
+
+LinkEvaluator::LinkEvaluator(const roads::Network& network, const graph::LinkRules& rules,
+                             core::Seconds score_from)
+    : network_(network), rules_(rules), truth_(network, rules), score_from_s_(score_from.value) {}
+
+void LinkEvaluator::add(LinkTrial::Setup setup) {
+    trials_.emplace_back(network_, rules_, std::move(setup));
+    next_s_.push_back(0.0);
+}
+
+void LinkEvaluator::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    constexpr double interval_s = 1.0;
+    const double now_s = snapshot.time.value + time_slack_s;
+    bool looked = false;
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+        trials_[i].observe(snapshot, roster);
+        if (!trials_[i].has_report() || now_s < next_s_[i]) continue;
+        if (!looked) truth_.look(snapshot, roster);
+        looked = true;
+        trials_[i].ask(snapshot, truth_, now_s >= score_from_s_);
+        next_s_[i] = snapshot.time.value + interval_s;
+    }
+}
+
+}  // namespace clearway::links

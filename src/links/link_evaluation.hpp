@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "graph/proximity.hpp"
+#include "links/link_run.hpp"
+#include "metrics/link_scores.hpp"
+#include "prediction/predictor.hpp"
+#include "sensing/sensor.hpp"
+#include "trace/step_listener.hpp"
+#include "traffic/belief.hpp"
+
+namespace clearway::links {
+
+/// What there is to find at one step: links, and who is ahead of an emergency vehicle. Keeps its buffers.
+class LinkTruthView {
+  public:
+    /// `network` outlives the view.
+    LinkTruthView(const roads::Network& network, const graph::LinkRules& rules);
+    void look(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+
+    /// Whether two rows of the snapshot are linked. O(log degree).
+    bool linked(core::VehicleIndex left, core::VehicleIndex right) const;
+    /// As metrics::LinkTruth counts them.
+    std::uint64_t link_count() const { return graph_.link_count(); }
+    const graph::ProximityGraph& graph() const { return graph_; }
+    /// Links between an emergency vehicle (`left`) and one ahead on its route within the link radius.
+    const std::vector<prediction::RowPair>& policy_links() const { return policy_links_; }
+
+  private:
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    graph::ProximityBuilder builder_;
+    graph::ProximityGraph graph_;
+    std::vector<prediction::RowPair> policy_links_;
+};
+
+/// One sensor, and the predictors that all look through it.
+class LinkTrial {
+  public:
+    struct Setup {
+        std::string failure;
+        std::string exits;
+        std::unique_ptr<sensing::SensorModel> sensor;
+        std::vector<std::unique_ptr<prediction::Predictor>> predictors;
+    };
+    /// `network` outlives the trial.
+    LinkTrial(const roads::Network& network, const graph::LinkRules& rules, Setup setup);
+
+    void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    /// A report round took place at the last `observe`.
+    bool has_report() const { return observation_.is_report; }
+    /// Asks every predictor, and scores the answers when `scored`; otherwise they only warm up.
+    void ask(const truth::Snapshot& snapshot, const LinkTruthView& truth, bool scored);
+
+    /// Of predictor number `predictor` so far.
+    LinkCase result(std::size_t predictor) const;
+    LinkTiming::Case timing(std::size_t predictor) const;
+
+  private:
+    struct Contestant {
+        std::unique_ptr<prediction::Predictor> predictor;
+        traffic::BelievedGraph belief;
+        metrics::LinkScores scores;
+        metrics::LinkBelief counts;
+        double predict_s = 0.0;
+    };
+    void match_rows(const truth::Snapshot& snapshot, const prediction::Tracks& tracks);
+    void describe_candidates(const prediction::Scene& scene, const LinkTruthView& truth);
+    bool is_ahead_of_emergency(const prediction::Tracks& tracks, prediction::RowPair pair) const;
+    bool truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const;
+    void count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,
+                     const LinkTruthView& truth);
+    void score(Contestant& contestant) const;
+    void count_belief(Contestant& contestant, const truth::Snapshot& snapshot, const LinkTruthView& truth);
+
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    std::string failure_, exits_;
+    std::unique_ptr<sensing::SensorModel> sensor_;
+    traffic::Observation observation_;
+    sensing::FailureLog log_;
+    std::vector<Contestant> contestants_;
+    metrics::LinkTruth truth_;
+    std::uint64_t observed_vehicles_ = 0;
+
+    std::vector<core::VehicleIndex> snapshot_row_;  ///< By row of the tracks; `nowhere` when it has left.
+    std::vector<std::uint8_t> label_;               ///< By candidate.
+    std::vector<metrics::PairTraits> traits_;       ///< By candidate.
+    std::vector<core::VehicleIndex> believed_snapshot_row_, row_believed_;
+};
+
+/// Judges predictors by every report of a run: one trial for each failure and exits. Scores at most once a
+/// second.
+class LinkEvaluator : public trace::StepListener {
+  public:
+    /// `network` outlives the evaluator. Scores from `score_from` on; before, sensors and predictors warm up.
+    LinkEvaluator(const roads::Network& network, const graph::LinkRules& rules, core::Seconds score_from);
+    void add(LinkTrial::Setup setup);
+
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
+    const std::vector<LinkTrial>& trials() const { return trials_; }
+
+  private:
+    const roads::Network& network_;
+    graph::LinkRules rules_;
+    LinkTruthView truth_;
+    std::vector<LinkTrial> trials_;
+    std::vector<double> next_s_;  ///< By trial.
+    double score_from_s_;
+};
+
+}  // namespace clearway::links

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/resampling.hpp"
+#include "links/link_run.hpp"
+#include "metrics/link_scores.hpp"
+
+namespace clearway::links {
+
+/// What of a kind of candidate pairs was predicted how well.
+struct LinkMeasures {
+    std::uint64_t pairs = 0;
+    std::uint64_t true_links = 0;
+    analysis::Measured ap, auc, f1, log_loss, ece;  ///< As metrics::LinkQuality.
+};
+
+/// The believed graph against the true one, at the predictor's own link threshold: true links outside the
+/// candidates and of vehicles never seen are misses.
+struct LinkEndToEnd {
+    metrics::LinkTruth truth;
+    metrics::LinkBelief belief;
+    analysis::Measured precision, recall, f1;
+    analysis::Measured policy_recall;  ///< Of links between an emergency vehicle and one ahead on its route.
+
+    /// True links that were known of, in reach, and not listed.
+    std::uint64_t predicted_away() const {
+        return truth.true_links - truth.never_seen - truth.outside - belief.listed_true;
+    }
+    /// Mean over reports.
+    std::optional<double> ghosts_per_report() const;
+};
+
+/// How one predictor does under one failure, in one scenario or in all together.
+struct LinkResult {
+    std::string scenario;  ///< Empty: all, pooled.
+    std::string failure;
+    std::string exits;
+    std::string predictor;
+    double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
+    std::array<LinkMeasures, metrics::link_subsets.size()> subsets;
+    LinkEndToEnd end_to_end;
+    double report_us = 0.0;        ///< Wall time of one prediction.
+    double report_vehicles = 0.0;  ///< In an observation, on average.
+
+    const LinkMeasures& of(metrics::LinkSubset subset) const {
+        return subsets[static_cast<std::size_t>(subset)];
+    }
+    /// The pairs themselves, for curves; of the pooled result alone.
+    metrics::LinkScoreSummary scores;
+};
+
+/// Error of a predictor against an opponent's, pooled: 1 means that nothing is left, 0 no difference.
+struct LinkGain {
+    std::string failure;
+    std::string exits;
+    std::string predictor;
+    std::string against;
+    analysis::Measured ap_difference;       ///< AP minus the opponent's.
+    analysis::Measured ap_error_reduction;  ///< 1 - (1 - AP) / (1 - the opponent's).
+    analysis::Measured f1_error_reduction;  ///< The same with F1.
+};
+
+/// The runs of one predictor. Test runs scenario by scenario, in one order for all predictors.
+struct LinkRuns {
+    std::vector<LinkRun> test;
+    std::vector<LinkTiming> test_timing;
+    std::vector<LinkRun> validation;
+};
+
+/// Judges predictors one after the other, so that only one predictor's runs need be in memory.
+class LinkJudgement {
+  public:
+    /// Number of test runs of each scenario, in the order of LinkRuns::test.
+    explicit LinkJudgement(const std::vector<std::size_t>& runs_by_scenario);
+
+    /// All runs hold the same cases in the same order. Results follow in the order of the calls: pooled
+    /// first, then scenario by scenario, each case by case.
+    void add(const LinkRuns& runs);
+    const std::vector<LinkResult>& results() const { return results_; }
+    /// Every other predictor against this one. Empty when it was not added.
+    std::vector<LinkGain> gains(const std::string& against) const;
+
+  private:
+    struct Draws {
+        std::vector<double> ap, f1;
+    };
+    struct PooledCase {
+        std::size_t result = 0;
+        Draws draws;
+    };
+    void add_pooled(const LinkRuns& runs, std::size_t number, double threshold);
+    void add_scenario(const LinkRuns& runs, std::size_t number, std::size_t scenario, double threshold);
+    LinkGain gain(const PooledCase& one, const PooledCase& other) const;
+
+    std::vector<std::size_t> runs_by_scenario_;
+    analysis::RunResampling pooled_;
+    std::vector<LinkResult> results_;
+    std::vector<PooledCase> pooled_cases_;
+};
+
+}  // namespace clearway::links

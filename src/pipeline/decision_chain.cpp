@@ -1,0 +1,48 @@
+#include "pipeline/decision_chain.hpp"
+
+#include <cmath>
+
+#include "sensing/failure_config.hpp"
+
+namespace clearway::pipeline {
+namespace {
+
+/// Half a millisecond, the resolution of SUMO's clock: times are sums of steps and carry rounding errors
+/// below it.
+constexpr double time_tolerance_s = 0.0005;
+
+}  // namespace
+
+DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
+    : period_s_(context.policy_period_s) {
+    graph::LinkRules rules;
+    rules.radius_m = context.link_radius_m;
+    sensor_ = sensing::make_sensor(sensing::failure_from(condition.failure), context.random,
+                                   {.network = context.network, .rules = rules});
+    predictor_ = prediction::make_predictor(condition.predictor,
+                                            {.network = context.network, .rules = rules, .model_file = {}});
+    for (const std::string& part : condition.parts) {
+        parts_.push_back(
+            policy::make_part(part, {.network = context.network, .period = core::Seconds(period_s_)}));
+    }
+}
+
+void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    sensor_->observe(snapshot, roster, observation_);
+    leases_.clear();
+}
+
+bool DecisionChain::decision_is_due() const {
+    return observation_.time.value + time_tolerance_s >= static_cast<double>(decisions_) * period_s_;
+}
+
+void DecisionChain::decide() {
+    decisions_ =
+        static_cast<std::uint64_t>(std::floor((observation_.time.value + time_tolerance_s) / period_s_)) + 1;
+    predictor_->predict(observation_, belief_);
+    for (const auto& part : parts_) {
+        part->act(belief_, leases_);
+    }
+}
+
+}  // namespace clearway::pipeline

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/random.hpp"
+#include "experiment/unit.hpp"
+#include "policy/part.hpp"
+#include "prediction/predictor.hpp"
+#include "roads/network.hpp"
+#include "sensing/sensor.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/lease.hpp"
+#include "traffic/observation.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::pipeline {
+
+/// What a chain needs beside its condition. `network` outlives the chain.
+struct ChainContext {
+    const roads::Network& network;
+    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};  ///< Of the sensors' failures.
+    double policy_period_s = 0.5;                                      ///< Between two decisions.
+    double link_radius_m = 50.0;
+};
+
+/// Sensing, prediction and policy of a condition in the order of a run: all of it that needs no simulator.
+/// A run and its replay are the same because both call this. One thread.
+class DecisionChain {
+  public:
+    /// Throws core::InputError for names that do not exist.
+    DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context);
+
+    /// Every step: what the sensors say now. References outlive the step.
+    void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    /// Whether the period since the last decision is over, by simulation time.
+    bool decision_is_due() const;
+    /// Predicts from the present observation and asks the policy.
+    void decide();
+
+    bool has_policy() const { return !parts_.empty(); }
+    const traffic::Observation& observation() const { return observation_; }
+    /// Vehicles that commands do not reach now (sensing::SensorModel).
+    std::span<const core::VehicleKey> unreachable() const { return sensor_->unreachable(); }
+    const prediction::Predictor& predictor() const { return *predictor_; }
+    /// Of the last decision.
+    const traffic::BelievedGraph& belief() const { return belief_; }
+    /// Of the last decision; empty when none was made in this step.
+    std::span<const traffic::Lease> leases() const { return leases_; }
+
+  private:
+    std::unique_ptr<sensing::SensorModel> sensor_;
+    std::unique_ptr<prediction::Predictor> predictor_;
+    std::vector<std::unique_ptr<policy::Part>> parts_;
+    double period_s_;
+    std::uint64_t decisions_ = 0;
+    traffic::Observation observation_;
+    traffic::BelievedGraph belief_;
+    std::vector<traffic::Lease> leases_;
+};
+
+}  // namespace clearway::pipeline

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "samples/graph_sample.hpp"
+
+namespace clearway::samples::detail {
+
+// What all sample files share: a first line with kind and version, a line of JSON with the origin,
+// little-endian binary samples, and a last line with their number and a content hash.
+
+static_assert(std::endian::native == std::endian::little, "sample files are little-endian");
+
+template <class Number>
+void append(std::string& bytes, Number number) {
+    char raw[sizeof(Number)];
+    std::memcpy(raw, &number, sizeof(Number));
+    bytes.append(raw, sizeof(Number));
+}
+template <class Number>
+void append_all(std::string& bytes, std::span<const Number> numbers) {
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+}
+
+/// Reads numbers from the front of a buffer; throws core::InputError at its end.
+class ByteReader {
+  public:
+    ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+
+    bool empty() const { return bytes_.empty(); }
+
+    template <class Number>
+    Number next() {
+        Number number;
+        std::memcpy(&number, take(sizeof(Number)).data(), sizeof(Number));
+        return number;
+    }
+    template <class Number>
+    void next_all(std::size_t count, std::vector<Number>& numbers) {
+        numbers.resize(count);
+        const std::string_view raw = take(count * sizeof(Number));
+        if (count > 0) std::memcpy(numbers.data(), raw.data(), raw.size());
+    }
+
+    /// Checked before anything is allocated for it, so that a damaged count cannot exhaust the memory.
+    std::uint32_t next_count(std::size_t bytes_each);
+
+  private:
+    std::string_view take(std::size_t size);
+    [[noreturn]] void end_reached() const;
+
+    std::string_view bytes_;
+    std::string where_;
+};
+
+/// First line and origin: how a file starts. Throws std::logic_error for an impossible schema.
+std::string file_start(std::string_view first_line, const GraphSampleOrigin& origin);
+/// How it ends.
+std::string file_end(std::string_view bytes, std::size_t sample_count);
+
+/// A file without its frame.
+struct SampleBytes {
+    std::string content;
+    std::string_view samples;  ///< Part of `content`: keep the struct where it is.
+    GraphSampleOrigin origin;
+    std::size_t sample_count = 0;
+    std::string content_hash;
+};
+/// Throws core::InputError: missing, of another kind or version, cut short, or changed since it was written.
+void read_sample_bytes(const std::filesystem::path& file, std::string_view first_line, SampleBytes& bytes);
+/// Throws core::InputError when the file holds another number of samples than its last line says.
+void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
+
+inline constexpr const char* cure_remake =
+    "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` with "
+    "`--net graphsage`";
+
+}  // namespace clearway::samples::detail

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "prediction/weights.hpp"
+
+namespace clearway::samples {
+
+/// A pair of vehicles of which a predictor has to say whether they are linked.
+struct CandidatePair {
+    std::uint32_t left = 0;  ///< Row of the sample's features; left < right.
+    std::uint32_t right = 0;
+    float dead_reckoned_m = 0.0F;  ///< Distance of the dead-reckoned positions, m, >= 0.
+    std::uint8_t linked = 0;       ///< 1: the true distance is below the link radius. The label.
+
+    bool operator==(const CandidatePair&) const = default;
+};
+
+/// A link of the observed graph: both ends reported at the latest round, or one detected the other.
+struct ObservedEdge {
+    std::uint32_t left = 0;  ///< left < right; each undirected link stands once.
+    std::uint32_t right = 0;
+
+    bool operator==(const ObservedEdge&) const = default;
+};
+
+/// One moment of one run: what a predictor was given, and the answer. Rows follow the observation's order.
+struct GraphSample {
+    double time_s = 0.0;
+    std::uint32_t vehicle_count = 0;
+    std::vector<float> features;  ///< Row-major, vehicle_count x width of the file's schema; finite.
+    std::vector<ObservedEdge> observed_edges;
+    std::vector<CandidatePair> candidates;
+
+    bool operator==(const GraphSample&) const = default;
+};
+
+/// What all samples of a file share: one file holds one run of one failure model.
+struct GraphSampleOrigin {
+    std::string scenario;
+    std::string failure;                 ///< Name of the sensing preset, for example `B10`.
+    prediction::FeatureSchema features;  ///< Of the node features; width [1, 256].
+    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
+    std::uint32_t replication = 0;
+    double link_radius_m = 50.0;
+
+    bool operator==(const GraphSampleOrigin&) const = default;
+};
+
+struct GraphSampleFile {
+    GraphSampleOrigin origin;
+    std::vector<GraphSample> samples;
+    std::string content_hash;  ///< 32 hex digits, over the whole file before its last line.
+};
+
+/// Name ending of sample files: `.samples`.
+inline constexpr const char* graph_sample_extension = ".samples";
+
+/// Collects the samples of one run and writes them as one file. Holds the whole file in memory (about 15 byte
+/// a candidate and 4 a feature). One thread.
+///
+/// Format, version 1: the line `clearway graph samples 1`, a line of JSON with the origin, little-endian
+/// binary samples (time f64, counts of vehicles, edges and candidates u32, features f32, edges 2 u32,
+/// candidates 2 u32 + f32 + u8), and `end <number of samples> <content hash>` as the last line.
+class GraphSampleWriter {
+  public:
+    explicit GraphSampleWriter(const GraphSampleOrigin& origin);
+    /// Throws std::logic_error when the sample does not fit the origin or its own counts, or holds a value
+    /// that is not finite: a fault of the recorder.
+    void add(const GraphSample& sample);
+    std::size_t sample_count() const { return sample_count_; }
+    /// Writes the file whole or not at all. Throws core::EnvironmentError (folder not writable, disk full).
+    void write(const std::filesystem::path& file) const;
+
+  private:
+    GraphSampleOrigin origin_;
+    std::string bytes_;
+    std::size_t sample_count_ = 0;
+};
+
+/// Throws core::InputError: missing, of another version, cut short, changed since it was written, or with an
+/// index, label or number out of range.
+GraphSampleFile read_graph_samples(const std::filesystem::path& file);
+
+/// The sample files directly in `folder`, by name. Throws core::InputError when there is none.
+std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::path& folder);
+
+}  // namespace clearway::samples

@@ -1,0 +1,145 @@
+#include "samples/pair_samples.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace clearway::samples {
+namespace {
+
+constexpr std::string_view first_words = "# clearway pair samples 1 ";
+constexpr std::size_t most_problems = 20;
+constexpr const char* cure_remake =
+    "Record the pairs again with `clearway dataset SCENARIO --samples --net logistic`";
+
+std::string header_line() {
+    return fmt::format("{},linked", fmt::join(prediction::pair_feature_names, ","));
+}
+
+std::string origin_line(const PairSampleOrigin& origin) {
+    const nlohmann::ordered_json json = {{"scenario", origin.scenario},
+                                         {"failure", origin.failure},
+                                         {"features", prediction::pair_feature_schema().name},
+                                         {"feature_version", prediction::pair_feature_schema().version},
+                                         {"study_seed", origin.study_seed},
+                                         {"replication", origin.replication},
+                                         {"link_radius_m", origin.link_radius_m}};
+    return std::string(first_words) + json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+PairSampleOrigin parse_origin(std::string_view line, const std::string& file) {
+    if (!line.starts_with(first_words)) {
+        throw core::InputError({file + ":1", "not a file of pair samples of this version",
+                                fmt::format("a first line that begins `{}`", first_words), cure_remake});
+    }
+    try {
+        const nlohmann::json json = nlohmann::json::parse(line.substr(first_words.size()));
+        const prediction::FeatureSchema schema = prediction::pair_feature_schema();
+        const auto name = json.at("features").get<std::string>();
+        const auto version = json.at("feature_version").get<std::uint32_t>();
+        if (name != schema.name || version != schema.version) {
+            throw core::InputError({file + ":1", fmt::format("features {} version {}", name, version),
+                                    fmt::format("{} version {}", schema.name, schema.version), cure_remake});
+        }
+        PairSampleOrigin origin;
+        json.at("scenario").get_to(origin.scenario);
+        json.at("failure").get_to(origin.failure);
+        json.at("study_seed").get_to(origin.study_seed);
+        json.at("replication").get_to(origin.replication);
+        json.at("link_radius_m").get_to(origin.link_radius_m);
+        return origin;
+    } catch (const nlohmann::json::exception& error) {
+        throw core::InputError({file + ":1", error.what(), "", cure_remake});
+    }
+}
+
+/// Splits off the first line.
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+/// Takes one row, or says what is wrong with it.
+std::string read_row(std::string_view line, PairSampleFile& samples) {
+    prediction::PairFeatures features{};
+    for (std::size_t column = 0; column <= prediction::pair_feature_count; ++column) {
+        const std::size_t end = line.find(',');
+        const bool is_last = column == prediction::pair_feature_count;
+        if ((end == std::string_view::npos) != is_last) {
+            return fmt::format("{} than {} values", is_last ? "more" : "fewer",
+                               prediction::pair_feature_count + 1);
+        }
+        const std::string_view cell = line.substr(0, end);
+        float value = 0.0F;
+        const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+        if (error != std::errc{} || stop != cell.data() + cell.size() || !std::isfinite(value))
+            return fmt::format("value {}: `{}` is not a finite number", column + 1, cell.substr(0, 40));
+        if (is_last) {
+            if (value != 0.0F && value != 1.0F) return fmt::format("the label {} is neither 0 nor 1", value);
+            samples.features.push_back(features);
+            samples.linked.push_back(value == 1.0F ? 1 : 0);
+            return {};
+        }
+        features[column] = value;
+        line.remove_prefix(end + 1);
+    }
+    return {};
+}
+
+}  // namespace
+
+void write_pair_samples(const std::filesystem::path& file, const PairSampleFile& samples) {
+    std::string text = origin_line(samples.origin) + "\n" + header_line() + "\n";
+    for (std::size_t pair = 0; pair < samples.features.size(); ++pair) {
+        fmt::format_to(std::back_inserter(text), "{:.5g},{}\n", fmt::join(samples.features[pair], ","),
+                       samples.linked[pair]);
+    }
+    core::write_atomically(file, text);
+}
+
+PairSampleFile read_pair_samples(const std::filesystem::path& file) {
+    const std::string content = core::read_file(file);
+    std::string_view text = content;
+    PairSampleFile samples;
+    samples.origin = parse_origin(take_line(text), file.string());
+    if (const std::string_view header = take_line(text); header != header_line()) {
+        throw core::InputError({file.string() + ":2", fmt::format("the columns `{}`", header.substr(0, 200)),
+                                header_line(), cure_remake});
+    }
+    std::vector<core::Problem> problems;
+    for (std::size_t number = 3; !text.empty() && problems.size() < most_problems; ++number) {
+        const std::string wrong = read_row(take_line(text), samples);
+        if (!wrong.empty())
+            problems.push_back({fmt::format("{}:{}", file.string(), number), wrong, "", cure_remake});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return samples;
+}
+
+std::vector<std::filesystem::path> find_pair_samples(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (entry.path().filename().string().ends_with(pair_sample_ending)) files.push_back(entry.path());
+    }
+    if (error || files.empty()) {
+        throw core::InputError(
+            {folder.string(), error ? error.message() : "holds no file of pair samples",
+             fmt::format("a folder with *{} files", pair_sample_ending),
+             "Record them with `clearway dataset SCENARIO --samples --net logistic --out DIR`"});
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+}  // namespace clearway::samples

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "prediction/pair_features.hpp"
+#include "prediction/weights.hpp"
+
+namespace clearway::samples {
+
+/// Name ending of files of pair samples.
+inline constexpr const char* pair_sample_ending = ".pairs.csv";
+
+/// What all pairs of a file share: one file holds one run of one failure model.
+struct PairSampleOrigin {
+    std::string scenario;
+    std::string failure;
+    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
+    std::uint32_t replication = 0;
+    double link_radius_m = 50.0;
+};
+
+/// Candidate pairs with features (pair_features.hpp) and the answer.
+struct PairSampleFile {
+    PairSampleOrigin origin;
+    std::vector<prediction::PairFeatures> features;
+    std::vector<std::uint8_t> linked;  ///< 1: the true distance is below the link radius. One a pair.
+};
+
+/// Writes the file whole or not at all: a first line `# clearway pair samples 1` with the origin as JSON, a
+/// header with the names of the features and `linked`, and a row for each pair. Throws
+/// core::EnvironmentError.
+void write_pair_samples(const std::filesystem::path& file, const PairSampleFile& samples);
+
+/// Throws core::InputError with file and line of what is wrong (the first 20 places): another kind or version
+/// of file, other features, ragged rows, a value that is not a finite number, a label other than 0 and 1.
+PairSampleFile read_pair_samples(const std::filesystem::path& file);
+
+/// The files of pair samples directly in `folder`, by name. Throws core::InputError when there is none.
+std::vector<std::filesystem::path> find_pair_samples(const std::filesystem::path& folder);
+
+}  // namespace clearway::samples

@@ -1,0 +1,178 @@
+#include "samples/repair_sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "samples/detail/sample_file.hpp"
+
+namespace clearway::samples {
+namespace {
+
+using detail::append;
+using detail::append_all;
+using detail::ByteReader;
+using detail::cure_remake;
+
+constexpr std::string_view first_line = "clearway repair samples 1\n";
+/// Features that a vehicle has although it is no receiver; see RepairInputBuilder.
+constexpr std::size_t common_features = 6;
+constexpr std::size_t receiver_features = prediction::node_width - common_features;
+
+static_assert(sizeof(prediction::RowPair) == 8);
+static_assert(sizeof(roads::Point) == 8);
+
+bool all_finite(const std::vector<float>& numbers) {
+    return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
+}
+
+bool all_below(const std::vector<std::uint32_t>& numbers, std::uint32_t end) {
+    return std::ranges::all_of(numbers, [end](std::uint32_t number) { return number < end; });
+}
+
+/// What is wrong with a sample, or empty.
+std::string fault(const RepairSample& sample) {
+    const prediction::RepairInputs& inputs = sample.inputs;
+    const std::size_t rows = inputs.rows;
+    if (inputs.nodes.size() != rows * prediction::node_width || inputs.x_m.size() != rows ||
+        inputs.y_m.size() != rows || inputs.place_sigma_m.size() != rows) {
+        return fmt::format("features that do not fit {} vehicles", rows);
+    }
+    if (inputs.first_edge.size() != inputs.receivers.size() + 1 || inputs.first_edge.front() != 0 ||
+        inputs.first_edge.back() != inputs.source.size() || !std::ranges::is_sorted(inputs.first_edge) ||
+        inputs.edges.size() != inputs.source.size() * prediction::edge_width) {
+        return "edges that do not fit their receivers";
+    }
+    if (inputs.pair_features.size() != inputs.pairs.size() * prediction::pair_width ||
+        sample.linked.size() != inputs.pairs.size() || sample.rule.size() != inputs.pairs.size()) {
+        return "pairs that do not fit their features or labels";
+    }
+    if (!all_below(inputs.source, inputs.rows)) return "an edge from a vehicle that is not there";
+    const bool pairs_fit = std::ranges::all_of(
+        inputs.pairs, [&](prediction::RowPair pair) { return pair.left < pair.right && pair.right < rows; });
+    if (!pairs_fit) return "a pair of vehicles that are not there";
+    const bool receivers_fit =
+        std::ranges::all_of(inputs.receivers, [&](const prediction::Receiver& receiver) {
+            return receiver.row < rows && receiver.reach_m > 0.0F && std::isfinite(receiver.reach_m) &&
+                   std::isfinite(receiver.displacement_m) && std::isfinite(receiver.true_displacement_m);
+        });
+    if (!receivers_fit) return "a receiver that is not there, or without reach";
+    if (std::ranges::any_of(sample.linked, [](std::uint8_t label) { return label > 1; })) {
+        return "a label other than 0 and 1";
+    }
+    if (!all_finite(inputs.nodes) || !all_finite(inputs.edges) || !all_finite(inputs.pair_features) ||
+        !all_finite(sample.rule)) {
+        return "a number that is not finite";
+    }
+    return {};
+}
+
+RepairSample read_sample(ByteReader& reader) {
+    RepairSample sample;
+    prediction::RepairInputs& inputs = sample.inputs;
+    sample.time_s = reader.next<double>();
+    inputs.rows = reader.next_count(sizeof(float));
+    const auto receivers = reader.next_count(sizeof(std::uint32_t));
+    const auto edges = reader.next_count(sizeof(std::uint32_t));
+    const auto pairs = reader.next_count(sizeof(prediction::RowPair));
+    std::vector<float> common, own;
+    reader.next_all(inputs.rows * common_features, common);
+    reader.next_all(inputs.rows, inputs.x_m);
+    reader.next_all(inputs.rows, inputs.y_m);
+    reader.next_all(inputs.rows, inputs.place_sigma_m);
+    inputs.nodes.assign(std::size_t{inputs.rows} * prediction::node_width, 0.0F);
+    for (std::size_t row = 0; row < inputs.rows; ++row) {
+        std::copy_n(&common[row * common_features], common_features,
+                    &inputs.nodes[row * prediction::node_width]);
+    }
+    inputs.receivers.resize(receivers);
+    for (prediction::Receiver& receiver : inputs.receivers) {
+        receiver = reader.next<prediction::Receiver>();
+        reader.next_all(receiver_features, own);
+        if (receiver.row < inputs.rows) {
+            std::ranges::copy(own, &inputs.nodes[receiver.row * prediction::node_width + common_features]);
+        }
+    }
+    reader.next_all(receivers + std::size_t{1}, inputs.first_edge);
+    reader.next_all(edges, inputs.source);
+    reader.next_all(edges * std::size_t{prediction::edge_width}, inputs.edges);
+    reader.next_all(pairs, inputs.pairs);
+    reader.next_all(pairs * std::size_t{prediction::pair_width}, inputs.pair_features);
+    reader.next_all(pairs, sample.linked);
+    reader.next_all(pairs, sample.rule);
+    return sample;
+}
+
+}  // namespace
+
+RepairSampleWriter::RepairSampleWriter(const GraphSampleOrigin& origin)
+    : bytes_(detail::file_start(first_line, origin)) {}
+
+void RepairSampleWriter::add(const RepairSample& sample) {
+    if (const std::string wrong = fault(sample); !wrong.empty()) {
+        throw std::logic_error("repair sample: " + wrong);
+    }
+    const prediction::RepairInputs& inputs = sample.inputs;
+    append(bytes_, sample.time_s);
+    append(bytes_, inputs.rows);
+    append(bytes_, static_cast<std::uint32_t>(inputs.receivers.size()));
+    append(bytes_, static_cast<std::uint32_t>(inputs.source.size()));
+    append(bytes_, static_cast<std::uint32_t>(inputs.pairs.size()));
+    const std::span<const float> nodes = inputs.nodes;
+    for (std::size_t row = 0; row < inputs.rows; ++row) {
+        append_all(bytes_, nodes.subspan(row * prediction::node_width, common_features));
+    }
+    append_all<float>(bytes_, inputs.x_m);
+    append_all<float>(bytes_, inputs.y_m);
+    append_all<float>(bytes_, inputs.place_sigma_m);
+    for (const prediction::Receiver& receiver : inputs.receivers) {
+        append(bytes_, receiver);
+        append_all(bytes_,
+                   nodes.subspan(receiver.row * prediction::node_width + common_features, receiver_features));
+    }
+    append_all<std::uint32_t>(bytes_, inputs.first_edge);
+    append_all<std::uint32_t>(bytes_, inputs.source);
+    append_all<float>(bytes_, inputs.edges);
+    append_all<prediction::RowPair>(bytes_, inputs.pairs);
+    append_all<float>(bytes_, inputs.pair_features);
+    append_all<std::uint8_t>(bytes_, sample.linked);
+    append_all<float>(bytes_, sample.rule);
+    ++sample_count_;
+}
+
+void RepairSampleWriter::write(const std::filesystem::path& file) const {
+    core::write_atomically(file, bytes_ + detail::file_end(bytes_, sample_count_));
+}
+
+RepairSampleFile read_repair_samples(const std::filesystem::path& file) {
+    detail::SampleBytes bytes;
+    detail::read_sample_bytes(file, first_line, bytes);
+    const prediction::FeatureSchema wanted = prediction::repair_schema();
+    const prediction::FeatureSchema& found = bytes.origin.features;
+    if (found != wanted) {
+        throw core::InputError(
+            {file.string(),
+             fmt::format("features {} {} ({} numbers)", found.name, found.version, found.width),
+             fmt::format("{} {} ({} numbers)", wanted.name, wanted.version, wanted.width), cure_remake});
+    }
+    RepairSampleFile result;
+    result.origin = bytes.origin;
+    result.content_hash = bytes.content_hash;
+    ByteReader reader(bytes.samples, file.string());
+    while (!reader.empty()) {
+        result.samples.push_back(read_sample(reader));
+        if (const std::string wrong = fault(result.samples.back()); !wrong.empty()) {
+            throw core::InputError({fmt::format("{}: sample {}", file.string(), result.samples.size() - 1),
+                                    wrong, "", cure_remake});
+        }
+    }
+    detail::check_sample_count(file, result.samples.size(), bytes.sample_count);
+    return result;
+}
+
+}  // namespace clearway::samples

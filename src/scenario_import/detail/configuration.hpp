@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clearway::scenario_import::detail {
+
+/// What an import takes of a configuration of SUMO.
+struct Configuration {
+    std::filesystem::path network;
+    std::vector<std::filesystem::path> routes;      ///< In order.
+    std::vector<std::filesystem::path> additional;  ///< In order.
+    std::optional<double> begin_s;
+    std::optional<double> end_s;
+    double scale = 1.0;  ///< How many of each vehicle there are.
+    bool ignores_route_errors = false;
+    std::vector<std::string> other_options;  ///< Set there, and not taken over: `time-to-teleport = 60`.
+};
+
+/// Reads a .sumocfg: paths relative to it, lists with commas or blanks, `${VARIABLE}` as SUMO replaces it
+/// (SUMO_HOME is that of the installation where it is not set). Values stand in `value`, `v` or
+/// as text. Throws core::InputError with every file that is missing, naming the nearest there is, for several
+/// networks and for an end before the begin.
+Configuration read_configuration(const std::filesystem::path& file);
+
+}  // namespace clearway::scenario_import::detail

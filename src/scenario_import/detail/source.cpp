@@ -1,0 +1,167 @@
+#include "scenario_import/detail/source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "scenario_import/detail/packed_file.hpp"
+
+namespace clearway::scenario_import::detail {
+
+namespace {
+
+constexpr const char* what_is_read =
+    ".osm, .osm.gz, .osm.bz2, .osm.pbf, .net.xml, .net.xml.gz, .sumocfg, or route and additional files";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what,
+                         const std::string& cure) {
+    throw core::InputError(core::Problem{file.string(), what, what_is_read, cure});
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
+    return result;
+}
+
+/// The name of the first element, in lower case; `!doctype html` of a web page; empty where there is none.
+std::string first_element(std::string_view text) {
+    while (true) {
+        const std::size_t open = text.find('<');
+        if (open == std::string_view::npos) return {};
+        text.remove_prefix(open + 1);
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return {};
+            text.remove_prefix(end);
+        } else if (text.starts_with('!')) {
+            const std::string declaration = lower(text.substr(0, text.find('>')));
+            if (declaration.starts_with("!doctype html")) return declaration;
+        } else if (!text.starts_with('?')) {
+            return lower(text.substr(0, text.find_first_of(" \t\r\n/>")));
+        }
+    }
+}
+
+/// The beginning of a file, unpacked.
+std::string head_of(PackedFile& stream) {
+    std::string head(std::size_t{1} << 16, '\0');
+    head.resize(stream.read(head));
+    return head;
+}
+
+bool is_pbf(std::string_view head) {
+    constexpr std::size_t block_header = 32;
+    return head.substr(0, block_header).find("OSMHeader") != std::string_view::npos;
+}
+
+/// The last bytes of a file, unpacked.
+std::string end_of(const std::filesystem::path& file) {
+    constexpr std::size_t enough = 4096;
+    PackedFile stream(file);
+    if (stream.packing() == Packing::none) {
+        std::ifstream plain(file, std::ios::binary);
+        const auto size = static_cast<std::uintmax_t>(std::filesystem::file_size(file));
+        plain.seekg(static_cast<std::streamoff>(size - std::min<std::uintmax_t>(size, enough)));
+        return {std::istreambuf_iterator<char>(plain), {}};
+    }
+    std::string end;
+    std::array<char, 1 << 16> buffer{};
+    while (const std::size_t count = stream.read(buffer)) {
+        end.append(buffer.data(), count);
+        if (end.size() > enough) end.erase(0, end.size() - enough);
+    }
+    return end;
+}
+
+bool is_one_of(const std::string& element, std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, element) != names.end();
+}
+
+bool has_name_of_configuration(const std::filesystem::path& file) {
+    const std::string extension = lower(file.extension().string());
+    return extension == ".sumocfg" || extension == ".cfg";
+}
+
+}  // namespace
+
+SourceKind kind_of(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
+    PackedFile stream(file);
+    const std::string head = head_of(stream);
+    if (head.empty()) refuse(file, "is empty", "download it again");
+    if (is_pbf(head)) return SourceKind::map;
+    if (head.starts_with("PK\x03\x04"))
+        refuse(file, "is a zip archive", "unpack it and give the file inside");
+    const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (start != std::string::npos && (head[start] == '{' || head[start] == '['))
+        refuse(file, "is JSON", "ask the service for OSM XML");
+    const std::string element = first_element(head);
+    if (element.starts_with("!doctype html") || element == "html")
+        refuse(file, "is a web page (HTML), not a map",
+               "the download failed: open the file in a browser to see why, and download it again");
+    if (element == "osm") return SourceKind::map;
+    if (element == "net") return SourceKind::network;
+    // SUMO does not look at the root of these; what is in them says what it is.
+    if (is_one_of(element, {"routes", "trips", "flows", "vehicles", "persons", "demand"}))
+        return SourceKind::routes;
+    if (is_one_of(element, {"additional", "additionals", "add", "a", "tllogics", "tls", "pois", "polys",
+                            "shapes", "tazs", "vtypes", "stops", "detectors", "rerouters", "vehicletypes"}))
+        return SourceKind::additional;
+    if (element == "configuration" || element == "sumoconfiguration" || has_name_of_configuration(file))
+        return SourceKind::configuration;
+    refuse(file,
+           element.empty() ? "is neither XML nor a map" : fmt::format("has the root element <{}>", element),
+           "");
+}
+
+std::string map_format(const std::filesystem::path& map) {
+    PackedFile stream(map);
+    const Packing packing = stream.packing();
+    if (is_pbf(head_of(stream))) {
+        if (packing == Packing::none) return "osm.pbf";
+        refuse(map, "is a PBF packed once more", "unpack it");
+    }
+    if (packing == Packing::none) return "osm";
+    return packing == Packing::gzip ? "osm.gz" : "osm.bz2";
+}
+
+std::string overpass_remark(const std::filesystem::path& map) {
+    constexpr std::string_view mark = "<remark>";
+    const std::string end = end_of(map);
+    const std::size_t open = end.rfind(mark);
+    if (open == std::string::npos) return {};
+    const std::size_t first = end.find_first_not_of(" \t\r\n", open + mark.size());
+    const std::size_t close = end.find("</remark>", open);
+    if (first == std::string::npos || close == std::string::npos || first >= close) return {};
+    const std::size_t last = end.find_last_not_of(" \t\r\n", close - 1);
+    return end.substr(first, last + 1 - first);
+}
+
+void refuse_bomb(const std::filesystem::path& file) {
+    constexpr std::uintmax_t harmless = 100'000'000;
+    constexpr std::uintmax_t largest_ratio = 250;  // Maps and routes: 10 to 40.
+    PackedFile stream(file);
+    if (stream.packing() == Packing::none) return;
+    const std::uintmax_t packed = std::filesystem::file_size(file);
+    std::array<char, 1 << 16> buffer{};
+    std::uintmax_t unpacked = 0;
+    while (const std::size_t count = stream.read(buffer)) {
+        unpacked += count;
+        if (unpacked > harmless && unpacked > largest_ratio * packed)
+            refuse(file,
+                   fmt::format("unpacks to more than {} times its {} bytes, as no map does", largest_ratio,
+                               packed),
+                   "do not trust its source");
+    }
+}
+
+}  // namespace clearway::scenario_import::detail

@@ -1,0 +1,72 @@
+#include "scenario_import/detail/tool.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/process.hpp"
+
+namespace clearway::scenario_import::detail {
+
+namespace {
+
+/// Ends a child that is not waited for.
+class ChildGuard {
+  public:
+    explicit ChildGuard(const core::Child& child) : child_(child) {}
+    ~ChildGuard() {
+        if (!running) return;
+        ::kill(child_.pid, SIGKILL);
+        core::wait(child_);
+    }
+    ChildGuard(const ChildGuard&) = delete;
+    ChildGuard& operator=(const ChildGuard&) = delete;
+    bool running = true;
+
+  private:
+    const core::Child& child_;
+};
+
+}  // namespace
+
+bool succeeds(const Tool& tool, const OnProgress& on_progress) {
+    core::Command command;
+    command.program = tool.program;
+    command.arguments = tool.arguments;
+    command.output = tool.log;
+    // Their files are the import's, by whole path; what they write without one belongs there too.
+    if (tool.program == "sumo" || tool.program == "duarouter") command.folder = tool.log.parent_path();
+    const core::Child child = core::start(command);
+    ChildGuard guard(child);
+    std::optional<core::Exit> exit;
+    while (!(exit = core::poll(child))) {
+        const auto elapsed = std::chrono::steady_clock::now() - child.started;
+        on_progress(tool.stage, std::chrono::duration<double>(elapsed).count());
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    guard.running = false;
+    constexpr int not_found = 127;
+    if (exit->code == not_found)
+        throw core::EnvironmentError(
+            fmt::format("{} does not start. Install package {}", tool.program, tool.package));
+    return exit->ok();
+}
+
+std::string complaint(const std::filesystem::path& log) {
+    constexpr int shown = 8;
+    std::ifstream stream(log);
+    std::string errors;
+    int count = 0;
+    for (std::string line; std::getline(stream, line) && count < shown;) {
+        if (!line.starts_with("Error")) continue;
+        errors += (errors.empty() ? "" : "\n") + line;
+        ++count;
+    }
+    return errors.empty() ? core::tail(log, shown) : errors;
+}
+
+}  // namespace clearway::scenario_import::detail

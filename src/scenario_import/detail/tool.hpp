@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenario_import/import.hpp"
+
+namespace clearway::scenario_import::detail {
+
+/// A program that an import starts in a child process.
+struct Tool {
+    std::string program;  ///< Looked up in PATH.
+    std::vector<std::string> arguments;
+    std::filesystem::path log;  ///< Both streams.
+    std::string stage;          ///< What it does, for progress: `building the network`.
+    std::string package;        ///< Debian package that has it.
+};
+
+/// Runs it to its end, with progress. False when it fails; its log says why. Ends the child when
+/// `on_progress` throws. Throws core::EnvironmentError when it cannot be started.
+bool succeeds(const Tool& tool, const OnProgress& on_progress);
+
+/// The lines of its log that name errors, or its last lines.
+std::string complaint(const std::filesystem::path& log);
+
+}  // namespace clearway::scenario_import::detail

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scenario_import/import.hpp"
+
+namespace clearway::scenario_import {
+
+namespace {
+
+/// `45 car, 3 bus`.
+std::string counts_text(const std::map<std::string, int>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    return text;
+}
+
+std::string list_text(const char* title, const std::vector<std::string>& lines) {
+    if (lines.empty()) return {};
+    std::string text = fmt::format("{}\n", title);
+    for (const std::string& line : lines)
+        text += fmt::format("  - {}\n", line);
+    return text;
+}
+
+}  // namespace
+
+std::string to_text(const Findings& findings) {
+    std::string text = fmt::format(
+        "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km, "
+        "{:.1f} km of "
+        "lane\n  signals          {}\n  connected        {:.1f} % of the car edges reach each other\n  "
+        "traffic drives   "
+        "on the {}, {}\n",
+        findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
+        findings.signals, 100.0 * findings.connected_share, findings.left_hand ? "left" : "right",
+        findings.side_reason);
+    if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
+    text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
+                        findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
+    if (findings.persons > 0) text += fmt::format("  persons          {} walk\n", findings.persons);
+    text += list_text("Changed:", findings.changes);
+    text += list_text("Left out:", findings.left_out);
+    return text;
+}
+
+std::string to_json(const Findings& findings) {
+    nlohmann::ordered_json json = {{"name", findings.name},
+                                   {"edges", findings.edges},
+                                   {"car_edges", findings.car_edges},
+                                   {"car_lanes", findings.lanes},
+                                   {"car_roads_km", findings.road_km},
+                                   {"car_lanes_km", findings.lane_km},
+                                   {"signals", findings.signals},
+                                   {"connected_share", findings.connected_share},
+                                   {"left_hand", findings.left_hand},
+                                   {"left_hand_reason", findings.side_reason},
+                                   {"emergency_sites", findings.sites},
+                                   {"vehicles_per_hour", findings.vehicles_per_hour},
+                                   {"vehicles", findings.vehicles},
+                                   {"persons", findings.persons},
+                                   {"demand", findings.demand},
+                                   {"changes", findings.changes},
+                                   {"left_out", findings.left_out}};
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearway::scenario_import

@@ -1,0 +1,338 @@
+#include "scenario_import/import.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/folder_name.hpp"
+#include "roads/crossings.hpp"
+#include "scenario/network_document.hpp"
+#include "scenario/picture.hpp"
+#include "scenario_import/detail/configuration.hpp"
+#include "scenario_import/detail/context.hpp"
+#include "scenario_import/detail/driving_side.hpp"
+#include "scenario_import/detail/map.hpp"
+#include "scenario_import/detail/source.hpp"
+#include "scenario_import/detail/sumo_demand.hpp"
+#include "scenario_import/detail/survey.hpp"
+#include "scenario_import/detail/synthetic_demand.hpp"
+
+namespace clearway::scenario_import {
+
+namespace {
+
+using detail::Import;
+using detail::SourceKind;
+using detail::SumoFiles;
+
+constexpr const char* network_name = "network.net.xml";
+
+/// The files of a request by what they are.
+struct Sources {
+    std::vector<std::filesystem::path> maps;
+    std::optional<std::filesystem::path> network;
+    SumoFiles demand;
+};
+
+/// A folder beside the scenario's that is removed at the end, whatever happens.
+class AsideFolder {
+  public:
+    explicit AsideFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+        std::filesystem::remove_all(folder_);
+    }
+    ~AsideFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    AsideFolder(const AsideFolder&) = delete;
+    AsideFolder& operator=(const AsideFolder&) = delete;
+    const std::filesystem::path& path() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+void check_folder(const std::filesystem::path& folder) {
+    const std::string name = folder.filename().string();
+    if (!core::is_folder_name(name))
+        throw core::InputError(core::Problem{"--name", fmt::format("\"{}\" is no name for a scenario", name),
+                                             core::folder_name_rule, "choose another name"});
+    if (folder.string().find(',') != std::string::npos)
+        throw core::InputError(
+            core::Problem{folder.string(),
+                          "would lie in a folder with a comma in its path, which SUMO takes for a separator",
+                          "a path without commas", "import it in another folder"});
+    if (std::filesystem::exists(folder))
+        throw core::InputError(core::Problem{folder.string(), "exists already", "a new folder",
+                                             "choose another name, or remove it"});
+}
+
+/// Another import of the name may have been quicker.
+void move_to(const std::filesystem::path& made, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::rename(made, folder, error);
+    if (!error) return;
+    if (std::filesystem::exists(folder))
+        throw core::InputError(core::Problem{folder.string(), "was made by another program in the meantime",
+                                             "a new folder", "choose another name, or remove it"});
+    throw core::write_error(folder, error.value());
+}
+
+void add_configuration(const std::filesystem::path& file, Import& import, Sources& sources) {
+    const detail::Configuration configuration = detail::read_configuration(file);
+    sources.network = configuration.network;
+    sources.demand = {configuration.routes, configuration.additional, configuration.begin_s,
+                      configuration.end_s, configuration.scale};
+    if (configuration.scale != 1.0)
+        import.findings.changes.push_back(fmt::format(
+            "option scale of the configuration: there are {:g} of each vehicle", configuration.scale));
+    for (const std::string& option : configuration.other_options)
+        import.left_out.add("options of the configuration that are not taken over", option,
+                            detail::LeftOut::all);
+}
+
+Sources sort_files(Import& import, bool& leaves_out_bad_vehicles) {
+    Sources sources;
+    std::vector<std::filesystem::path> configurations;
+    for (const std::filesystem::path& file : import.request.files) {
+        const SourceKind kind = detail::kind_of(file);
+        detail::refuse_bomb(file);
+        if (kind == SourceKind::map) sources.maps.push_back(file);
+        if (kind == SourceKind::routes) sources.demand.routes.push_back(file);
+        if (kind == SourceKind::additional) sources.demand.additional.push_back(file);
+        if (kind == SourceKind::configuration) configurations.push_back(file);
+        if (kind != SourceKind::network) continue;
+        if (sources.network)
+            throw core::InputError(core::Problem{file.string(), "is a second network", "one network", ""});
+        sources.network = file;
+    }
+    const bool has_demand = !sources.demand.routes.empty() || !sources.demand.additional.empty();
+    const auto fundamentals = static_cast<int>(!sources.maps.empty()) +
+                              static_cast<int>(sources.network.has_value()) +
+                              static_cast<int>(!configurations.empty());
+    if (fundamentals != 1 || configurations.size() > 1 || (has_demand && !sources.network))
+        throw core::InputError(
+            core::Problem{import.request.files.front().string(), "cannot be imported with the other files",
+                          "maps, or one network with route and additional files, or one configuration",
+                          "import them one by one"});
+    if (configurations.empty()) return sources;
+    add_configuration(configurations.front(), import, sources);
+    leaves_out_bad_vehicles = detail::read_configuration(configurations.front()).ignores_route_errors;
+    for (const auto* list : {&sources.demand.routes, &sources.demand.additional})
+        for (const std::filesystem::path& file : *list)
+            detail::refuse_bomb(file);
+    detail::refuse_bomb(*sources.network);
+    return sources;
+}
+
+/// Networks of SUMO say 0.x or 1.x.
+void check_version(const scenario::NetworkDocument& document, const std::filesystem::path& file) {
+    const std::string version = document.attribute("version");
+    const auto number = detail::number(version);
+    if (number && *number < 2.0) return;
+    throw core::InputError(core::Problem{
+        file.string(), fmt::format("is a network of the unknown version \"{}\"", version), "0.x or 1.x",
+        "write it again with netconvert: netconvert --sumo-net-file OLD --output-file NEW"});
+}
+
+[[noreturn]] void refuse_without_roads(const Import& import) {
+    throw core::InputError(core::Problem{import.request.files.front().string(), "has no road for cars",
+                                         "a map or network with roads for cars", "choose another file"});
+}
+
+roads::Network take_network(Import& import, const std::filesystem::path& file) {
+    scenario::NetworkDocument document(file);
+    check_version(document, file);
+    if (!document.has_edges()) refuse_without_roads(import);
+    document.without_newer_classes();
+    if (document.repaired_lists() > 0)
+        import.findings.changes.push_back(
+            fmt::format("{} lists of vehicle classes name classes of a newer netconvert that SUMO 1.15 "
+                        "refuses; those words are "
+                        "taken out",
+                        document.repaired_lists()));
+    const int admitted = document.admit_emergency();
+    if (admitted > 0)
+        import.findings.changes.push_back(
+            fmt::format("{} lanes or ways open to cars are opened to emergency vehicles", admitted));
+    import.findings.left_hand = document.attribute("lefthand") == "true";
+    core::write_atomically(import.scenario / network_name, document.text());
+    roads::Network network = roads::Network::read(import.scenario / network_name);
+    detail::survey(network, import.findings);
+    if (import.findings.car_edges == 0) refuse_without_roads(import);
+    return network;
+}
+
+/// `without_crossings`: what is said when there are none.
+void add_pedestrians(Import& import, const roads::Network& network, scenario::ScenarioConfig& config,
+                     const core::Problem& without_crossings) {
+    const double per_hour = import.request.pedestrians_per_hour;
+    if (per_hour <= 0.0) return;
+    const std::vector<roads::Crossing> crossings = roads::crossings(network);
+    if (crossings.empty()) throw core::InputError(without_crossings);
+    const auto signalled = std::ranges::count_if(crossings, &roads::Crossing::has_signal);
+    config.pedestrians.per_hour = per_hour;
+    if (signalled == 0) config.pedestrians.crossings = scenario::Crossings::all;
+    import.findings.changes.push_back(
+        fmt::format("{:g} pedestrians an hour at each of {} crossings{}", per_hour,
+                    signalled == 0 ? crossings.size() : static_cast<std::size_t>(signalled),
+                    signalled == 0 ? ", none of which has a signal"
+                                   : fmt::format(" with a signal, of {} in all", crossings.size())));
+}
+
+/// What the map does not say and what cannot be told from it.
+void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
+                 const detail::MapContents& map) {
+    for (const std::filesystem::path& file : maps)
+        if (const std::string remark = detail::overpass_remark(file); !remark.empty())
+            import.left_out.add("maps that Overpass did not finish",
+                                fmt::format("{}: {}", file.filename().string(), remark));
+    constexpr double least_km = 0.05;
+    if (map.unlimited_km >= least_km)
+        import.findings.changes.push_back(
+            fmt::format("the limit of {:.1f} km of the map's {:.1f} km of road is not on it: there it is the "
+                        "one of SUMO's "
+                        "types for towns, 50 km/h on main roads, 100 km/h on motorways",
+                        map.unlimited_km, map.car_roads_km));
+}
+
+void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
+                 scenario::ScenarioConfig& config) {
+    const auto [extract, map] = detail::extract_roads(maps, import.work, import.on_progress);
+    report_gaps(import, maps, map);
+    import.on_progress("building the network", 0.0);
+    const auto footways =
+        import.request.pedestrians_per_hour > 0.0 ? detail::Footways::build : detail::Footways::none;
+    const detail::DrivingSideChoice choice = detail::choose_driving_side(import.request.side, map);
+    const std::filesystem::path built =
+        detail::build_roads(maps.front(), extract, {choice.side, footways}, import.work, import.on_progress);
+    const roads::Network network = take_network(import, built);
+    import.findings.side_reason = choice.reason;
+    std::filesystem::remove(built);
+    add_pedestrians(
+        import, network, config,
+        {"--pedestrians",
+         "netconvert finds no place for a crossing: the map has none, and it guesses them at roads "
+         "of at most 50 km/h",
+         "a map with crossings or with such roads", "leave it out"});
+    config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
+    detail::choose_trips(import, config, network);
+    config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
+    for (const scenario::EmergencySite& site : config.emergency_sites)
+        for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
+            if (kind == site.kind) ++import.findings.sites[name];
+    detail::add_synthetic_demand(import, config, network);
+}
+
+/// `text` with the user's names for what an import makes: places of additional files, ids of types.
+std::string in_own_words(std::string text, const Import& import) {
+    const std::string made = (import.scenario / "additional.add.xml").string();
+    for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1)) {
+        const char* const end = text.c_str() + at + made.size();
+        const unsigned long line = *end == ':' ? std::strtoul(end + 1, nullptr, 10) : 0;
+        const auto place = import.additional.places.upper_bound(line);
+        if (place == import.additional.places.begin()) continue;
+        const std::size_t digits = fmt::formatted_size(":{}", line);
+        text.replace(at, made.size() + digits, std::prev(place)->second);
+    }
+    for (const char* const prefix : {"'human.", "'automated."})
+        for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + 1))
+            text.replace(at, std::strlen(prefix), "'");
+    return text;
+}
+
+void try_out_demand(Import& import, scenario::ScenarioConfig& config) {
+    try {
+        detail::try_out(import, config);
+    } catch (const core::InputError& error) {
+        std::vector<core::Problem> problems = error.problems();
+        for (core::Problem& problem : problems) {
+            problem.where = in_own_words(problem.where, import);
+            problem.what = in_own_words(problem.what, import);
+        }
+        throw core::InputError(std::move(problems));
+    }
+}
+
+void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
+    import.on_progress("reading the network", 0.0);
+    const roads::Network network = take_network(import, *sources.network);
+    import.findings.side_reason = "as the network says";
+    add_pedestrians(
+        import, network, config,
+        {"--pedestrians", "the network has no crossing for pedestrians",
+         "a network with sidewalks and crossings", "leave it out, or let netconvert guess crossings"});
+    config.network.attribution = fmt::format("from {}", sources.network->filename().string());
+    const bool has_files = !sources.demand.routes.empty() || !sources.demand.additional.empty();
+    import.on_progress("reading the demand", 0.0);
+    if (has_files &&
+        detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
+        try_out_demand(import, config);
+        return;
+    }
+    if (has_files)
+        import.findings.changes.emplace_back("the files hold no vehicle for the road: demand is synthetic");
+    detail::choose_trips(import, config, network);
+    detail::add_synthetic_demand(import, config, network);
+}
+
+scenario::ScenarioConfig start_config(const Import& import) {
+    scenario::ScenarioConfig config;
+    config.name = import.request.folder.filename().string();
+    config.version = "imported";
+    config.title =
+        fmt::format("{}, imported from {}", config.name, import.request.files.front().filename().string());
+    config.network.file = network_name;
+    config.limits.automated_kmh = config.limits.human_kmh;
+    config.folder = import.scenario;
+    return config;
+}
+
+}  // namespace
+
+Findings import(const ImportRequest& request, const OnProgress& on_progress) {
+    if (request.files.empty())
+        throw core::InputError(
+            core::Problem{"FILE", "is missing", "a map, a network or a configuration", ""});
+    const std::filesystem::path folder = std::filesystem::absolute(request.folder).lexically_normal();
+    check_folder(folder);
+    core::make_folder(folder.parent_path());
+    const AsideFolder aside(folder.parent_path() /
+                            fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid()));
+    ImportRequest settled = request;
+    settled.folder = folder;
+    Import import{settled, on_progress, aside.path() / "scenario", aside.path() / "work"};
+    core::make_folder(import.scenario);
+    core::make_folder(import.work);
+
+    bool leaves_out_bad_vehicles = false;
+    const Sources sources = sort_files(import, leaves_out_bad_vehicles);
+    if (leaves_out_bad_vehicles) settled.bad_vehicles = BadVehicles::leave_out;
+    scenario::ScenarioConfig config = start_config(import);
+    if (sources.maps.empty())
+        import_sumo(import, sources, config);
+    else
+        import_maps(import, sources.maps, config);
+
+    Findings& findings = import.findings;
+    findings.name = config.name;
+    findings.left_out = import.left_out.lines();
+    core::write_atomically(import.scenario / "scenario.toml", scenario::to_toml(config));
+    core::write_atomically(import.scenario / "import.json", to_json(findings));
+    const roads::Network network = roads::Network::read(import.scenario / network_name);
+    core::write_atomically(import.scenario / "network.svg", scenario::network_picture(network, config.title));
+    scenario::load((import.scenario / "scenario.toml").string());
+    on_progress("done", 0.0);
+    move_to(import.scenario, folder);
+    core::flush_folder(folder.parent_path());
+    return findings;
+}
+
+}  // namespace clearway::scenario_import

@@ -1,0 +1,153 @@
+#include "trace/replay.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "graph/proximity.hpp"
+#include "metrics/recorder.hpp"
+#include "pipeline/decision_chain.hpp"
+#include "trace/difference.hpp"
+
+namespace clearway::trace {
+namespace {
+
+/// Scores beliefs against the truth of their moment.
+class Scorer {
+  public:
+    void decision(const truth::Snapshot& snapshot, const graph::ProximityGraph* true_graph,
+                  const traffic::BelievedGraph& belief, std::size_t leases) {
+        ++score_.decisions;
+        score_.leases += leases;
+        if (true_graph == nullptr) return;
+        ++score_.scored;
+        recorder_.links(snapshot, *true_graph, belief);
+    }
+    LinkScore score() const {
+        LinkScore score = score_;
+        score.links = recorder_.link_counts();
+        score.dark = recorder_.dark_link_counts();
+        return score;
+    }
+
+  private:
+    metrics::Recorder recorder_;
+    LinkScore score_;
+};
+
+/// Gathers what a predictor said of every candidate, and what was true.
+class CandidateGatherer {
+  public:
+    void add(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+             const prediction::CandidateScores& scores) {
+        for (std::size_t at = 0; at < scores.probability.size(); ++at) {
+            const prediction::RowPair pair = scores.scene->candidates.rows[at];
+            const auto left = snapshot.row_of(scores.scene->tracks.key[pair.left]);
+            const auto right = snapshot.row_of(scores.scene->tracks.key[pair.right]);
+            const bool linked =
+                left && right && std::ranges::binary_search(true_graph.neighbours_of(*left), *right);
+            probability_.push_back(scores.probability[at]);
+            linked_.push_back(linked ? 1 : 0);
+        }
+    }
+    metrics::LinkQuality quality() const { return metrics::link_quality({probability_, linked_}); }
+
+  private:
+    std::vector<double> probability_;
+    std::vector<std::uint8_t> linked_;
+};
+
+class Replay {
+  public:
+    Replay(const RecordingInfo& info, const experiment::ConditionSpec& condition,
+           const roads::Network& network)
+        : chain_(condition, {.network = network,
+                             .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
+                                                         core::Replication{info.key.replication}),
+                             .policy_period_s = info.settings.policy_period_s,
+                             .link_radius_m = info.settings.link_radius_m}) {
+        rules_.radius_m = info.settings.link_radius_m;
+    }
+
+    void step(const RecordedStep& step) {
+        const truth::Snapshot& snapshot = *step.snapshot;
+        if (result_.steps++ == 0) result_.begin_s = snapshot.time.value;
+        result_.end_s = snapshot.time.value;
+        result_.vehicle_steps += snapshot.size();
+        has_true_graph_ = false;
+
+        chain_.observe(snapshot, *step.roster);
+        const bool decides = chain_.decision_is_due();
+        if (decides) decide(snapshot);
+        if (step.belief != nullptr)
+            recorded_.decision(snapshot, true_graph_if(step.observation->is_report, snapshot), *step.belief,
+                               step.leases.size());
+        compare(step, decides);
+    }
+
+    ReplayResult result() {
+        result_.recorded = recorded_.score();
+        result_.replayed = replayed_.score();
+        result_.candidates = candidates_.quality();
+        return result_;
+    }
+
+  private:
+    void decide(const truth::Snapshot& snapshot) {
+        chain_.decide();
+        const graph::ProximityGraph* const links = true_graph_if(chain_.observation().is_report, snapshot);
+        replayed_.decision(snapshot, links, chain_.belief(), chain_.leases().size());
+        if (links != nullptr) candidates_.add(snapshot, *links, chain_.predictor().scores());
+    }
+
+    const graph::ProximityGraph* true_graph_if(bool wanted, const truth::Snapshot& snapshot) {
+        if (!wanted) return nullptr;
+        if (!has_true_graph_)
+            builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
+        has_true_graph_ = true;
+        return &true_graph_;
+    }
+
+    void compare(const RecordedStep& step, bool decided) {
+        const double time_s = step.snapshot->time.value;
+        if (step.observation != nullptr)
+            note(result_.observations, time_s, difference(*step.observation, chain_.observation()));
+        if (step.belief == nullptr) return;
+        if (!decided) {
+            note(result_.beliefs, time_s, "a decision was recorded where none is due");
+            return;
+        }
+        note(result_.beliefs, time_s, difference(*step.belief, chain_.belief()));
+        note(result_.leases, time_s, difference(step.leases, chain_.leases()));
+    }
+
+    static void note(Agreement& agreement, double time_s, const std::optional<std::string>& difference) {
+        ++agreement.compared;
+        if (!difference) {
+            ++agreement.same;
+        } else if (agreement.first_difference.empty()) {
+            agreement.first_difference = fmt::format("at {} s: {}", time_s, *difference);
+        }
+    }
+
+    pipeline::DecisionChain chain_;
+    graph::LinkRules rules_;
+    graph::ProximityBuilder builder_;
+    graph::ProximityGraph true_graph_;
+    bool has_true_graph_ = false;  ///< Of the present step.
+    Scorer recorded_, replayed_;
+    CandidateGatherer candidates_;
+    ReplayResult result_;
+};
+
+}  // namespace
+
+ReplayResult replay(RecordingReader& recording, const experiment::ConditionSpec& condition,
+                    const roads::Network& network) {
+    Replay replay(recording.info(), condition, network);
+    while (const auto step = recording.next())
+        replay.step(*step);
+    return replay.result();
+}
+
+}  // namespace clearway::trace

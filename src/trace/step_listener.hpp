@@ -1,0 +1,23 @@
+#pragma once
+
+#include "trace/recording.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::trace {
+
+/// Watches a run step by step, for data sets and traces. It has the truth, so nothing that decides may be
+/// one.
+class StepListener {
+  public:
+    StepListener() = default;
+    StepListener(const StepListener&) = delete;
+    StepListener& operator=(const StepListener&) = delete;
+    virtual ~StepListener() = default;
+    /// After sensing, before any decision.
+    virtual void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) = 0;
+    /// At the end of the step, with what was reported and decided in it; valid for the call.
+    virtual void on_step_end(const RecordedStep& /*step*/) {}
+};
+
+}  // namespace clearway::trace

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "trace/recording.hpp"
+
+namespace clearway::trace {
+
+/// What is written of a recorded run.
+struct TrajectoryOptions {
+    core::Seconds every{1.0};  ///< Time between two places of a vehicle; at least a step.
+    core::Metres reach{50.0};  ///< Vehicles nearer than this to an emergency vehicle are its neighbours.
+};
+
+/// What was written.
+struct TrajectoryCounts {
+    std::size_t emergency_vehicles = 0;
+    std::size_t neighbours = 0;
+    std::size_t places = 0;  ///< Rows of the CSV file.
+    bool has_coordinates = false;
+};
+
+/// Writes where the emergency vehicles of a recording drove, and who was near them, into `folder`:
+/// trajectories.csv, one row for each vehicle and time (time_s, vehicle, class, near, distance_m,
+/// longitude_deg, latitude_deg, x_m, y_m, speed_mps, lane; the row of an emergency vehicle has no `near`),
+/// and trajectories.geojson (RFC 7946, WGS 84): one LineString for each vehicle and stretch of time without a
+/// gap, its times beside it. Where the network has no projection that is known, the coordinates are empty and
+/// there is no GeoJSON. Lines of one place are left out of GeoJSON, which asks for two. Throws as
+/// RecordingReader does.
+TrajectoryCounts write_trajectories(RecordingReader& recording, const roads::Network& network,
+                                    const TrajectoryOptions& options, const std::filesystem::path& folder);
+
+}  // namespace clearway::trace

@@ -1,0 +1,167 @@
+#include "links/link_evaluation.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "support/ascii_scene.hpp"
+
+namespace clearway::links {
+namespace {
+
+// Fronts at x = 5 (a1), 35 (h1), 45 (h2), 85 (e1), 125 (h3) and 155 (a2). Links below 50 m: a1-h1, a1-h2,
+// h2-e1, e1-h3, h3-a2; of them e1-h3 is with a vehicle ahead of the emergency vehicle. Human drivers are not
+// linked to each other.
+constexpr const char* road = R"(
+    10 m per cell, limit 20 m/s, speed 0 m/s
+    a..hh...e...h..a............................................
+)";
+
+/// Reports what it is told.
+class ToldSensor final : public sensing::SensorModel {
+  public:
+    explicit ToldSensor(traffic::Observation observation) : told_(std::move(observation)) {}
+    void observe(const truth::Snapshot& snapshot, const traffic::Roster&,
+                 traffic::Observation& observation) override {
+        observation = told_;
+        observation.time = snapshot.time;
+    }
+    void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+                      sensing::FailureLog& log) const override {
+        const auto is_told = [&](core::VehicleIndex row) {
+            return std::ranges::find(told_.vehicles, snapshot.key[row], &traffic::ObservedVehicle::key) !=
+                   told_.vehicles.end();
+        };
+        log.lost_links.clear();
+        for (core::VehicleIndex left = 0; left < snapshot.size(); ++left) {
+            for (const core::VehicleIndex right : true_graph.neighbours_of(left)) {
+                if (right > left && !(is_told(left) && is_told(right)))
+                    log.lost_links.push_back(
+                        {snapshot.key[left], snapshot.key[right], sensing::FailureLog::Cause::never_seen});
+            }
+        }
+    }
+
+  private:
+    traffic::Observation told_;
+};
+
+/// h3 is dark where it was last seen; h1 is dark and was last seen 400 m on; a2 never reported; a vehicle
+/// that has left is still known, at x = 100.
+traffic::Observation failing_observation(const support::Scene& scene) {
+    traffic::Observation observation = support::perfect_observation(scene);
+    observation.is_report = true;
+    std::vector<traffic::ObservedVehicle>& vehicles = observation.vehicles;
+    const auto make_dark = [&](const std::string& id, float age_s) -> traffic::ObservedVehicle& {
+        auto vehicle = std::ranges::find(vehicles, scene.key(id), &traffic::ObservedVehicle::key);
+        vehicle->freshness = traffic::Freshness::stale;
+        vehicle->age_s = age_s;
+        return *vehicle;
+    };
+    make_dark("h3", 3.0F);
+    make_dark("h1", 3.0F).state.x_m = 405.0F;
+    std::erase_if(vehicles, [&](const auto& vehicle) { return vehicle.key == scene.key("a2"); });
+    traffic::ObservedVehicle ghost =
+        *std::ranges::find(vehicles, scene.key("a1"), &traffic::ObservedVehicle::key);
+    ghost.key = core::vehicle_key("ghost");
+    ghost.freshness = traffic::Freshness::stale;
+    ghost.age_s = 10.0F;
+    ghost.state.x_m = 100.0F;
+    ghost.state.lane_position_m = 100.0F;
+    vehicles.push_back(ghost);
+    std::ranges::sort(vehicles, {}, &traffic::ObservedVehicle::key);
+    return observation;
+}
+
+class LinkTrialTest : public testing::Test {
+  protected:
+    LinkTrial::Setup setup(const std::vector<std::string>& predictors) const {
+        LinkTrial::Setup setup{.failure = "told",
+                               .exits = "unknown",
+                               .sensor = std::make_unique<ToldSensor>(failing_observation(scene_)),
+                               .predictors = {}};
+        for (const std::string& name : predictors)
+            setup.predictors.push_back(prediction::make_predictor(
+                name, {.network = scene_.network(), .rules = rules_, .model_file = {}}));
+        return setup;
+    }
+
+    support::Scene scene_{road};
+    graph::LinkRules rules_;
+};
+
+TEST_F(LinkTrialTest, counts_what_there_was_to_find_and_what_was_found) {
+    LinkTruthView truth(scene_.network(), rules_);
+    truth.look(scene_.snapshot(), scene_.roster());
+    ASSERT_EQ(truth.link_count(), 5U);
+    ASSERT_EQ(truth.policy_links().size(), 1U);
+
+    LinkTrial trial(scene_.network(), rules_, setup({"none", "dead_reckoning"}));
+    trial.observe(scene_.snapshot(), scene_.roster());
+    ASSERT_TRUE(trial.has_report());
+    trial.ask(scene_.snapshot(), truth, true);
+
+    const LinkCase none = trial.result(0);
+    EXPECT_EQ(none.truth.reports, 1U);
+    EXPECT_EQ(none.truth.vehicles, 6U);
+    EXPECT_EQ(none.truth.true_links, 5U);
+    EXPECT_EQ(none.truth.never_seen, 1U) << "h3-a2";
+    EXPECT_EQ(none.truth.outside, 1U) << "a1-h1";
+    EXPECT_EQ(none.truth.policy_links, 1U);
+    EXPECT_EQ(none.belief.listed_true, 2U) << "a1-h2 and h2-e1";
+    EXPECT_EQ(none.belief.listed_false, 0U);
+    EXPECT_EQ(none.belief.policy_found, 0U);
+    EXPECT_EQ(none.belief.believed_vehicles, 3U);
+    EXPECT_EQ(none.belief.ghosts, 0U);
+
+    const LinkCase reckoned = trial.result(1);
+    EXPECT_EQ(reckoned.truth, none.truth);
+    EXPECT_EQ(reckoned.belief.listed_true, 3U) << "and e1-h3";
+    EXPECT_EQ(reckoned.belief.listed_false, 2U) << "the ghost with e1 and h3";
+    EXPECT_EQ(reckoned.belief.policy_found, 1U);
+    EXPECT_EQ(reckoned.belief.believed_vehicles, 6U);
+    EXPECT_EQ(reckoned.belief.ghosts, 1U);
+}
+
+TEST_F(LinkTrialTest, scores_every_candidate_in_its_subsets) {
+    LinkTruthView truth(scene_.network(), rules_);
+    truth.look(scene_.snapshot(), scene_.roster());
+    LinkTrial trial(scene_.network(), rules_, setup({"dead_reckoning"}));
+    trial.observe(scene_.snapshot(), scene_.roster());
+    trial.ask(scene_.snapshot(), truth, true);
+
+    // Candidates: e1-h3 (40 m, the only true one), and the ghost with e1 (15 m), h3 (25 m) and h2 (55 m).
+    const metrics::LinkScoreSummary scores = trial.result(0).scores;
+    EXPECT_EQ(scores.of(metrics::LinkSubset::all).pairs(), 4U);
+    EXPECT_EQ(scores.of(metrics::LinkSubset::all).true_links(), 1U);
+    EXPECT_EQ(scores.of(metrics::LinkSubset::hard).pairs(), 3U) << "all but the ghost at 15 m";
+    EXPECT_EQ(scores.of(metrics::LinkSubset::policy).pairs(), 2U) << "h3 and the ghost are ahead of e1";
+    EXPECT_EQ(scores.of_age(metrics::age_class_of(3.0F)).pairs(), 1U);
+    EXPECT_EQ(scores.of_age(metrics::age_class_of(10.0F)).pairs(), 3U);
+    EXPECT_EQ(trial.timing(0).vehicles, 6U);
+    EXPECT_GT(trial.timing(0).predict_s, 0.0);
+}
+
+TEST_F(LinkTrialTest, asks_without_scoring_while_sensors_warm_up) {
+    LinkTruthView truth(scene_.network(), rules_);
+    truth.look(scene_.snapshot(), scene_.roster());
+    LinkTrial trial(scene_.network(), rules_, setup({"last_seen"}));
+    trial.observe(scene_.snapshot(), scene_.roster());
+    trial.ask(scene_.snapshot(), truth, false);
+    EXPECT_EQ(trial.result(0).truth, metrics::LinkTruth{});
+    EXPECT_EQ(trial.result(0).scores, metrics::LinkScoreSummary{});
+}
+
+TEST_F(LinkTrialTest, is_scored_once_a_second_from_the_time_given) {
+    const double start_s = scene_.snapshot().time.value;
+    LinkEvaluator evaluator(scene_.network(), rules_, core::Seconds(start_s + 5.0));
+    evaluator.add(setup({"none"}));
+    for (int step = 0; step * 0.25 <= 7.0; ++step) {
+        scene_.snapshot().time = core::Seconds(start_s + 0.25 * step);
+        evaluator.on_step(scene_.snapshot(), scene_.roster());
+    }
+    EXPECT_EQ(evaluator.trials().front().result(0).truth.reports, 3U) << "5, 6 and 7 s after the start";
+}
+
+}  // namespace
+}  // namespace clearway::links

@@ -1,0 +1,187 @@
+#include "links/link_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "links/detail/link_draws.hpp"
+
+namespace clearway::links {
+namespace {
+
+using metrics::LinkSubset;
+
+/// One run with one case. Scores of links are `skill` logits above those of others.
+LinkRun run_of(const std::string& scenario, std::uint32_t replication, const std::string& predictor,
+               double skill, std::uint32_t pairs = 400) {
+    std::mt19937 engine(replication * 7919U + static_cast<std::uint32_t>(scenario.size()));
+    std::normal_distribution<double> noise(0.0, 1.0);
+    metrics::LinkScores scores;
+    for (std::uint32_t i = 0; i < pairs; ++i) {
+        const bool linked = i % 4 == 0;
+        const double logit = noise(engine) + (linked ? skill : -skill);
+        scores.add(static_cast<float>(1.0 / (1.0 + std::exp(-logit))), linked, {.age_class = i % 3});
+    }
+    LinkRun run{.scenario = scenario,
+                .configuration_hash = "",
+                .study_seed = 1,
+                .replication = replication,
+                .predictor = predictor,
+                .cases = {}};
+    run.cases.push_back({"B10", "known", {10, 100, 50, 5, 2, 8}, {30, 6, 4, 90, 20}, scores.summary()});
+    return run;
+}
+
+LinkRuns runs_of(const std::string& predictor, double skill) {
+    LinkRuns runs;
+    for (const char* const scenario : {"merge", "city"}) {
+        for (std::uint32_t replication = 0; replication < 5; ++replication) {
+            runs.test.push_back(run_of(scenario, replication, predictor, skill));
+            runs.test_timing.push_back({{{"B10", "known", 10, 100, 0.002}}});
+        }
+        runs.validation.push_back(run_of(scenario, 100, predictor, skill));
+    }
+    return runs;
+}
+
+const LinkResult& find(const LinkJudgement& judgement, const std::string& predictor,
+                       const std::string& scenario) {
+    for (const LinkResult& result : judgement.results()) {
+        if (result.predictor == predictor && result.scenario == scenario) return result;
+    }
+    throw std::invalid_argument("no such result");
+}
+
+TEST(LinkJudgement, pools_runs_and_lists_every_scenario) {
+    LinkJudgement judgement({5, 5});
+    const LinkRuns runs = runs_of("kalman", 1.0);
+    judgement.add(runs);
+    ASSERT_EQ(judgement.results().size(), 3U);
+    metrics::LinkSummary all;
+    metrics::LinkSummary city;
+    metrics::LinkSummary validation;
+    for (const LinkRun& run : runs.test) {
+        all.add(run.cases[0].scores.of(LinkSubset::all));
+        if (run.scenario == "city") city.add(run.cases[0].scores.of(LinkSubset::all));
+    }
+    for (const LinkRun& run : runs.validation)
+        validation.add(run.cases[0].scores.of(LinkSubset::all));
+    const double threshold = metrics::best_f1_threshold(validation);
+    const metrics::LinkQuality expected = metrics::link_quality(all, threshold);
+    const LinkResult& pooled = find(judgement, "kalman", "");
+    EXPECT_DOUBLE_EQ(pooled.threshold, threshold);
+    EXPECT_DOUBLE_EQ(pooled.of(LinkSubset::all).ap.value.value(), expected.ap.value());
+    EXPECT_DOUBLE_EQ(pooled.of(LinkSubset::all).f1.value.value(), expected.f1.value());
+    EXPECT_NEAR(pooled.of(LinkSubset::all).ece.value.value(), expected.ece.value(), 1e-9);
+    EXPECT_NEAR(pooled.of(LinkSubset::all).log_loss.value.value(), expected.log_loss.value(), 1e-9);
+    EXPECT_EQ(pooled.of(LinkSubset::hard).pairs, 0U);
+    EXPECT_FALSE(pooled.of(LinkSubset::hard).ap.value.has_value());
+    EXPECT_DOUBLE_EQ(find(judgement, "kalman", "city").of(LinkSubset::all).ap.value.value(),
+                     metrics::link_quality(city).ap.value());
+    EXPECT_EQ(pooled.end_to_end.truth.true_links, 500U);
+    EXPECT_EQ(pooled.end_to_end.predicted_away(), 130U);
+    EXPECT_DOUBLE_EQ(pooled.end_to_end.recall.value.value(), 0.6);
+    EXPECT_DOUBLE_EQ(pooled.end_to_end.precision.value.value(), 30.0 / 36.0);
+    EXPECT_DOUBLE_EQ(pooled.end_to_end.policy_recall.value.value(), 0.5);
+    EXPECT_DOUBLE_EQ(pooled.end_to_end.ghosts_per_report().value(), 2.0);
+    EXPECT_NEAR(pooled.report_us, 200.0, 1e-9);
+    EXPECT_DOUBLE_EQ(pooled.report_vehicles, 10.0);
+}
+
+TEST(LinkJudgement, gives_intervals_around_the_values) {
+    LinkJudgement judgement({5, 5});
+    judgement.add(runs_of("kalman", 1.0));
+    const LinkMeasures& all = find(judgement, "kalman", "").of(LinkSubset::all);
+    for (const analysis::Measured* const measured : {&all.ap, &all.auc, &all.f1, &all.log_loss, &all.ece}) {
+        ASSERT_TRUE(measured->interval.has_value());
+        EXPECT_TRUE(measured->interval->contains(measured->value.value()));
+        EXPECT_GT(measured->interval->half_width(), 0.0);
+        EXPECT_LT(measured->interval->half_width(), 0.1);
+    }
+}
+
+TEST(LinkJudgement, does_not_depend_on_the_order_of_runs) {
+    LinkRuns runs = runs_of("kalman", 1.0);
+    LinkJudgement forwards({5, 5});
+    forwards.add(runs);
+    std::reverse(runs.test.begin(), runs.test.begin() + 5);
+    std::reverse(runs.test.begin() + 5, runs.test.end());
+    LinkJudgement backwards({5, 5});
+    backwards.add(runs);
+    const LinkMeasures& one = find(forwards, "kalman", "").of(LinkSubset::all);
+    const LinkMeasures& other = find(backwards, "kalman", "").of(LinkSubset::all);
+    EXPECT_EQ(one.ap.value, other.ap.value);
+    EXPECT_EQ(one.log_loss.value, other.log_loss.value);
+    EXPECT_NEAR(one.ap.interval->low, other.ap.interval->low, 0.3 * one.ap.interval->half_width());
+}
+
+TEST(LinkJudgement, compares_errors_with_an_opponent) {
+    LinkJudgement judgement({5, 5});
+    judgement.add(runs_of("graphsage", 2.0));
+    judgement.add(runs_of("route_rule", 1.0));
+    const std::vector<LinkGain> gains = judgement.gains("route_rule");
+    ASSERT_EQ(gains.size(), 1U);
+    EXPECT_EQ(gains[0].predictor, "graphsage");
+    EXPECT_EQ(gains[0].against, "route_rule");
+    const double own = find(judgement, "graphsage", "").of(LinkSubset::all).ap.value.value();
+    const double theirs = find(judgement, "route_rule", "").of(LinkSubset::all).ap.value.value();
+    EXPECT_DOUBLE_EQ(gains[0].ap_error_reduction.value.value(), 1.0 - (1.0 - own) / (1.0 - theirs));
+    EXPECT_DOUBLE_EQ(gains[0].ap_difference.value.value(), own - theirs);
+    EXPECT_GT(gains[0].ap_error_reduction.interval->low, 0.0);
+    EXPECT_TRUE(gains[0].f1_error_reduction.interval->contains(gains[0].f1_error_reduction.value.value()));
+    EXPECT_TRUE(judgement.gains("last_seen").empty());
+}
+
+TEST(LinkJudgement, of_one_run_a_scenario_gives_no_interval) {
+    LinkRuns runs;
+    runs.test.push_back(run_of("merge", 0, "none", 1.0));
+    runs.test_timing.push_back({{{"B10", "known", 10, 100, 0.002}}});
+    runs.validation.push_back(run_of("merge", 1, "none", 1.0));
+    LinkJudgement judgement({1});
+    judgement.add(runs);
+    ASSERT_EQ(judgement.results().size(), 1U);
+    EXPECT_EQ(judgement.results()[0].scenario, "merge");
+    EXPECT_TRUE(judgement.results()[0].of(LinkSubset::all).ap.value.has_value());
+    EXPECT_FALSE(judgement.results()[0].of(LinkSubset::all).ap.interval.has_value());
+}
+
+TEST(RunResampling, draws_within_strata_and_repeats_itself) {
+    const analysis::RunResampling resampling({3, 2});
+    ASSERT_EQ(resampling.runs(), 5U);
+    bool repeated = false;
+    for (std::size_t number = 0; number < resampling.resamples(); ++number) {
+        const auto weights = resampling.weights(number);
+        EXPECT_DOUBLE_EQ(weights[0] + weights[1] + weights[2], 3.0);
+        EXPECT_DOUBLE_EQ(weights[3] + weights[4], 2.0);
+        repeated = repeated || weights[0] == 3.0;
+        EXPECT_TRUE(std::ranges::equal(
+            weights, analysis::RunResampling({3, 2}, {.resamples = number + 1}).weights(number)));
+        if (number > 20) break;
+    }
+    EXPECT_TRUE(repeated);
+}
+
+TEST(RunResampling, intervals_of_ten_runs_hold_the_true_ratio_about_as_often_as_they_say) {
+    const analysis::RunResampling resampling({10}, {.resamples = 400});
+    std::mt19937 engine(1);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    constexpr int samples = 400;
+    int held = 0;
+    for (int sample = 0; sample < samples; ++sample) {
+        std::vector<double> above;
+        std::vector<double> below;
+        for (int run = 0; run < 10; ++run) {
+            below.push_back(10.0 + noise(engine));
+            above.push_back(0.5 * below.back() + noise(engine));
+        }
+        const analysis::Measured ratio = detail::draw_ratio(above, below, resampling).measured(resampling);
+        held += ratio.interval->contains(0.5) ? 1 : 0;
+    }
+    EXPECT_GE(held, samples * 91 / 100);
+    EXPECT_LE(held, samples * 99 / 100);
+}
+
+}  // namespace
+}  // namespace clearway::links

@@ -1,0 +1,167 @@
+// Scenarios of SUMO in: configuration, routes, flows, types, additional files.
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include "roads/network.hpp"
+#include "sumo_line.hpp"
+
+namespace clearway::scenario_import {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::Pair;
+
+TEST_F(SumoScenario, a_share_of_the_cars_is_automated_by_their_ids) {
+    run(line_with("<vType id='slow' maxSpeed='10' sigma='0.7'/>" + cars(60) +
+                  "<vehicle id='mine' type='slow' depart='30'><route edges='first second'/></vehicle>"));
+    const scenario::Prepared first = prepared();
+    EXPECT_EQ(first.human + first.automated, 61);
+    EXPECT_GT(first.automated, 10);
+    EXPECT_LT(first.automated, 35);
+    EXPECT_EQ(first.emergency.size(), 6U);
+    EXPECT_THAT(types(), AllOf(HasSubstr("id=\"human.slow\""), HasSubstr("id=\"automated.slow\""),
+                               HasSubstr("sigma=\"0.7\""), HasSubstr("maxSpeed=\"10.00\"")));
+    const std::string before = traffic();
+    prepared();
+    EXPECT_EQ(traffic(), before);
+}
+
+TEST_F(SumoScenario, flows_trips_distributions_and_references_become_vehicles) {
+    const Findings findings =
+        run(line_with("<vTypeDistribution id='mix'><vType id='a' vClass='passenger' probability='0.5'/>"
+                      "<vType id='b' vClass='truck' probability='0.5'/></vTypeDistribution><route id='way' "
+                      "edges='first second'/>"
+                      "<flow id='regular' type='mix' route='way' begin='0' end='100' number='10'/>"
+                      "<flow id='hourly' from='first' to='second' begin='0' end='100' vehsPerHour='360'/>"
+                      "<flow id='chance' route='way' begin='0' end='100' probability='0.2'/>"
+                      "<trip id='trip' depart='0:00:30' from='first' to='second'/>"));
+    const int count = findings.vehicles.at("car") + findings.vehicles.at("truck");
+    EXPECT_GE(count, 10 + 10 + 1 + 8);
+    EXPECT_LE(count, 10 + 10 + 1 + 35);
+    EXPECT_GT(findings.vehicles.at("truck"), 0);
+    const std::string routes = core::read_file(out() / "town" / "traffic.rou.xml");
+    EXPECT_THAT(routes, AllOf(HasSubstr("id=\"regular.9\""), HasSubstr("id=\"hourly.9\""),
+                              HasSubstr("depart=\"30.00\"")));
+    EXPECT_THAT(routes, Not(HasSubstr("<flow")));
+}
+
+TEST_F(SumoScenario, an_unsorted_file_is_sorted_and_that_is_said) {
+    const Findings findings = run(line_with(car("late", 50) + car("early", 10) + cars(20)));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("line.rou.xml is sorted by departure")));
+    const std::string routes = core::read_file(out() / "town" / "traffic.rou.xml");
+    EXPECT_LT(routes.find("id=\"early\""), routes.find("id=\"late\""));
+}
+
+TEST_F(SumoScenario, gaps_and_unknown_edges_are_refused_with_vehicle_and_edges) {
+    const std::string gap = refusal(line_with(cars(3) + car("jumper", 5, "first side")));
+    EXPECT_THAT(gap, AllOf(HasSubstr("line.rou.xml:1: \"jumper\""), HasSubstr("gap"), HasSubstr("\"side\""),
+                           HasSubstr("--leave-out-bad-vehicles")));
+    EXPECT_THAT(refusal(line_with(car("lost", 5, "first nowhere"))), HasSubstr("no edge \"nowhere\""));
+    ImportRequest lenient = line_with(cars(3) + car("jumper", 5, "first side"));
+    lenient.bad_vehicles = BadVehicles::leave_out;
+    const Findings findings = run(lenient);
+    EXPECT_EQ(findings.vehicles.at("car"), 3);
+    EXPECT_THAT(findings.left_out, Contains(HasSubstr("jumper")));
+}
+
+TEST_F(SumoScenario, an_id_that_occurs_twice_is_refused_with_both_places) {
+    EXPECT_THAT(
+        refusal(line_with(car("twin", 1) + "\n" + car("twin", 2))),
+        AllOf(HasSubstr("line.rou.xml:2: \"twin\""), HasSubstr("occurs twice"), HasSubstr("line.rou.xml:1")));
+}
+
+TEST_F(SumoScenario, unknown_types_routes_and_departures_are_refused_together) {
+    const std::string message =
+        refusal(line_with("<vehicle id='a' type='nosuch' depart='1'><route edges='first'/></vehicle>"
+                          "<vehicle id='b' route='nosuch' depart='1'/><vehicle id='c' depart='soon'><route "
+                          "edges='first'/></vehicle>"));
+    EXPECT_THAT(message, AllOf(HasSubstr("type \"nosuch\""), HasSubstr("route \"nosuch\""),
+                               HasSubstr("depart is \"soon\"")));
+}
+
+TEST_F(SumoScenario, a_configuration_with_relative_lists_packed_files_and_what_cannot_be_used) {
+    std::filesystem::create_directories(folder() / "sub dir");
+    std::filesystem::copy_file(line_network(), folder() / "sub dir" / "net.xml");
+    gzFile packed = gzopen((folder() / "sub dir" / "b.rou.xml.gz").c_str(), "wb");
+    const std::string late = "<routes>" + car("late", 40) + "</routes>";
+    gzwrite(packed, late.data(), static_cast<unsigned>(late.size()));
+    gzclose(packed);
+    write("sub dir/a.rou.xml", "<routes>" + cars(20) + "<person id='walker' depart='1'/></routes>");
+    write("sub dir/more.add.xml",
+          "<additional><busStop id='stop' lane='first_0' startPos='100' endPos='120'/>"
+          "<inductionLoop id='loop' lane='first_0' pos='50' freq='60' file='x.xml'/><poly id='park' "
+          "shape='0,0 1,1'/>"
+          "</additional>");
+    const auto configuration = write(
+        "sub dir/run.sumocfg",
+        "<configuration><input><net-file value='net.xml'/><route-files value='a.rou.xml, b.rou.xml.gz'/>"
+        "<additional-files value='more.add.xml'/></input><time><begin value='0'/><end value='50'/></time>"
+        "<processing><max-depart-delay value='2'/></processing></configuration>");
+    unsetenv("SUMO_HOME");
+    const Findings findings = run(request({configuration}));
+    setenv("SUMO_HOME", "/usr/share/sumo", 0);
+    EXPECT_EQ(findings.vehicles.at("car"), 21);
+    EXPECT_THAT(findings.left_out,
+                AllOf(Contains("1 persons who do not walk (walker)"), Contains(HasSubstr("<inductionLoop>")),
+                      Contains(HasSubstr("<poly>")), Contains(HasSubstr("max-depart-delay = 2"))));
+    EXPECT_THAT(core::read_file(out() / "town" / "additional.add.xml"),
+                AllOf(HasSubstr("busStop"), Not(HasSubstr("inductionLoop"))));
+}
+
+TEST_F(SumoScenario, a_missing_file_is_named_with_the_nearest_there_is) {
+    const auto network = line_network();
+    write("line_cars.add.xml", "<routes/>");
+    const auto configuration = write("run.sumocfg",
+                                     "<configuration><net-file value='line.net.xml'/>"
+                                     "<route-files value='line_cars.rou.xml'/></configuration>");
+    EXPECT_THAT(refusal(request({configuration})), AllOf(HasSubstr("no file"), HasSubstr("line_cars.rou.xml"),
+                                                         HasSubstr("there is line_cars.add.xml")));
+}
+
+TEST_F(SumoScenario, newer_class_lists_are_repaired_and_emergency_vehicles_admitted) {
+    std::string text = core::read_file(line_network());
+    for (const auto& [lane, list] : {std::pair{"\"second_0\"", "allow=\"passenger subway\""},
+                                     std::pair{"\"first_0\"", "disallow=\"drone tram\""}}) {
+        const std::size_t at = text.find(std::string("<lane id=") + lane);
+        ASSERT_NE(at, std::string::npos);
+        text.insert(at + 5, std::string(" ") + list);
+    }
+    const auto network = write("newer.net.xml", text);
+    const Findings findings =
+        run(request({network, write("line.rou.xml", "<routes>" + cars(20) + "</routes>")}));
+    EXPECT_THAT(findings.changes, AllOf(Contains(HasSubstr("2 lists of vehicle classes")),
+                                        Contains(HasSubstr("1 lanes or ways"))));
+    EXPECT_THAT(core::read_file(out() / "town" / "network.net.xml"),
+                AllOf(HasSubstr("allow=\"passenger emergency\""), Not(HasSubstr("subway"))));
+}
+
+TEST_F(SumoScenario, a_begin_in_the_day_shifts_departures_and_stops) {
+    ImportRequest made = line_with(
+        "<vehicle id='bus' depart='25210'><route edges='first second'/><stop lane='first_0' endPos='200' "
+        "until='25290'/></vehicle><vehicle id='car' depart='25220'><route edges='first second'/></vehicle>");
+    made.begin_s = 25200.0;
+    run(made);
+    EXPECT_THAT(core::read_file(out() / "town" / "traffic.rou.xml"),
+                AllOf(HasSubstr("depart=\"10.00\""), HasSubstr("until=\"90.00\"")));
+}
+
+TEST_F(SumoScenario, shared_scenarios_import_where_they_are) {
+    const char* const set = std::getenv("CLEARWAY_SHARED_SCENARIOS");
+    const std::filesystem::path shared =
+        set != nullptr ? std::filesystem::path(set)
+                       : std::filesystem::path(CLEARWAY_SOURCE_DIR) / "../shared/scenarios";
+    if (!std::filesystem::is_directory(shared))
+        GTEST_SKIP() << shared << " is not there; CLEARWAY_SHARED_SCENARIOS names another folder";
+    const Findings hamburg = run(request({shared / "hamburg_tavf" / "run_simulation.sumocfg"}, "hamburg"));
+    EXPECT_EQ(hamburg.signals, 43U);
+    EXPECT_GT(hamburg.vehicles.at("bus"), 50);
+    EXPECT_EQ(run(request({shared / "osm_monaco_osrm" / "monaco.osm.pbf"}, "monaco")).left_hand, false);
+}
+
+}  // namespace
+}  // namespace clearway::scenario_import

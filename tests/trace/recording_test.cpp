@@ -1,0 +1,216 @@
+// A recording gives back what was written to the bit, and says what is wrong with a file that does not.
+#include "trace/recording.hpp"
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "support/temporary_folder.hpp"
+#include "trace/difference.hpp"
+#include "trace/random_run.hpp"
+
+namespace clearway::results {
+namespace {
+
+using test::RandomRun;
+using testing::HasSubstr;
+
+bool same(const truth::Events& one, const truth::Events& other) {
+    const auto collision = [](const truth::Collision& left, const truth::Collision& right) {
+        return left.collider == right.collider && left.victim == right.victim && left.place == right.place &&
+               left.lane == right.lane && left.with_emergency_vehicle == right.with_emergency_vehicle;
+    };
+    const auto braking = [](const truth::EmergencyBraking& left, const truth::EmergencyBraking& right) {
+        return left.vehicle == right.vehicle && std::bit_cast<std::uint32_t>(left.deceleration_mps2) ==
+                                                    std::bit_cast<std::uint32_t>(right.deceleration_mps2);
+    };
+    return one.time == other.time && one.departed == other.departed && one.arrived == other.arrived &&
+           one.teleported == other.teleported && one.removed == other.removed &&
+           std::ranges::equal(one.collisions, other.collisions, collision) &&
+           std::ranges::equal(one.emergency_brakings, other.emergency_brakings, braking);
+}
+
+void expect_same_roster(const traffic::Roster& one, const traffic::Roster& other) {
+    ASSERT_EQ(one.vehicles().size(), other.vehicles().size());
+    ASSERT_EQ(one.route_count(), other.route_count());
+    for (std::size_t row = 0; row < one.vehicles().size(); ++row) {
+        EXPECT_EQ(one.vehicles()[row].id, other.vehicles()[row].id);
+        EXPECT_EQ(one.vehicles()[row].route, other.vehicles()[row].route);
+    }
+    for (std::uint32_t route = 0; route < one.route_count(); ++route)
+        EXPECT_EQ(one.route(core::RouteIndex{route}), other.route(core::RouteIndex{route}));
+}
+
+TEST(Difference, SeesTheLinksThatAnEmergencyVehicleItselfTakes) {
+    std::vector<traffic::Lease> one(1);
+    one.front().target = core::SignalIndex{0};
+    one.front().action = traffic::HoldGreen{{2, 3}, {3}};
+    std::vector<traffic::Lease> other = one;
+    other.front().action = traffic::HoldGreen{{2, 3}, {2}};
+    EXPECT_EQ(trace::difference(one, one), std::nullopt);
+    EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("own_links"));
+}
+
+void expect_same(const trace::RecordedStep& one, const trace::RecordedStep& other) {
+    EXPECT_EQ(trace::difference(*one.snapshot, *other.snapshot), std::nullopt);
+    EXPECT_TRUE(same(*one.events, *other.events));
+    expect_same_roster(*one.roster, *other.roster);
+    EXPECT_EQ(trace::difference(one.leases, other.leases), std::nullopt);
+    ASSERT_EQ(one.observation != nullptr, other.observation != nullptr);
+    ASSERT_EQ(one.belief != nullptr, other.belief != nullptr);
+    if (one.observation != nullptr) {
+        EXPECT_EQ(trace::difference(*one.observation, *other.observation), std::nullopt);
+        EXPECT_EQ(one.observation->roster == one.roster, other.observation->roster == other.roster);
+        expect_same_roster(*one.observation->roster, *other.observation->roster);
+    }
+    if (one.belief != nullptr) {
+        EXPECT_EQ(trace::difference(*one.belief, *other.belief), std::nullopt);
+        EXPECT_EQ(other.belief->roster, other.observation->roster);
+    }
+}
+
+class Recording : public testing::Test {
+  protected:
+    std::filesystem::path record(const std::string& name, int steps, unsigned seed = 1) const {
+        const std::filesystem::path file = folder_.path() / name;
+        trace::RecordingWriter writer(file, RandomRun::info());
+        RandomRun run(seed);
+        for (int step = 0; step < steps; ++step)
+            writer.write(run.next());
+        writer.finish();
+        return file;
+    }
+    /// Reads to the end; the message of what is wrong, or nothing.
+    static std::string problem_of(const std::filesystem::path& file) {
+        try {
+            trace::RecordingReader reader(file);
+            while (reader.next()) {
+            }
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(file.string()));
+            return error.what();
+        }
+        return "";
+    }
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(Recording, GivesBackEveryBitOfEveryStep) {
+    for (const bool own_roster : {false, true}) {
+        const std::filesystem::path file = folder_.path() / "any.recording";
+        trace::RecordingWriter writer(file, RandomRun::info());
+        RandomRun run(5, own_roster);
+        for (int step = 0; step < 400; ++step)
+            writer.write(run.next());
+        writer.finish();
+
+        trace::RecordingReader reader(file);
+        EXPECT_EQ(reader.info(), RandomRun::info());
+        RandomRun again(5, own_roster);
+        for (int step = 0; step < 400; ++step) {
+            const auto read = reader.next();
+            ASSERT_TRUE(read);
+            expect_same(again.next(), *read);
+            if (HasFailure()) FAIL() << "step " << step;
+        }
+        EXPECT_FALSE(reader.next());
+    }
+}
+
+TEST_F(Recording, HasTheSameHashForTheSameRunAndAnotherForAnother) {
+    const auto hash_of = [](const std::filesystem::path& file) {
+        trace::RecordingReader reader(file);
+        while (reader.next()) {
+        }
+        return reader.content_hash();
+    };
+    const std::string hash = hash_of(record("one", 60));
+    EXPECT_EQ(hash.size(), 32U);
+    EXPECT_EQ(hash_of(record("two", 60)), hash);
+    EXPECT_NE(hash_of(record("three", 60, 2)), hash);
+}
+
+TEST_F(Recording, OfNoStepIsRead) {
+    trace::RecordingReader reader(record("empty", 0));
+    EXPECT_FALSE(reader.next());
+}
+
+TEST_F(Recording, IsThereAsAWholeOrNotAtAll) {
+    const std::filesystem::path file = folder_.path() / "half";
+    {
+        trace::RecordingWriter writer(file, RandomRun::info());
+        RandomRun run(1);
+        for (int step = 0; step < 200; ++step)
+            writer.write(run.next());
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(Recording, SaysThatAFileIsMissingOrSomethingElse) {
+    EXPECT_THAT(problem_of(folder_.path() / "none"), HasSubstr("cannot be read"));
+    EXPECT_THAT(problem_of(folder_.path()), HasSubstr("cannot be read"));
+    EXPECT_THAT(problem_of(folder_.write("notes.txt", "dear diary, today")), HasSubstr("is not a recording"));
+    EXPECT_THAT(problem_of(folder_.write("nothing", "")), HasSubstr("is not a recording"));
+}
+
+TEST_F(Recording, RefusesAnotherVersion) {
+    const std::filesystem::path file = record("old", 3);
+    std::string bytes = core::read_file(file);
+    bytes[8] = 9;
+    core::write_atomically(file, bytes);
+    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 1")));
+}
+
+TEST_F(Recording, NoticesWhereverItIsCutShort) {
+    const std::filesystem::path file = record("cut", 40);
+    const std::string bytes = core::read_file(file);
+    for (std::size_t length = 12; length < bytes.size(); length += 97) {
+        core::write_atomically(file, std::string_view(bytes).substr(0, length));
+        EXPECT_THAT(problem_of(file), HasSubstr("is cut short")) << length;
+    }
+    core::write_atomically(file, bytes + "x");
+    EXPECT_THAT(problem_of(file), HasSubstr("something follows its end"));
+}
+
+TEST_F(Recording, NoticesEveryFlippedBit) {
+    const std::filesystem::path file = record("flipped", 20);
+    const std::string bytes = core::read_file(file);
+    for (std::size_t at = 0; at < bytes.size(); at += 13) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << (at % 8)));
+        core::write_atomically(file, damaged);
+        EXPECT_NE(problem_of(file), "") << at;
+    }
+}
+
+TEST_F(Recording, RefusesStepsThatItCouldNotGiveBack) {
+    trace::RecordingWriter writer(folder_.path() / "odd", RandomRun::info());
+    RandomRun run(3);
+    trace::RecordedStep step = run.next();
+    step.belief = run.next().belief;
+    step.observation = nullptr;
+    EXPECT_THROW(writer.write(step), std::invalid_argument);
+    truth::Snapshot unordered = *step.snapshot;
+    unordered.key = {core::VehicleKey{9}, core::VehicleKey{3}};
+    unordered.resize(2);
+    step = {&unordered, step.roster, step.events, nullptr, nullptr, {}};
+    EXPECT_THROW(writer.write(step), std::invalid_argument);
+}
+
+TEST_F(Recording, ThatDoesNotFitOnTheDiskLeavesNothing) {
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit tight{2000, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &tight);
+    EXPECT_THROW(record("large", 400), core::EnvironmentError);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+}  // namespace
+}  // namespace clearway::results
