@@ -1,14 +1,14 @@
 #pragma once
 
-// A policy part of your own: automated vehicles close behind an emergency vehicle drop back. See README.md.
+// A policy of your own: automated vehicles close behind an emergency vehicle drop back. See README.md.
 
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
-class KeepDistance : public Part {
+class KeepDistance : public Policy {
   public:
-    explicit KeepDistance(const PartContext&) {}
+    explicit KeepDistance(const PolicyContext&) {}
 
     std::string_view name() const override { return "keep_distance"; }
 

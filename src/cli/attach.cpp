@@ -22,6 +22,7 @@ struct Arguments {
     std::string place;
     std::string folder;
     experiment::AttachOrder order;
+    DescribedCondition described;
     Printing printing = Printing::text;
 };
 
@@ -51,6 +52,7 @@ core::ExitCode attach(const Arguments& arguments) {
              "Give another with --out, or remove it; a simulation elsewhere cannot be resumed"});
     order.output = std::filesystem::absolute(folder);
     if (!order.network.empty()) order.network = std::filesystem::absolute(order.network);
+    order.condition = condition_of(arguments.described);
     check_names({order.condition});
     const std::filesystem::path orders = order.output.string() + ".order";
     const WorkerResult result = work_on({{.label = fmt::format("SUMO at {}:{}", order.host, order.port),
@@ -69,12 +71,12 @@ core::ExitCode attach(const Arguments& arguments) {
 
 Action configure_attach(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    arguments->order.condition.name = "attached";
+    arguments->described.condition.name = "attached";
     experiment::AttachOrder& order = arguments->order;
     app.add_option("place", arguments->place, "Where SUMO waits for orders (its --remote-port)")
         ->required()
         ->option_text("HOST:PORT (required)");
-    add_condition_options(app, order.condition, "What is done (names: clearway list)");
+    add_condition_options(app, arguments->described, "What is done (names: clearway list)");
     app.add_option("--automated", order.automated,
                    "Vehicle types that are automated, beside those that say so (clearway.class)")
         ->option_text("TYPE ... [none]");

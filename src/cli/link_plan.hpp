@@ -14,8 +14,8 @@ namespace clearway::cli {
 /// A predictor to judge.
 struct LinkPredictor {
     std::string name;
-    std::string model_file;                  ///< Empty: as shipped.
-    std::map<std::string, double> settings;  ///< That differ from the defaults.
+    std::string model_file;   ///< Empty: as shipped.
+    core::Settings settings;  ///< That differ from the defaults.
 };
 
 /// On which seeds figures are taken. Thresholds are always chosen on the validation seeds.

@@ -1,7 +1,6 @@
 #include "report/links.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/common_options.hpp"
+#include "cli/condition_options.hpp"
 #include "cli/link_plan.hpp"
 #include "cli/names.hpp"
 #include "cli/scenario_options.hpp"
@@ -48,20 +48,10 @@ struct Arguments {
 constexpr std::uint32_t quick_test = 3;
 constexpr std::uint32_t quick_validation = 2;
 
-/// `NAME=VALUE`; the value of a setting is a number.
-std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words) {
-    const std::size_t equals = words.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
-        throw core::InputError({option, fmt::format("`{}` is no assignment", words), "NAME=VALUE", ""});
-    return {words.substr(0, equals), words.substr(equals + 1)};
-}
-
-double number_from(const std::string& option, const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+std::string number_text(const std::string& option, const std::string& text) {
+    if (!core::number_from(text))
         throw core::InputError({option, fmt::format("`{}` is no number", text), "NAME=NUMBER", ""});
-    return value;
+    return core::setting_text(text);
 }
 
 LinkPredictor& predictor_named(const std::string& option, const std::string& name,
@@ -84,7 +74,7 @@ std::vector<LinkPredictor> predictors_of(const Arguments& arguments) {
     }
     for (const std::string& words : arguments.settings) {
         const auto [target, text] = assignment("--set", words);
-        const double value = number_from("--set " + target, text);
+        const std::string value = number_text("--set " + target, text);
         const std::size_t dot = target.find('.');
         if (dot == std::string::npos) {
             for (LinkPredictor& predictor : predictors)

@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common_options.hpp"
+#include "cli/settings_text.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "scenario/config.hpp"
 #include "sensing/failure_config.hpp"
@@ -59,7 +60,7 @@ Section conditions() {
                                    {{"summary", known.summary},
                                     {"failure", condition.failure},
                                     {"predictor", condition.predictor},
-                                    {"policy", condition.parts},
+                                    {"policy", condition.policies},
                                     {"engine", experiment::name(condition.engine)},
                                     {"safety_checks", checked ? "on" : "off"}}});
     }
@@ -105,9 +106,9 @@ Section predictors() {
     return section;
 }
 
-Section policy_parts() {
-    Section section{"policy_parts", "Policy parts (run --policy NAME ...)", {}};
-    for (const policy::PartEntry& entry : policy::parts()) {
+Section policies() {
+    Section section{"policies", "Policies (run --policy NAME ...)", {}};
+    for (const policy::PolicyEntry& entry : policy::policies()) {
         section.entries.push_back({entry.name, entry.summary, {{"summary", entry.summary}}});
     }
     return section;
@@ -137,15 +138,49 @@ void print_text(const std::vector<Section>& sections) {
     }
 }
 
+struct Arguments {
+    std::vector<std::string> words;
+    Printing printing = Printing::text;
+    bool as_markdown = false;
+};
+
+core::ExitCode list_settings(const Arguments& arguments) {
+    constexpr const char* settings = "settings";
+    if (arguments.words.empty() || arguments.words.front() != settings)
+        throw core::InputError({"list",
+                                arguments.words.empty()
+                                    ? "--markdown goes with settings"
+                                    : fmt::format("`{}` cannot be listed alone", arguments.words.front()),
+                                settings, "Say `clearway list`, or `clearway list settings`"});
+    const std::vector<experiment::Component> components =
+        components_named(arguments.words.size() > 1 ? arguments.words.back() : "");
+    if (arguments.as_markdown) {
+        fmt::print("{}", settings_markdown(components));
+    } else if (arguments.printing == Printing::json) {
+        fmt::print("{}", settings_json(components));
+    } else {
+        fmt::print("{}", settings_text(components));
+    }
+    return core::ExitCode::ok;
+}
+
 }  // namespace
 
 Action configure_list(CLI::App& app) {
-    const auto printing = std::make_shared<Printing>(Printing::text);
-    add_json_option(app, *printing, "the lists");
-    return [printing](const Invocation&) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
+    app.add_option("what", arguments->words,
+                   "`settings`: every number that a condition may set, or those of NAME")
+        ->expected(0, 2)
+        ->option_text("settings [NAME] [the names alone]");
+    add_json_option(app, arguments->printing, "the lists");
+    app.add_flag("--markdown", arguments->as_markdown,
+                 "Print the settings as docs/reference/settings.md has them");
+    return [arguments](const Invocation&) {
+        if (!arguments->words.empty() || arguments->as_markdown) return list_settings(*arguments);
         const std::vector<Section> sections = {scenarios(), conditions(), failures(), predictors(),
-                                               policy_parts()};
-        *printing == Printing::json ? print_json(sections) : print_text(sections);
+                                               policies()};
+        arguments->printing == Printing::json ? print_json(sections) : print_text(sections);
         return core::ExitCode::ok;
     };
 }

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/common_options.hpp"
-#include "policy/part.hpp"
+#include "experiment/settings.hpp"
+#include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -44,10 +45,10 @@ void check_failure(const std::string& where, const std::string& failure,
     }
 }
 
-std::vector<std::string> part_names() {
+std::vector<std::string> policy_names() {
     std::vector<std::string> names;
-    for (const policy::PartEntry& part : policy::parts()) {
-        names.push_back(part.name);
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        names.push_back(entry.name);
     }
     return names;
 }
@@ -64,14 +65,16 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
         check_failure(where + "failure", condition.failure, problems);
         check(where + "predictor", condition.predictor, prediction::predictor_names());
-        for (const std::string& part : condition.parts) {
-            check(where + "policy", part, part_names());
+        for (const std::string& policy : condition.policies) {
+            check(where + "policy", policy, policy_names());
         }
-        std::vector<std::string> sorted = condition.parts;
+        std::vector<std::string> sorted = condition.policies;
         std::ranges::sort(sorted);
         if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
             problems.push_back({where + "policy", fmt::format("`{}` is there twice", *twice),
-                                "each part once", "Take one of the two out"});
+                                "each policy once", "Take one of the two out"});
+        const std::vector<core::Problem> unfit = experiment::check_settings(condition, where);
+        problems.insert(problems.end(), unfit.begin(), unfit.end());
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }

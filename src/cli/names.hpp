@@ -13,14 +13,14 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known);
 
 std::vector<std::string> failure_names();
-std::vector<std::string> part_names();
+std::vector<std::string> policy_names();
 
 /// Adds what is wrong with a failure, a preset or fields (sensing::failure_from), given at `where`.
 void check_failure(const std::string& where, const std::string& failure,
                    std::vector<core::Problem>& problems);
 
-/// Checks failure, predictor and policy parts of every condition before anything runs. Throws
-/// core::InputError with all unknown names.
+/// Checks failure, predictor, policies, settings and model of every condition before anything runs. Throws
+/// core::InputError with everything that is wrong.
 void check_names(const std::vector<experiment::ConditionSpec>& conditions);
 
 }  // namespace clearway::cli

@@ -11,6 +11,7 @@
 #include "cli/common_options.hpp"
 #include "cli/run_cost.hpp"
 #include "core/progress.hpp"
+#include "experiment/settings.hpp"
 #include "results/store.hpp"
 
 namespace clearway::cli {
@@ -98,10 +99,12 @@ std::string precision_text(const results::PrecisionTarget& target) {
 }
 
 std::string policy_of(const experiment::ConditionSpec& condition) {
-    std::vector<std::string> means = condition.parts;
+    std::vector<std::string> means = condition.policies;
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
-    return (means.empty() ? "-" : joined(means, "+")) + (is_checked ? "" : ", safety checks off (!)");
+    const std::string settings = experiment::settings_text(condition);
+    return (means.empty() ? "-" : joined(means, "+")) + (is_checked ? "" : ", safety checks off (!)") +
+           (settings.empty() ? "" : ", " + settings);
 }
 
 }  // namespace
@@ -137,9 +140,10 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
                         {"condition", cell.condition.name},
                         {"engine", experiment::name(cell.condition.engine)},
                         {"failure", cell.condition.failure},
-                        {"loop_settings", cell.condition.loop_settings},
+                        {"settings", cell.condition.settings},
+                        {"model", cell.condition.model_file},
                         {"predictor", cell.condition.predictor},
-                        {"policy", cell.condition.parts},
+                        {"policy", cell.condition.policies},
                         {"safety_checks", experiment::name(cell.condition.safety_checks)},
                         {"runs", cell.runs},
                         {"complete_runs", cell.complete},

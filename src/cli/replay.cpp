@@ -1,5 +1,6 @@
 #include "trace/replay.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,9 +12,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common_options.hpp"
+#include "cli/condition_options.hpp"
 #include "cli/names.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
+#include "experiment/settings.hpp"
 #include "scenario/config.hpp"
 #include "trace/failure_log.hpp"
 #include "trace/recording_tables.hpp"
@@ -25,7 +28,8 @@ const char* const open_loop =
     "Nothing is simulated: sensing, prediction and policy run again over the recorded traffic, which does "
     "not\n"
     "react (open loop). It shows what would have been believed and how right that would have been; what a\n"
-    "policy gains is for `clearway run`. Without --predictor, --failure and --policy the recorded beliefs "
+    "policy gains is for `clearway run`. Without --predictor, --failure, --policy, --set and --model the "
+    "recorded beliefs "
     "and\n"
     "leases must come out to the bit; exit code 6 if they do not.";
 
@@ -43,7 +47,9 @@ struct Arguments {
     std::string network;
     std::optional<std::string> failure;
     std::optional<std::string> predictor;
-    std::optional<std::vector<std::string>> parts;
+    std::optional<std::vector<std::string>> policies;
+    std::vector<std::string> settings;
+    std::string model;
     std::string table;
     std::optional<double> from_s;
     std::optional<double> to_s;
@@ -77,11 +83,26 @@ roads::Network network_of(const trace::RecordingInfo& info, const Arguments& arg
     return roads::Network::read(file, signal_programs_beside(file));
 }
 
+/// What was set of a policy or predictor that the replay replaces goes with it.
+void drop_what_is_gone(const experiment::ConditionSpec& recorded, experiment::ConditionSpec& condition) {
+    if (condition.predictor != recorded.predictor) {
+        condition.model_file.clear();
+        condition.model_hash.clear();
+    }
+    const std::vector<std::string> present = experiment::components_of(condition);
+    std::erase_if(condition.settings, [&](const auto& setting) {
+        const std::string component = setting.first.substr(0, setting.first.find('.'));
+        return std::ranges::find(present, component) == present.end();
+    });
+}
+
 experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const Arguments& arguments) {
     experiment::ConditionSpec condition = info.condition;
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
-    if (arguments.parts) condition.parts = *arguments.parts;
+    if (arguments.policies) condition.policies = *arguments.policies;
+    drop_what_is_gone(info.condition, condition);
+    apply_settings(arguments.settings, arguments.model, condition);
     check_names({condition});
     return condition;
 }
@@ -133,8 +154,9 @@ core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& a
                              return log == nullptr ? std::string() : trace::csv_lines(*log, *step.roster);
                          });
     }
-    if (arguments.failure)
-        throw core::InputError({"--failure", fmt::format("does not go with --csv {}", arguments.table),
+    if (arguments.failure || !arguments.settings.empty() || !arguments.model.empty())
+        throw core::InputError({arguments.failure ? "--failure" : "--set, --model",
+                                fmt::format("does not go with --csv {}", arguments.table),
                                 "a replay, or --csv failures", "The table shows what was recorded"});
     const trace::RecordingTable table = trace::recording_table_from(arguments.table).value();
     const trace::RoadNames names = names_of(network);
@@ -160,14 +182,11 @@ nlohmann::ordered_json counts_json(const metrics::LinkCounts& counts) {
 }
 
 nlohmann::ordered_json score_json(const trace::LinkScore& score, const experiment::ConditionSpec& condition) {
-    return {{"failure", condition.failure},
-            {"predictor", condition.predictor},
-            {"policy", condition.parts},
-            {"decisions", score.decisions},
-            {"decisions_scored", score.scored},
-            {"links", counts_json(score.links)},
-            {"dark_links", counts_json(score.dark)},
-            {"leases", score.leases}};
+    return {{"failure", condition.failure},          {"predictor", condition.predictor},
+            {"policy", condition.policies},          {"settings", condition.settings},
+            {"model", condition.model_file},         {"decisions", score.decisions},
+            {"decisions_scored", score.scored},      {"links", counts_json(score.links)},
+            {"dark_links", counts_json(score.dark)}, {"leases", score.leases}};
 }
 
 nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
@@ -210,6 +229,11 @@ void print_row(const std::string& label, const std::string& recorded, const std:
     fmt::print("{:<26}  {:>20}  {:>20}\n", label, recorded, replayed);
 }
 
+std::string settings_or_dash(const experiment::ConditionSpec& condition) {
+    const std::string text = experiment::settings_text(condition);
+    return text.empty() ? "-" : text;
+}
+
 void print_counts(const std::string& label, const metrics::LinkCounts& recorded,
                   const metrics::LinkCounts& replayed) {
     print_row(label + ": precision", number(recorded.precision()), number(replayed.precision()));
@@ -231,7 +255,8 @@ void print_text(const trace::RecordingInfo& info, const experiment::ConditionSpe
     print_row("", "recorded", "replayed");
     print_row("failure", info.condition.failure, condition.failure);
     print_row("predictor", info.condition.predictor, condition.predictor);
-    print_row("policy", joined(info.condition.parts, "+"), joined(condition.parts, "+"));
+    print_row("settings", settings_or_dash(info.condition), settings_or_dash(condition));
+    print_row("policy", joined(info.condition.policies, "+"), joined(condition.policies, "+"));
     print_row("decisions", std::to_string(result.recorded.decisions),
               std::to_string(result.replayed.decisions));
     print_row("  at report rounds", std::to_string(result.recorded.scored),
@@ -308,8 +333,10 @@ Action configure_replay(CLI::App& app) {
     app.add_option("--failure", arguments->failure,
                    "How sensors fail, with the draws of the recorded run; also of --csv failures")
         ->option_text("NAME [as recorded]");
-    thinking.push_back(app.add_option("--policy", arguments->parts, "Policy parts, in this order")
-                           ->option_text("PART ... [as recorded]"));
+    thinking.push_back(app.add_option("--policy", arguments->policies, "Policies, in this order")
+                           ->option_text("NAME ... [as recorded]"));
+    add_setting_options(app, arguments->settings, arguments->model, "as recorded",
+                        app.option_defaults()->get_group());
     app.add_option("--network", arguments->network, "Network file on which the recording was made")
         ->option_text("FILE [that of its run folder]");
     thinking.push_back(app.add_flag_callback(

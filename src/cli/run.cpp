@@ -15,6 +15,7 @@
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/settings.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -25,16 +26,10 @@ constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replication
 /// What `--gui` shows where no condition is named: links, and vehicles that fail to report.
 constexpr const char* usually_shown = "graph_graphsage";
 
-experiment::ConditionSpec named_custom() {
-    experiment::ConditionSpec condition;
-    condition.name = "custom";
-    return condition;
-}
-
 struct Arguments {
     std::string scenario;
     std::vector<std::string> conditions;  ///< Built-in ones, by name.
-    experiment::ConditionSpec own = named_custom();
+    DescribedCondition own;               ///< Without a name: it is named after what it is.
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
     std::uint64_t seed = 1;
@@ -77,12 +72,14 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const Arguments& argume
     for (const std::string& name : arguments.conditions) {
         add_once(chosen, experiment::built_in_condition(name, "--condition"));
     }
-    if (has_own_condition(arguments.own)) {
-        if (std::ranges::find(arguments.conditions, arguments.own.name) != arguments.conditions.end()) {
-            throw core::InputError({"--name", fmt::format("`{}` is a built-in condition", arguments.own.name),
-                                    "", "Choose another name"});
+    experiment::ConditionSpec own = condition_of(arguments.own);
+    if (has_own_condition(own)) {
+        if (own.name.empty()) own.name = experiment::described_name(own);
+        if (std::ranges::find(arguments.conditions, own.name) != arguments.conditions.end()) {
+            throw core::InputError(
+                {"--name", fmt::format("`{}` is a built-in condition", own.name), "", "Choose another name"});
         }
-        chosen.push_back(arguments.own);
+        chosen.push_back(own);
     }
     return chosen;
 }
@@ -173,8 +170,8 @@ void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
 
 void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "A condition of your own (names: clearway list)";
-    experiment::ConditionSpec& own = arguments->own;
-    add_condition_options(app, own, group);
+    add_condition_options(app, arguments->own, group);
+    experiment::ConditionSpec& own = arguments->own.condition;
     add_switch(app, "--bluelight", own.bluelight,
                "SUMO's device.bluelight on every emergency vehicle: an opponent")
         ->option_text("on|off [off]")
@@ -188,7 +185,7 @@ void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& 
         ->option_text("standard|sublane [standard]")
         ->group(group);
     app.add_option("--name", own.name, "Its name in tables and folders")
-        ->option_text("NAME [custom]")
+        ->option_text("NAME [after what it is: corridor_B10_graphsage]")
         ->group(group);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,13 +9,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
 
 namespace clearway::core {
 
-/// Members of a field table that are set by name: `mean_outage_s` -> `20`.
+/// Members of field tables that are set by name: `mean_outage_s` -> `20`.
 using Settings = std::map<std::string, std::string>;
 
 /// The number that `text` is; nothing when it is none.
@@ -25,58 +27,161 @@ inline std::optional<double> number_from(const std::string& text) {
     return number;
 }
 
-/// Sets one member from its text. Numbers and enumerations (by their `spellings`) alone.
+/// One spelling for each number, `12` for `12.0`, so that equal settings are equal texts. Other text stays.
+inline std::string setting_text(const std::string& text) {
+    const auto number = number_from(text);
+    return number ? fmt::format("{}", *number) : text;
+}
+
+/// The words that a member of this type may be: of enumerations their `spellings`. Empty for numbers.
+template <class Member>
+std::vector<std::string> words_of() {
+    std::vector<std::string> words;
+    if constexpr (std::is_enum_v<Member>) {
+        for (const auto& [value, spelling] : spellings(Member{}))
+            words.emplace_back(spelling);
+    } else if constexpr (std::is_same_v<Member, bool>) {
+        words = {"true", "false"};
+    }
+    return words;
+}
+
+/// A member's value as the text that sets it.
+template <class Member>
+std::string member_text(const Member& value) {
+    if constexpr (std::is_enum_v<Member>) {
+        for (const auto& [known, spelling] : spellings(Member{})) {
+            if (known == value) return spelling;
+        }
+        return {};
+    } else {
+        return fmt::format("{}", value);
+    }
+}
+
+/// Sets one member from its text: a number (whole where the member is), a truth value, or an enumeration by
+/// its `spellings`.
 template <class Field, class Member>
 std::optional<Problem> set_member(const Field& field, const std::string& text, const std::string& where,
                                   Member& target) {
     if constexpr (std::is_enum_v<Member>) {
-        std::string list;
         for (const auto& [value, spelling] : spellings(Member{})) {
             if (text == spelling) {
                 target = value;
                 return std::nullopt;
             }
-            list += (list.empty() ? "" : ", ") + std::string(spelling);
         }
-        return Problem{where, fmt::format("\"{}\" is not known", text), list, ""};
+        return Problem{where, fmt::format("\"{}\" is not known", text),
+                       fmt::format("{}", fmt::join(words_of<Member>(), ", ")), ""};
+    } else if constexpr (std::is_same_v<Member, bool>) {
+        if (text != "true" && text != "false")
+            return Problem{where, fmt::format("\"{}\" is not known", text), "true, false", ""};
+        target = text == "true";
+        return std::nullopt;
     } else {
-        static_assert(std::is_same_v<Member, double>);
+        static_assert(std::is_arithmetic_v<Member>);
         const auto number = number_from(text);
         const std::string allowed = fmt::format("{} to {}", field.minimum, field.maximum);
         if (!number) return Problem{where, fmt::format("\"{}\" is not a number", text), allowed, ""};
         if (!(*number >= field.minimum && *number <= field.maximum))
             return Problem{where, fmt::format("{} is out of range", text), allowed, ""};
-        target = *number;
+        const auto value = static_cast<Member>(*number);
+        if (static_cast<double>(value) != *number)
+            return Problem{where, fmt::format("{} is not a whole number", text), allowed, ""};
+        target = value;
         return std::nullopt;
     }
 }
 
-/// Sets members of `target` by name. Answers everything that is wrong: an unknown name (with the nearest), a
-/// value of another type or out of its range. `where` stands before each name in messages.
-template <class Struct>
-std::vector<Problem> apply_settings(const Settings& settings, const std::string& where, Struct& target) {
+/// A name that is none of `known`: lists them and names the nearest.
+inline Problem unknown_setting(const std::string& where, const std::string& name,
+                               const std::vector<std::string>& known) {
+    const std::string near = nearest(name, known);
+    return {where, "is unknown", fmt::format("{}", fmt::join(known, ", ")),
+            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
+}
+
+/// Sets members of `targets` by name. Answers everything that is wrong: a name that is no member of any (with
+/// the nearest), a value of another type or out of its range. `where` stands before each name in messages.
+template <class... Structs>
+std::vector<Problem> apply_settings(const Settings& settings, const std::string& where, Structs&... targets) {
     std::vector<Problem> problems;
     std::vector<std::string> names;
-    std::string list;
-    for_each_field<Struct>([&](const auto& field) {
-        names.emplace_back(field.name);
-        list += (list.empty() ? "" : ", ") + names.back();
-    });
+    [[maybe_unused]] const auto collect = [&]<class Struct>(const Struct&) {
+        for_each_field<Struct>([&](const auto& field) { names.emplace_back(field.name); });
+    };
+    (collect(targets), ...);
     for (const auto& setting : settings) {
         const std::string& name = setting.first;  // no binding: clang 14 cannot capture one
         bool known = false;
-        for_each_field<Struct>([&](const auto& field) {
-            if (name != field.name) return;
-            known = true;
-            if (auto problem = set_member(field, setting.second, where + name, target.*field.member))
-                problems.push_back(*problem);
-        });
-        if (known) continue;
-        const std::string near = nearest(name, names);
-        problems.push_back(
-            {where + name, "is unknown", list, near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+        [[maybe_unused]] const auto set = [&]<class Struct>(Struct& target) {
+            for_each_field<Struct>([&](const auto& field) {
+                if (name != field.name) return;
+                known = true;
+                if (auto problem = set_member(field, setting.second, where + name, target.*field.member))
+                    problems.push_back(*problem);
+            });
+        };
+        (set(targets), ...);
+        if (!known) problems.push_back(unknown_setting(where + name, name, names));
     }
     return problems;
+}
+
+/// The same, throwing core::InputError with everything that is wrong.
+template <class... Structs>
+void set_all(const Settings& settings, const std::string& where, Structs&... targets) {
+    std::vector<Problem> problems = apply_settings(settings, where, targets...);
+    if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// One row of a field table, for listings.
+struct SettingInfo {
+    std::string name;
+    std::string unit;                ///< SI symbol; "1" for ratios and counts, "" for words.
+    double minimum = 0.0;            ///< Of numbers; inclusive.
+    double maximum = 0.0;            ///< Likewise.
+    std::vector<std::string> words;  ///< The words that are allowed where it is no number.
+    std::string preset;              ///< The default, as text.
+    std::string doc;
+    std::string source;  ///< Why the default is what it is.
+};
+
+/// What may be set of something, whatever structs hold it.
+struct SettingsTable {
+    std::vector<SettingInfo> rows;
+    /// As apply_settings, of a copy that is thrown away.
+    std::vector<Problem> (*check)(const Settings& settings, const std::string& where) = nullptr;
+};
+
+/// The table of one struct or several, whose defaults are those of their members.
+template <class... Structs>
+SettingsTable settings_table() {
+    SettingsTable table;
+    [[maybe_unused]] const auto add = [&]<class Struct>(const Struct& defaults) {
+        for_each_field<Struct>([&](const auto& field) {
+            using Member = std::remove_cvref_t<decltype(defaults.*field.member)>;
+            table.rows.push_back({field.name, field.unit, field.minimum, field.maximum, words_of<Member>(),
+                                  member_text(defaults.*field.member), field.doc, field.source});
+        });
+    };
+    (add(Structs{}), ...);
+    table.check = [](const Settings& settings, const std::string& where) {
+        std::tuple<Structs...> targets;
+        return std::apply([&](auto&... target) { return apply_settings(settings, where, target...); },
+                          targets);
+    };
+    return table;
+}
+
+/// Those of `settings` whose names begin with `component` and a dot, without both.
+inline Settings settings_of(const Settings& settings, const std::string& component) {
+    Settings own;
+    const std::string prefix = component + ".";
+    for (const auto& [name, value] : settings) {
+        if (name.starts_with(prefix)) own.emplace(name.substr(prefix.size()), value);
+    }
+    return own;
 }
 
 }  // namespace clearway::core

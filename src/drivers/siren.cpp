@@ -11,17 +11,12 @@ namespace {
 /// Counters of the draws of one driver.
 constexpr std::uint64_t compliance_draw = 0;
 constexpr std::uint64_t reaction_draw = 1;
-/// Nobody reacts faster, s.
-constexpr double fastest_reaction_s = 0.3;
-/// A siren not heard for this long is forgotten, s. Assumed.
-constexpr double memory_s = 3.0;
-/// How long a driver tries for one lane before looking again, s.
-constexpr double lane_request_s = 2.0;
 
 }  // namespace
 
-Siren::Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config)
-    : network_(network), random_(random), config_(config) {}
+Siren::Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
+             const ReactionConfig& reaction)
+    : network_(network), random_(random), config_(config), reaction_(reaction) {}
 
 bool Siren::complies(core::VehicleKey driver) const {
     return random_.uniform(core::Purpose::siren_reaction, driver.value, compliance_draw) < config_.compliance;
@@ -29,7 +24,8 @@ bool Siren::complies(core::VehicleKey driver) const {
 
 double Siren::reaction_s(core::VehicleKey driver) const {
     const double deviation = random_.normal(core::Purpose::siren_reaction, driver.value, reaction_draw);
-    return std::max(fastest_reaction_s, config_.reaction_mean_s + config_.reaction_deviation_s * deviation);
+    return std::max(reaction_.fastest_reaction_s,
+                    config_.reaction_mean_s + config_.reaction_deviation_s * deviation);
 }
 
 void Siren::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -41,7 +37,7 @@ void Siren::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
     for (auto& [key, driver] : drivers_)
         act(key, driver, snapshot, self, commands);
     std::erase_if(drivers_, [&](const auto& entry) {
-        const bool is_over = (snapshot.time - entry.second.last_heard).value > memory_s;
+        const bool is_over = (snapshot.time - entry.second.last_heard).value > reaction_.memory_s;
         return is_over && !entry.second.is_holding;
     });
 }
@@ -75,7 +71,7 @@ void Siren::hear(const truth::Snapshot& snapshot, const traffic::Roster& roster,
 void Siren::act(core::VehicleKey key, Driver& driver, const truth::Snapshot& snapshot,
                 const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
     if (!snapshot.row_of(key)) return;
-    const bool is_heard = (snapshot.time - driver.last_heard).value <= memory_s;
+    const bool is_heard = (snapshot.time - driver.last_heard).value <= reaction_.memory_s;
     const bool has_reacted = (snapshot.time - driver.noticed).value >= reaction_s(key);
     const bool holds = is_heard && has_reacted && driver.position == Position::beside;
     if (holds != driver.is_holding) {
@@ -100,9 +96,9 @@ void Siren::leave_lane(core::VehicleKey key, Driver& driver, const truth::Snapsh
         const truth::LaneOutlook& there = (*outlook)[static_cast<std::size_t>(number)];
         const bool continues = there.best_offset == 0 || there.drivable_m > roads::worth_following.value;
         if (!continues || !self.could_change_lane(key, side).value_or(false)) continue;
-        commands.push_back(
-            traffic::RequestLane{key, static_cast<std::uint32_t>(number), core::Seconds(lane_request_s)});
-        driver.asked_until = snapshot.time + core::Seconds(lane_request_s);
+        commands.push_back(traffic::RequestLane{key, static_cast<std::uint32_t>(number),
+                                                core::Seconds(reaction_.lane_request_s)});
+        driver.asked_until = snapshot.time + core::Seconds(reaction_.lane_request_s);
         return;
     }
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 #include <vector>
 
+#include "core/fields.hpp"
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -17,6 +19,25 @@ namespace clearway::drivers {
 
 using traffic::SirenConfig;
 
+/// How drivers react to a siren beside what a scenario says of them.
+struct ReactionConfig {
+    double fastest_reaction_s = 0.3;
+    double memory_s = 3.0;
+    double lane_request_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = ReactionConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"fastest_reaction_s", "s", &C::fastest_reaction_s, 0.0, 10.0, "No driver reacts faster",
+                  "assumed: a simple reaction"},
+            Field{"memory_s", "s", &C::memory_s, 0.1, 60.0,
+                  "A siren that was not heard for this long is forgotten", "assumed"},
+            Field{"lane_request_s", "s", &C::lane_request_s, 0.1, 60.0,
+                  "A driver tries for one lane this long before looking again", "assumed"});
+    }
+};
+
 /// Human drivers who hear an emergency vehicle behind them on its way: after their reaction time those who
 /// comply leave its lane as soon as their vehicle could change, into lanes that continue; those beside its
 /// lane stay out of it. Who complies and how fast is drawn by driver, so it is the same in every condition.
@@ -26,7 +47,8 @@ using traffic::SirenConfig;
 class Siren {
   public:
     /// The network outlives the object.
-    Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config);
+    Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
+          const ReactionConfig& reaction = {});
 
     /// Appends what drivers do in this step, ordered by vehicle key. Does nothing for compliance 0.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -59,6 +81,7 @@ class Siren {
     const roads::Network& network_;
     core::KeyedRandom random_;
     SirenConfig config_;
+    ReactionConfig reaction_;
     std::map<core::VehicleKey, Driver> drivers_;
 };
 

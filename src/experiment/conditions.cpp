@@ -17,7 +17,7 @@ BuiltInCondition with_policy(const char* name, const char* failure, const char* 
     condition.name = name;
     condition.failure = failure;
     condition.predictor = predictor;
-    condition.parts = {dissertation_part};
+    condition.policies = {dissertation_part};
     return {summary, condition};
 }
 

@@ -2,17 +2,18 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
+
+#include "core/settings.hpp"
 
 namespace clearway::experiment {
 
 /// One predictor to judge, and where its LinkRun goes.
 struct LinkPredictorOrder {
     std::string name;
-    std::string model_file;                  ///< Empty: as shipped.
-    std::map<std::string, double> settings;  ///< Fields of prediction::PredictionConfig that differ.
+    std::string model_file;   ///< Empty: as shipped.
+    core::Settings settings;  ///< Of the predictor, that differ from their defaults.
     std::filesystem::path output;
 
     bool operator==(const LinkPredictorOrder&) const = default;

@@ -1,5 +1,7 @@
 #include "experiment/unit.hpp"
 
+#include <fmt/format.h>
+
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
@@ -37,6 +39,28 @@ WindowSpec window_from(const core::Json& object, const std::string& where,
     return window;
 }
 
+/// Settings of the loop have had a key of their own since before there were others.
+constexpr const char* loop_component = "loop";
+constexpr const char* loop_key = "loop_settings";
+
+void write_settings(const core::Settings& settings, core::Json& object) {
+    const core::Settings loop = core::settings_of(settings, loop_component);
+    if (!loop.empty()) object[loop_key] = loop;
+    core::Settings others;
+    for (const auto& [name, value] : settings) {
+        if (!name.starts_with(std::string(loop_component) + ".")) others.emplace(name, value);
+    }
+    if (!others.empty()) object["settings"] = others;
+}
+
+void read_settings(core::ObjectReader& reader, core::Settings& settings) {
+    core::Settings loop;
+    reader.read_if_there("settings", settings);
+    reader.read_if_there(loop_key, loop);
+    for (const auto& [name, value] : loop)
+        settings.insert_or_assign(fmt::format("{}.{}", loop_component, name), value);
+}
+
 }  // namespace
 
 std::string_view name(Engine engine) {
@@ -67,10 +91,12 @@ core::Json to_json(const ConditionSpec& condition) {
     object["name"] = condition.name;
     object["failure"] = condition.failure;
     object["predictor"] = condition.predictor;
-    object["parts"] = condition.parts;
+    object["parts"] = condition.policies;
     object["engine"] = experiment::name(condition.engine);
     object["safety_checks"] = experiment::name(condition.safety_checks);
-    if (!condition.loop_settings.empty()) object["loop_settings"] = condition.loop_settings;
+    write_settings(condition.settings, object);
+    if (!condition.model_file.empty())
+        object["model"] = {{"file", condition.model_file}, {"hash", condition.model_hash}};
     if (condition.bluelight == traffic::BlueLight::on) object["bluelight"] = "on";
     return object;
 }
@@ -82,10 +108,16 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     reader.read("name", condition.name);
     reader.read("failure", condition.failure);
     reader.read("predictor", condition.predictor);
-    reader.read("parts", condition.parts);
+    reader.read("parts", condition.policies);
     reader.read_name("engine", condition.engine, engine_from);
     reader.read_name("safety_checks", condition.safety_checks, switch_from<traffic::SafetyChecks>);
-    reader.read_if_there("loop_settings", condition.loop_settings);
+    read_settings(reader, condition.settings);
+    if (object.contains("model")) {
+        core::ObjectReader model(reader.child("model", core::Json::value_t::object), where + ": model",
+                                 problems);
+        model.read("file", condition.model_file);
+        model.read("hash", condition.model_hash);
+    }
     if (object.contains("bluelight"))
         reader.read_name("bluelight", condition.bluelight, switch_from<traffic::BlueLight>);
     return condition;

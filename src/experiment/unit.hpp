@@ -38,19 +38,22 @@ std::optional<Switch> switch_from(std::string_view word) {
 /// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };
 
-/// A named combination of failure, predictor and policy parts.
+/// A named combination of failure, predictor and policies, and the settings that differ from their defaults.
 struct ConditionSpec {
     std::string name;
     std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
     std::string predictor = "none";
-    std::vector<std::string> parts;  ///< Policy parts; empty: the car-following model alone.
+    std::vector<std::string> policies;  ///< In this order; empty: the car-following model alone.
     Engine engine = Engine::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    core::Settings loop_settings = {};  ///< Members of LoopConfig that differ from its defaults.
+    core::Settings settings =
+        {};  ///< `preempt_signals.lead_s` -> `12`, as experiment/settings.hpp knows them.
+    std::string model_file = {};  ///< Of a learned predictor; absolute; empty: the model in the program.
+    std::string model_hash = {};  ///< Of that file's content, so that a changed model is another condition.
     traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
 
     /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
-    bool acts() const { return !parts.empty() || bluelight == traffic::BlueLight::on; }
+    bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
 
     bool operator==(const ConditionSpec&) const = default;
 };

@@ -13,6 +13,7 @@
 #include "core/files.hpp"
 #include "core/random.hpp"
 #include "experiment/attach_order.hpp"
+#include "experiment/settings.hpp"
 #include "loop/closed_loop.hpp"
 #include "loop/machinery.hpp"
 #include "loop/road_layout.hpp"
@@ -120,7 +121,7 @@ core::ExitCode run_attached(const std::filesystem::path& order_file) {
     const Surroundings surroundings{
         .network = network,
         .random = core::KeyedRandom(core::StudySeed{order.study_seed}, core::Replication{0}),
-        .loop = loop_config_of(order.condition),
+        .loop = experiment::loop_config(order.condition),
         .siren = {}};
     ClosedLoop loop(session, make_machinery(order.condition, surroundings), surroundings.loop, recorder);
     loop.run(ground.end);

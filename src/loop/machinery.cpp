@@ -2,29 +2,21 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include "experiment/settings.hpp"
 
 namespace clearway::loop {
 namespace {
 
 /// Yellow lets a driver react and then brake, and braking takes longer on a slippery road (ITE's rule:
 /// reaction time + speed / (2 deceleration); 3 s on a dry one).
-double yellow_s(double friction) {
+double yellow_s(double dry_s, double friction) {
     constexpr double reaction_s = 1.0;
     constexpr double longest_s = 10.0;
-    const double dry_s = actuation::ActuatorConfig{}.yellow_s;
+    if (dry_s <= reaction_s) return dry_s;
     return std::min(longest_s, reaction_s + (dry_s - reaction_s) / friction);
 }
 
 }  // namespace
-
-LoopConfig loop_config_of(const experiment::ConditionSpec& condition) {
-    LoopConfig config;
-    std::vector<core::Problem> problems = core::apply_settings(
-        condition.loop_settings, fmt::format("condition {}: loop.", condition.name), config);
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    return config;
-}
 
 Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings) {
     Machinery machinery;
@@ -33,16 +25,17 @@ Machinery make_machinery(const experiment::ConditionSpec& condition, const Surro
                                           .random = surroundings.random,
                                           .policy_period_s = surroundings.loop.policy_period_s,
                                           .link_radius_m = surroundings.loop.link_radius_m});
-    actuation::ActuatorConfig actuation;
-    actuation.yellow_s = yellow_s(surroundings.friction);
+    actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
+    actuation.yellow_s = yellow_s(actuation.yellow_s, surroundings.friction);
     if (!surroundings.has_pedestrians) actuation.walking_s = 0.0;
     actuation.safety_checks = condition.safety_checks;
     actuation.lateral_model = condition.engine == experiment::Engine::sublane ? traffic::LateralModel::sublane
                                                                               : traffic::LateralModel::lane;
     machinery.actuator = std::make_unique<actuation::Actuator>(surroundings.network, actuation);
-    if (surroundings.siren.compliance > 0.0)
-        machinery.siren =
-            std::make_unique<drivers::Siren>(surroundings.network, surroundings.random, surroundings.siren);
+    const experiment::Sirens sirens = experiment::siren_config(condition, surroundings.siren);
+    if (sirens.siren.compliance > 0.0)
+        machinery.siren = std::make_unique<drivers::Siren>(surroundings.network, surroundings.random,
+                                                           sirens.siren, sirens.reaction);
     return machinery;
 }
 

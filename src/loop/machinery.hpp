@@ -7,9 +7,6 @@
 
 namespace clearway::loop {
 
-/// The loop's configuration under a condition. Throws core::InputError for settings that do not exist.
-LoopConfig loop_config_of(const experiment::ConditionSpec& condition);
-
 /// What every condition of a worker shares; references outlive what is made from it.
 struct Surroundings {
     const roads::Network& network;
@@ -20,8 +17,8 @@ struct Surroundings {
     bool has_pedestrians = true;  ///< Whether there may be any.
 };
 
-/// Sensors, predictor, policy and actuation of a condition. Throws core::InputError for names that do not
-/// exist.
+/// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for names and settings
+/// that do not exist.
 Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings);
 
 /// The names that a session of this network speaks in indices of.

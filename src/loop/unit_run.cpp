@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "core/files.hpp"
+#include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
 #include "sensing/failure_config.hpp"
 #include "trace/listeners.hpp"
@@ -156,7 +157,7 @@ LoopTiming UnitRun::run_condition(const experiment::ConditionSpec& condition, tr
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
-        .loop = loop_config_of(condition),
+        .loop = experiment::loop_config(condition),
         .siren = config_.siren,
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians()};
@@ -210,7 +211,7 @@ void UnitRun::open_all_signals() {
 }
 
 trace::RecordingInfo UnitRun::recording_info(const experiment::ConditionSpec& condition) const {
-    const LoopConfig loop = loop_config_of(condition);
+    const LoopConfig loop = experiment::loop_config(condition);
     return {.key = {unit_.scenario, condition.name, unit_.replication},
             .condition = condition,
             .provenance = provenance(""),

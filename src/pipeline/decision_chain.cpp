@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiment/settings.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::pipeline {
@@ -19,12 +20,13 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
     rules.radius_m = context.link_radius_m;
     sensor_ = sensing::make_sensor(sensing::failure_from(condition.failure), context.random,
                                    {.network = context.network, .rules = rules});
-    predictor_ = prediction::make_predictor(condition.predictor,
-                                            {.network = context.network, .rules = rules, .model_file = {}});
-    for (const std::string& part : condition.parts) {
-        parts_.push_back(
-            policy::make_part(part, {.network = context.network, .period = core::Seconds(period_s_)}));
-    }
+    predictor_ = prediction::make_predictor(
+        condition.predictor,
+        {.network = context.network, .rules = rules, .model_file = experiment::checked_model(condition)},
+        core::settings_of(condition.settings, condition.predictor));
+    for (const std::string& name : condition.policies)
+        policies_.push_back(policy::make_policy(
+            name, {.network = context.network, .period = core::Seconds(period_s_)}, condition.settings));
 }
 
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
@@ -40,8 +42,8 @@ void DecisionChain::decide() {
     decisions_ =
         static_cast<std::uint64_t>(std::floor((observation_.time.value + time_tolerance_s) / period_s_)) + 1;
     predictor_->predict(observation_, belief_);
-    for (const auto& part : parts_) {
-        part->act(belief_, leases_);
+    for (const auto& policy : policies_) {
+        policy->act(belief_, leases_);
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/random.hpp"
 #include "experiment/unit.hpp"
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "roads/network.hpp"
 #include "sensing/sensor.hpp"
@@ -29,7 +29,7 @@ struct ChainContext {
 /// A run and its replay are the same because both call this. One thread.
 class DecisionChain {
   public:
-    /// Throws core::InputError for names that do not exist.
+    /// Throws core::InputError for names and settings that do not exist, and for a model that does not fit.
     DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context);
 
     /// Every step: what the sensors say now. References outlive the step.
@@ -39,7 +39,7 @@ class DecisionChain {
     /// Predicts from the present observation and asks the policy.
     void decide();
 
-    bool has_policy() const { return !parts_.empty(); }
+    bool has_policy() const { return !policies_.empty(); }
     const traffic::Observation& observation() const { return observation_; }
     /// Vehicles that commands do not reach now (sensing::SensorModel).
     std::span<const core::VehicleKey> unreachable() const { return sensor_->unreachable(); }
@@ -52,7 +52,7 @@ class DecisionChain {
   private:
     std::unique_ptr<sensing::SensorModel> sensor_;
     std::unique_ptr<prediction::Predictor> predictor_;
-    std::vector<std::unique_ptr<policy::Part>> parts_;
+    std::vector<std::unique_ptr<policy::Policy>> policies_;
     double period_s_;
     std::uint64_t decisions_ = 0;
     traffic::Observation observation_;

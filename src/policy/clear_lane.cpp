@@ -14,11 +14,7 @@ using detail::LeaseWriter;
 using detail::VehicleAhead;
 using detail::View;
 
-constexpr char part_name[] = "clear_lane";
-/// Slower than this counts as this when times are compared, m/s.
-constexpr double crawl_mps = 1.0;
-/// Two vehicles nearer along the road than this cannot be side by side on the way to one lane, m.
-constexpr double side_room_m = 12.0;
+constexpr char policy_name[] = "clear_lane";
 
 /// A neighbouring lane, and how much faster it is, s.
 struct FasterLane {
@@ -84,7 +80,7 @@ class Way {
             const long beside = std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
                 const traffic::MotionState& state = other.vehicle->state;
                 return state.lane == lane &&
-                       std::abs(state.lane_position_m - vehicle.state.lane_position_m) < side_room_m;
+                       std::abs(state.lane_position_m - vehicle.state.lane_position_m) < config_.side_room_m;
             });
             if (!best || beside < fewest) {
                 best = number;
@@ -96,7 +92,7 @@ class Way {
 
     /// Expected time over the next `choice_m` when starting on `lane`, s.
     double time_on(core::LaneIndex lane) const {
-        const double free_mps = std::max(view_.allowed_speed(emergency_).value, crawl_mps);
+        const double free_mps = std::max(view_.allowed_speed(emergency_).value, config_.crawl_mps);
         const double free_s = config_.choice_m / free_mps;
         double behind_slowest_s = free_s;
         double standing_s = 0.0;
@@ -106,12 +102,12 @@ class Way {
             if (lane_at(lane, ahead.distance_m) != state.lane) continue;
             const bool leaves = ahead.vehicle->vehicle_class == traffic::VehicleClass::automated;
             const double weight = leaves ? config_.automated_weight : 1.0;
-            if (state.speed_mps < detail::halted_mps) {
+            if (state.speed_mps < config_.halted_mps) {
                 standing_s += weight * config_.halted_delay_s;
                 continue;
             }
             const double its_s =
-                (config_.choice_m - ahead.distance_m) / std::max<double>(state.speed_mps, crawl_mps);
+                (config_.choice_m - ahead.distance_m) / std::max<double>(state.speed_mps, config_.crawl_mps);
             behind_slowest_s = std::max(behind_slowest_s, free_s + weight * std::max(0.0, its_s - free_s));
         }
         return behind_slowest_s + standing_s;
@@ -152,7 +148,8 @@ class Way {
     /// Falls back to the nearest gap on the wanted lane, where the lane is worth that, and an automated
     /// vehicle behind the gap keeps it open.
     void make_for_gap(const FasterLane& wanted) {
-        const auto gap = detail::nearest_gap(view_, emergency_, wanted.lane, config_.headways);
+        const detail::Headways headways{config_.usual_headway_s, config_.automated_headway_s};
+        const auto gap = detail::nearest_gap(view_, emergency_, wanted.lane, headways);
         if (!gap || gap->shift_m >= 0.0 || gap->flow_mps < config_.slowest_mps) return;
         const double back_m = -gap->shift_m;
         if (wanted.gain_s - back_m / gap->flow_mps < config_.gap_worth_s) return;
@@ -180,12 +177,12 @@ class Way {
 
 }  // namespace
 
-ClearLane::ClearLane(const PartContext& context, ClearLaneConfig config)
+ClearLane::ClearLane(const PolicyContext& context, ClearLaneConfig config)
     : context_(context), config_(config) {}
 
 void ClearLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(part_name, context_.period, belief.time, leases);
+    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         Way(view, config_, emergency, write).clear();
     }

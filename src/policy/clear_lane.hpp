@@ -1,39 +1,86 @@
 #pragma once
 
-#include "policy/detail/gap_search.hpp"
-#include "policy/part.hpp"
+#include <tuple>
+
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of ClearLane.
 struct ClearLaneConfig {
-    /// Lanes are cleared this far ahead; (0, 1000]. 150 m: 300 m helped less in the merge scenario and cost
-    /// others 2 to 7 % of time loss (measured when lanes were compared over 800 m).
     double horizon_m = 150.0;
-    /// An automated vehicle at most this far behind the emergency vehicle's front opens a gap, >= 0; assumed:
-    /// a gap of two cars.
     double beside_m = 20.0;
-    /// At this share of the emergency vehicle's speed, or of that lane's where it keeps a gap open, (0, 1].
     double gap_factor = 0.8;
-    double slowest_mps = 5.0;  ///< But not below, > 0; as the dissertation part.
-    /// Where no gap is beside, the emergency vehicle falls back to one that gains this, >= 0; dense merge: 2
-    /// s is no better.
+    double slowest_mps = 5.0;
     double gap_worth_s = 3.0;
-    detail::Headways headways;   ///< A gap leaves these to both sides.
-    double fall_back_mps = 5.0;  ///< Slower than that lane's traffic by at most this, > 0; 3 m/s helped less.
-    double fall_back_s = 4.0;    ///< And by no more than leads to the gap in this time, > 0; assumed.
-    /// An automated vehicle nearer behind such a gap keeps it open, >= 0; 90 m is no better.
+    double usual_headway_s = 1.0;
+    double automated_headway_s = 0.5;
+    double fall_back_mps = 5.0;
+    double fall_back_s = 4.0;
     double keep_open_m = 60.0;
-    /// Stretch over which lanes are compared, (0, 5000]. 1000 m: 800 m (with `worth_s` 1) cut the time loss
-    /// of emergency vehicles at the sparse merge by 3 % less, at the dense one by 0.7 % more; 1200 m by 2 %
-    /// more at the sparse one and at the others' cost.
     double choice_m = 1000.0;
-    double halted_delay_s = 2.0;  ///< A standing vehicle ahead costs this much, >= 0; saturation headway.
-    /// Delay by vehicles that will leave the lane counts only this much, [0, 1]; assumed.
+    double halted_mps = 0.5;
+    double halted_delay_s = 2.0;
     double automated_weight = 0.5;
-    /// A lane must be this much faster for a change, >= 0. At 1 s it came only when whoever is ahead had
-    /// slowed the emergency vehicle down already.
     double worth_s = 0.5;
+    double crawl_mps = 1.0;
+    double side_room_m = 12.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = ClearLaneConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"horizon_m", "m", &C::horizon_m, 1.0, 1000.0, "Lanes are cleared this far ahead",
+                  "300 m helped less in the merge scenario and cost others 2 to 7 % of time loss (measured "
+                  "when lanes were compared over 800 m)"},
+            Field{"beside_m", "m", &C::beside_m, 0.0, 100.0,
+                  "An automated vehicle at most this far behind the emergency vehicle's front opens a gap",
+                  "assumed: a gap of two cars"},
+            Field{
+                "gap_factor", "1", &C::gap_factor, 0.1, 1.0,
+                "It does so at this share of the emergency vehicle's speed, or of that lane's where it keeps "
+                "a gap open",
+                "as the dissertation policy"},
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "But it drives no slower than this",
+                  "as the dissertation policy: faster than a queue, slower than a street"},
+            Field{"gap_worth_s", "s", &C::gap_worth_s, 0.0, 60.0,
+                  "Where no gap is beside, the emergency vehicle falls back to one that gains this",
+                  "measured at the dense merge: 2 s is no better"},
+            Field{"usual_headway_s", "s", &C::usual_headway_s, 0.1, 5.0,
+                  "Headway that a gap leaves to the vehicles before and behind", "Intelligent Driver Model"},
+            Field{"automated_headway_s", "s", &C::automated_headway_s, 0.1, 5.0,
+                  "The same before an automated vehicle behind, which is asked for more", "assumed: half"},
+            Field{"fall_back_mps", "m/s", &C::fall_back_mps, 0.1, 20.0,
+                  "The emergency vehicle falls back by at most this relative to that lane's traffic",
+                  "measured: 3 m/s helped less"},
+            Field{"fall_back_s", "s", &C::fall_back_s, 0.5, 60.0,
+                  "And by no more than leads to the gap in this time", "assumed"},
+            Field{"keep_open_m", "m", &C::keep_open_m, 0.0, 500.0,
+                  "An automated vehicle nearer behind such a gap keeps it open",
+                  "measured: 90 m is no better"},
+            Field{"choice_m", "m", &C::choice_m, 1.0, 5000.0, "Stretch over which lanes are compared",
+                  "800 m (with worth_s 1) cut the EVs' time loss by 3 % less at the sparse merge, by 0.7 % "
+                  "more at the dense one; 1200 m by 2 % more at the sparse one, at the others' cost"},
+            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
+                  "assumed: walking pace is 1.4 m/s"},
+            Field{"halted_delay_s", "s", &C::halted_delay_s, 0.0, 60.0,
+                  "Delay by each vehicle that stands ahead", "saturation headway"},
+            Field{"automated_weight", "1", &C::automated_weight, 0.0, 1.0,
+                  "Weight of the delay by automated vehicles, which will leave the lane", "assumed"},
+            Field{"worth_s", "s", &C::worth_s, 0.0, 60.0,
+                  "A lane must be faster by this for a change of lanes",
+                  "at 1 s the change came only when the vehicle ahead had slowed the EV down already"},
+            Field{"crawl_mps", "m/s", &C::crawl_mps, 0.1, 10.0,
+                  "A slower vehicle counts as this fast when times are compared",
+                  "assumed: keeps the times finite"},
+            Field{"side_room_m", "m", &C::side_room_m, 0.0, 100.0,
+                  "Vehicles nearer along the road cannot be side by side on the way to one lane",
+                  "assumed: two cars"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+    }
 };
 
 /// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the
@@ -41,15 +88,15 @@ struct ClearLaneConfig {
 /// emergency vehicle takes the lane with the least delay ahead; where no gap is beside on a lane that gains
 /// seconds it falls back to one, which an automated vehicle behind keeps open. Only lanes that continue are
 /// used.
-class ClearLane : public Part {
+class ClearLane : public Policy {
   public:
-    explicit ClearLane(const PartContext& context, ClearLaneConfig config = {});
+    explicit ClearLane(const PolicyContext& context, ClearLaneConfig config = {});
 
     std::string_view name() const override { return "clear_lane"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     ClearLaneConfig config_;
 };
 

@@ -5,16 +5,29 @@
 #include "policy/recover_signals.hpp"
 
 namespace clearway::policy {
+namespace {
 
-Corridor::Corridor(const PartContext& context) {
-    parts_.push_back(std::make_unique<PreemptSignals>(context));
-    parts_.push_back(std::make_unique<RecoverSignals>(context));
-    parts_.push_back(std::make_unique<ClearLane>(context));
+template <class Kind, class Config>
+std::unique_ptr<Policy> configured(const char* name, const PolicyContext& context,
+                                   const core::Settings& settings) {
+    Config config;
+    core::set_all(core::settings_of(settings, name), std::string(name) + ".", config);
+    return std::make_unique<Kind>(context, config);
+}
+
+}  // namespace
+
+Corridor::Corridor(const PolicyContext& context, const core::Settings& settings) {
+    policies_.push_back(
+        configured<PreemptSignals, PreemptSignalsConfig>("preempt_signals", context, settings));
+    policies_.push_back(
+        configured<RecoverSignals, RecoverSignalsConfig>("recover_signals", context, settings));
+    policies_.push_back(configured<ClearLane, ClearLaneConfig>("clear_lane", context, settings));
 }
 
 void Corridor::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    for (const std::unique_ptr<Part>& part : parts_)
-        part->act(belief, leases);
+    for (const std::unique_ptr<Policy>& policy : policies_)
+        policy->act(belief, leases);
 }
 
 }  // namespace clearway::policy

@@ -10,7 +10,7 @@ namespace {
 using detail::LeaseWriter;
 using detail::View;
 
-constexpr char part_name[] = "dissertation";
+constexpr char policy_name[] = "dissertation";
 
 /// Clears the lane of one emergency vehicle of the automated vehicles linked to it.
 class OneEmergency {
@@ -68,13 +68,13 @@ class OneEmergency {
 
 }  // namespace
 
-Dissertation::Dissertation(const PartContext& context, DissertationConfig config)
+Dissertation::Dissertation(const PolicyContext& context, DissertationConfig config)
     : context_(context), config_(config) {}
 
 void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     if (belief.link_count() == 0 || belief.link_count() < config_.min_edges) return;
     const View view(context_.network, belief);
-    LeaseWriter write(part_name, context_.period, belief.time, leases);
+    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
         const traffic::BelievedVehicle& emergency = belief.vehicles[row];
         if (emergency.vehicle_class != traffic::VehicleClass::emergency) continue;
@@ -84,7 +84,7 @@ void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic
         OneEmergency one(view, config_, emergency, write);
         for (const traffic::BelievedLink& link : belief.links_of(row)) {
             const traffic::BelievedVehicle& neighbour = belief.vehicles[link.neighbour];
-            if (link.probability >= detail::link_exists &&
+            if (link.probability >= config_.link_threshold &&
                 neighbour.vehicle_class == traffic::VehicleClass::automated)
                 one.ask(neighbour);
         }

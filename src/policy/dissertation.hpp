@@ -1,36 +1,62 @@
 #pragma once
 
 #include <cstddef>
+#include <tuple>
 
-#include "policy/part.hpp"
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of Dissertation.
 struct DissertationConfig {
-    std::size_t min_edges = 1;  ///< As in Listing55.
-    double slow_factor = 0.8;   ///< Of the emergency vehicle's speed, (0, 1]; the listing's factor.
-    double slowest_mps =
-        5.0;  ///< Nobody is slowed below; assumed: faster than a queue, slower than a street.
-    double beside_behind_m =
-        10.0;  ///< "Beside": front at most this far behind the emergency vehicle's; two car lengths.
-    double beside_ahead_m = 10.0;  ///< The same ahead.
-    double ahead_m = 50.0;         ///< Farthest to which a lane is cleared: the link radius.
+    std::size_t min_edges = 1;
+    double link_threshold = 0.5;
+    double slow_factor = 0.8;
+    double slowest_mps = 5.0;
+    double beside_behind_m = 10.0;
+    double beside_ahead_m = 10.0;
+    double ahead_m = 50.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = DissertationConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
+                  "4.3: \"sufficient edges\", no number given"},
+            Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
+                  "A link counts from this probability on", "even odds"},
+            Field{"slow_factor", "1", &C::slow_factor, 0.1, 1.0,
+                  "A vehicle beside slows down to this share of the emergency vehicle's speed",
+                  "the listing's factor"},
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "No vehicle is slowed down below this",
+                  "assumed: faster than a queue, slower than a street"},
+            Field{"beside_behind_m", "m", &C::beside_behind_m, 0.0, 200.0,
+                  "A vehicle is beside when its front is at most this far behind the emergency vehicle's",
+                  "assumed: two car lengths"},
+            Field{"beside_ahead_m", "m", &C::beside_ahead_m, 0.0, 200.0, "The same ahead",
+                  "assumed: two car lengths"},
+            Field{"ahead_m", "m", &C::ahead_m, 1.0, 1000.0, "A lane is cleared this far ahead",
+                  "the link radius"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+    }
 };
 
 /// The action policy that section 4.3 of the dissertation describes in words, made workable (*corrected*):
 /// emergency vehicles drive at what they are allowed; an automated vehicle linked to one and ahead on its
 /// lane changes lane; one beside it on a neighbouring lane slows to let it in. Every wish is a lease of 2 s
 /// that ends by itself, and slowing has a floor, so nothing decays to a standstill.
-class Dissertation : public Part {
+class Dissertation : public Policy {
   public:
-    explicit Dissertation(const PartContext& context, DissertationConfig config = {});
+    explicit Dissertation(const PolicyContext& context, DissertationConfig config = {});
 
     std::string_view name() const override { return "dissertation"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     DissertationConfig config_;
 };
 

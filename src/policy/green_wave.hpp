@@ -1,23 +1,38 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 #include <vector>
 
-#include "policy/part.hpp"
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of GreenWave.
 struct GreenWaveConfig {
-    double before_s = 8.0;  ///< Green is asked for this long before the planned arrival; as PreemptSignals.
-    double after_s = 15.0;  ///< And kept this long after it. Assumed: two stops of a vehicle behind plan.
+    double before_s = 8.0;
+    double after_s = 15.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = GreenWaveConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"before_s", "s", &C::before_s, 0.0, 120.0,
+                  "Green is asked for this long before the planned arrival", "as preempt_signals"},
+            Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And kept this long after it",
+                  "assumed: two stops of a vehicle behind plan"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+    }
 };
 
 /// An opponent: every signal of an emergency vehicle's route is opened around the time at which it would get
 /// there at its allowed speed, planned once when it appears and never corrected.
-class GreenWave : public Part {
+class GreenWave : public Policy {
   public:
-    explicit GreenWave(const PartContext& context, GreenWaveConfig config = {});
+    explicit GreenWave(const PolicyContext& context, GreenWaveConfig config = {});
 
     std::string_view name() const override { return "green_wave"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
@@ -30,7 +45,7 @@ class GreenWave : public Part {
         double until_s;
     };
 
-    PartContext context_;
+    PolicyContext context_;
     GreenWaveConfig config_;
     std::map<core::VehicleKey, std::vector<Window>> plans_;
 };

@@ -11,25 +11,21 @@ namespace {
 using detail::LeaseWriter;
 using detail::View;
 
-constexpr char part_name[] = "listing_5_5";
+constexpr char policy_name[] = "listing_5_5";
 
-/// The listing's thresholds. With scores of -1, 0 and 1 they only tell the three cases apart.
-constexpr double raise_above = 0.5;
-constexpr double lower_below = -0.5;
-constexpr double raise_factor = 1.1;
-constexpr double lower_factor = 0.8;
+/// What is asked of one vehicle's links.
+struct Links {
+    const View& view;
+    const Listing55Config& config;
+    core::VehicleIndex row;
+};
 
-/// A set speed outlives the time between two calls of the policy by far; it is renewed at every call.
-constexpr double set_speed_lease_s = 30.0;
-/// A lane counts as free "in the graph" when no linked vehicle on it is nearer than this along the road, m.
-/// Assumed: a car's length and two gaps.
-constexpr float room_m = 10.0F;
-
-bool is_linked_to(const View& view, core::VehicleIndex row, traffic::VehicleClass wanted,
+bool is_linked_to(const Links& links, traffic::VehicleClass wanted,
                   core::LaneIndex lane = core::LaneIndex::none()) {
-    return std::ranges::any_of(view.belief().links_of(row), [&](const traffic::BelievedLink& link) {
+    const View& view = links.view;
+    return std::ranges::any_of(view.belief().links_of(links.row), [&](const traffic::BelievedLink& link) {
         const traffic::BelievedVehicle& other = view.belief().vehicles[link.neighbour];
-        return link.probability >= detail::link_exists && other.vehicle_class == wanted &&
+        return link.probability >= links.config.link_threshold && other.vehicle_class == wanted &&
                (!lane.exists() || other.state.lane == lane);
     });
 }
@@ -37,24 +33,25 @@ bool is_linked_to(const View& view, core::VehicleIndex row, traffic::VehicleClas
 /// `calculate_score` is not printed. Section 4.3: "For emergency vehicles, a high score is assigned";
 /// automated vehicles are slowed by "neighborhood data", read as: linked to an emergency vehicle. Position,
 /// speed and lane, which the listing passes, have no stated use.
-double score(const View& view, core::VehicleIndex row) {
-    const traffic::VehicleClass vehicle_class = view.belief().vehicles[row].vehicle_class;
+double score(const Links& links) {
+    const traffic::VehicleClass vehicle_class = links.view.belief().vehicles[links.row].vehicle_class;
     if (vehicle_class == traffic::VehicleClass::emergency) return 1.0;
     if (vehicle_class == traffic::VehicleClass::automated &&
-        is_linked_to(view, row, traffic::VehicleClass::emergency))
+        is_linked_to(links, traffic::VehicleClass::emergency))
         return -1.0;
     return 0.0;
 }
 
-bool can_change_in_graph(const View& view, core::VehicleIndex row, std::uint32_t number) {
-    const traffic::BelievedVehicle& vehicle = view.belief().vehicles[row];
+bool can_change_in_graph(const Links& links, std::uint32_t number) {
+    const View& view = links.view;
+    const traffic::BelievedVehicle& vehicle = view.belief().vehicles[links.row];
     const core::EdgeIndex edge = *view.edge_of(vehicle);
     if (number >= view.network().edge(edge).lane_count) return false;
     const core::LaneIndex lane = view.network().lane_of(edge, number);
-    return std::ranges::none_of(view.belief().links_of(row), [&](const traffic::BelievedLink& link) {
+    return std::ranges::none_of(view.belief().links_of(links.row), [&](const traffic::BelievedLink& link) {
         const traffic::MotionState& other = view.belief().vehicles[link.neighbour].state;
-        return link.probability >= detail::link_exists && other.lane == lane &&
-               std::abs(other.lane_position_m - vehicle.state.lane_position_m) < room_m;
+        return link.probability >= links.config.link_threshold && other.lane == lane &&
+               std::abs(other.lane_position_m - vehicle.state.lane_position_m) < links.config.room_m;
     });
 }
 
@@ -62,8 +59,9 @@ bool can_change_in_graph(const View& view, core::VehicleIndex row, std::uint32_t
 /// road, "outer" as one lane away from it. Defect: without an automated vehicle on its lane the emergency
 /// vehicle leaves the centre lane as soon as it can and returns at the next call, so it swings between lanes
 /// on an empty road.
-void change_lanes(const View& view, core::VehicleIndex row, LeaseWriter& write) {
-    const traffic::BelievedVehicle& vehicle = view.belief().vehicles[row];
+void change_lanes(const Links& links, LeaseWriter& write) {
+    const View& view = links.view;
+    const traffic::BelievedVehicle& vehicle = view.belief().vehicles[links.row];
     const auto edge = view.edge_of(vehicle);
     if (!edge || view.network().edge(*edge).internal) return;
     const std::uint32_t number = view.lane_number(vehicle);
@@ -71,19 +69,19 @@ void change_lanes(const View& view, core::VehicleIndex row, LeaseWriter& write) 
     const auto change_to = [&](std::uint32_t target, const char* reason) {
         write.add(vehicle.key, traffic::ChangeLane{target}, reason, vehicle.key);
     };
-    if (is_linked_to(view, row, traffic::VehicleClass::automated, vehicle.state.lane)) {
+    if (is_linked_to(links, traffic::VehicleClass::automated, vehicle.state.lane)) {
         // Defect: also for an automated vehicle behind, and without asking whether the outer lane is free.
         if (number > 0) change_to(number - 1, "automated vehicle on the same lane: outer lane");
     } else if (number != centre) {
-        if (can_change_in_graph(view, row, number + 1)) change_to(number + 1, "not on the centre lane");
-    } else if (number > 0 && can_change_in_graph(view, row, number - 1)) {
+        if (can_change_in_graph(links, number + 1)) change_to(number + 1, "not on the centre lane");
+    } else if (number > 0 && can_change_in_graph(links, number - 1)) {
         change_to(number - 1, "on the centre lane: outer lane if necessary");
     }
 }
 
 }  // namespace
 
-Listing55::Listing55(const PartContext& context, Listing55Config config)
+Listing55::Listing55(const PolicyContext& context, Listing55Config config)
     : context_(context), config_(config) {}
 
 /// Differences to the print: the loop variable is `id` there while the body reads `vehicle_id`, a name never
@@ -96,25 +94,26 @@ Listing55::Listing55(const PartContext& context, Listing55Config config)
 /// the vehicle is known.
 void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(part_name, context_.period, belief.time, leases);
+    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     if (belief.link_count() >= config_.min_edges && belief.link_count() > 0) {
         for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
             const traffic::BelievedVehicle& vehicle = belief.vehicles[row];
-            const double points = score(view, row);
+            const Links links{view, config_, row};
+            const double points = score(links);
             const double now_mps = vehicle.state.speed_mps;
-            if (points > raise_above) {
+            if (points > config_.raise_above) {
                 set_speed_mps_[vehicle.key] =
-                    std::min(now_mps * raise_factor, view.allowed_speed(vehicle).value);
-            } else if (points < lower_below) {
-                set_speed_mps_[vehicle.key] = now_mps * lower_factor;
+                    std::min(now_mps * config_.raise_factor, view.allowed_speed(vehicle).value);
+            } else if (points < config_.lower_below) {
+                set_speed_mps_[vehicle.key] = now_mps * config_.lower_factor;
             }
-            if (vehicle.vehicle_class == traffic::VehicleClass::emergency) change_lanes(view, row, write);
+            if (vehicle.vehicle_class == traffic::VehicleClass::emergency) change_lanes(links, write);
         }
     }
     std::erase_if(set_speed_mps_, [&](const auto& entry) { return belief.find(entry.first) == nullptr; });
     for (const auto& [vehicle, speed_mps] : set_speed_mps_) {
         write.add(vehicle, traffic::DriveAt{core::MetresPerSecond(speed_mps)}, "score", {},
-                  core::Seconds(set_speed_lease_s));
+                  core::Seconds(config_.set_speed_lease_s));
     }
 }
 

@@ -2,29 +2,65 @@
 
 #include <cstddef>
 #include <map>
+#include <tuple>
 
-#include "policy/part.hpp"
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of Listing55.
 struct Listing55Config {
-    std::size_t min_edges =
-        1;  ///< Acts only on a graph with this many links; 4.3: "sufficient edges", no number given.
+    std::size_t min_edges = 1;
+    double link_threshold = 0.5;
+    double raise_above = 0.5;
+    double lower_below = -0.5;
+    double raise_factor = 1.1;
+    double lower_factor = 0.8;
+    double set_speed_lease_s = 30.0;
+    double room_m = 10.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = Listing55Config;
+        using core::Field;
+        return std::make_tuple(
+            Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
+                  "4.3: \"sufficient edges\", no number given"},
+            Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
+                  "A link counts from this probability on", "even odds"},
+            Field{"raise_above", "1", &C::raise_above, -1.0, 1.0,
+                  "A vehicle whose score is above this is told to drive faster",
+                  "listing 5.5; scores are -1, 0 and 1"},
+            Field{"lower_below", "1", &C::lower_below, -1.0, 1.0,
+                  "A vehicle whose score is below this is told to drive slower",
+                  "listing 5.5; scores are -1, 0 and 1"},
+            Field{"raise_factor", "1", &C::raise_factor, 1.0, 2.0, "Faster by this factor", "listing 5.5"},
+            Field{"lower_factor", "1", &C::lower_factor, 0.1, 1.0, "Slower by this factor", "listing 5.5"},
+            Field{"set_speed_lease_s", "s", &C::set_speed_lease_s, 0.1, 600.0,
+                  "Lifetime of a set speed, which every decision renews",
+                  "assumed: outlives the time between two decisions by far, for setSpeed holds"},
+            Field{"room_m", "m", &C::room_m, 0.0, 200.0,
+                  "A lane is free when no linked vehicle on it is nearer than this along the road",
+                  "assumed: a car's length and two gaps"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a change of lanes that is not renewed; at least two periods",
+                  "as the prototype"});
+    }
 };
 
 /// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. It is an
 /// opponent and keeps its defects, each named in the source where it acts; docs/policies.md says what they
 /// cost.
-class Listing55 : public Part {
+class Listing55 : public Policy {
   public:
-    explicit Listing55(const PartContext& context, Listing55Config config = {});
+    explicit Listing55(const PolicyContext& context, Listing55Config config = {});
 
     std::string_view name() const override { return "listing_5_5"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     Listing55Config config_;
     std::map<core::VehicleKey, double> set_speed_mps_;  ///< Never released: see `act`.
 };

@@ -1,36 +1,55 @@
 #pragma once
 
 #include <set>
+#include <tuple>
 #include <utility>
 
-#include "policy/part.hpp"
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of PreemptSignals.
 struct PreemptSignalsConfig {
-    double lead_s = 8.0;  ///< Asked for this long before arrival; [0, 60]. 8 s: 20 s buy 2 % and
-                          ///< cost others 20 % waiting (prototype).
-    double lead_per_halted_s =
-        2.0;  ///< And this much more for each vehicle that stands ahead; [0, 10]. Saturation headway.
-    double longest_lead_s = 40.0;  ///< [0, 60]. Assumed: leaves 20 s of the longest hold for driving through.
-    double slowest_share = 0.5;    ///< Arrival is reckoned with at least this share of the allowed speed, (0,
-                                   ///< 1]: a queue that stands will move once it has green.
-    double horizon_m = 600.0;      ///< Signals farther away are left alone; (0, 5000].
+    double lead_s = 8.0;
+    double lead_per_halted_s = 2.0;
+    double longest_lead_s = 40.0;
+    double slowest_share = 0.5;
+    double horizon_m = 600.0;
+    double halted_mps = 0.5;
+
+    static constexpr auto fields() {
+        using C = PreemptSignalsConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"lead_s", "s", &C::lead_s, 0.0, 60.0, "Green is asked for this long before arrival",
+                  "prototype: 20 s gain 2 % and cost others 20 % waiting"},
+            Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,
+                  "And this much earlier for each vehicle that stands ahead", "saturation headway"},
+            Field{"longest_lead_s", "s", &C::longest_lead_s, 0.0, 60.0, "But no earlier than this",
+                  "assumed: leaves 20 s of the longest hold for driving through"},
+            Field{"slowest_share", "1", &C::slowest_share, 0.01, 1.0,
+                  "Arrival is reckoned with at least this share of the allowed speed",
+                  "assumed: a queue that stands will move once it has green"},
+            Field{"horizon_m", "m", &C::horizon_m, 1.0, 5000.0, "Signals farther away are left alone",
+                  "assumed: the longest lead at 15 m/s"},
+            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
+                  "assumed: walking pace is 1.4 m/s"});
+    }
 };
 
 /// Opens the signals on the route of every emergency vehicle: green for its approach, asked for early
 /// enough that the queue ahead is gone on its arrival. Yellow, all-red, cap, cool-down and the way back are
 /// the work of actuation.
-class PreemptSignals : public Part {
+class PreemptSignals : public Policy {
   public:
-    explicit PreemptSignals(const PartContext& context, PreemptSignalsConfig config = {});
+    explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {});
 
     std::string_view name() const override { return "preempt_signals"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     PreemptSignalsConfig config_;
     /// Whose signals were asked for at the last call: a request stands until its vehicle has passed, for the
     /// queue that begins to move is not gone yet.

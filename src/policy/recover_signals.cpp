@@ -10,18 +10,18 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char part_name[] = "recover_signals";
+constexpr char policy_name[] = "recover_signals";
 
 using DemandByLane = std::unordered_map<std::uint32_t, int>;
 
 /// Vehicles that a green would serve now: those that stand, and those close to the end of their lane.
 DemandByLane demand_by_lane(const roads::Network& network, const traffic::BelievedGraph& belief,
-                            double close_m) {
+                            const RecoverSignalsConfig& config) {
     DemandByLane demand;
     for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
         if (!vehicle.state.lane.exists()) continue;
         const double left_m = network.lane(vehicle.state.lane).length_m - vehicle.state.lane_position_m;
-        if (vehicle.state.speed_mps < detail::halted_mps || left_m < close_m)
+        if (vehicle.state.speed_mps < config.halted_mps || left_m < config.close_m)
             ++demand[vehicle.state.lane.value];
     }
     return demand;
@@ -65,12 +65,12 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 
 }  // namespace
 
-RecoverSignals::RecoverSignals(const PartContext& context, RecoverSignalsConfig config)
+RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config)
     : context_(context), config_(config) {}
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.near_m))) {
@@ -79,7 +79,7 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
-    const DemandByLane demand = demand_by_lane(context_.network, belief, config_.close_m);
+    const DemandByLane demand = demand_by_lane(context_.network, belief, config_);
     for (const auto& [signal, until] : until_s_) {
         std::vector<std::uint16_t> links =
             most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,

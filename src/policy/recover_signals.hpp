@@ -1,36 +1,55 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
-#include "policy/part.hpp"
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of RecoverSignals.
 struct RecoverSignalsConfig {
-    double near_m =
-        300.0;  ///< A signal counts as taken from when an emergency vehicle is this near; (0, 2000].
-    /// And for this long after it has passed; [0, 600]. 60 s: at the dense intersection 20 s left the others
-    /// with 5 % more time loss than the baseline, 60 s with 3 %; 120 s with 1 %, and the
-    /// emergency vehicles with less.
+    double near_m = 300.0;
     double lasting_s = 60.0;
-    double close_m = 50.0;    ///< Moving vehicles nearer to the stop line are wanted, too; [0, 300]. Assumed.
-    int change_vehicles = 4;  ///< Vehicles that a change of phase must serve more; [0, 50]. Assumed: those
-                              ///< that pass a lane during yellow and all-red.
+    double close_m = 50.0;
+    int change_vehicles = 4;
+    double halted_mps = 0.5;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = RecoverSignalsConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"near_m", "m", &C::near_m, 1.0, 2000.0,
+                  "A signal counts as taken from when an emergency vehicle is this near", "assumed"},
+            Field{"lasting_s", "s", &C::lasting_s, 0.0, 600.0, "And for this long after it has passed",
+                  "dense intersection: the others lost 5 % more time than the baseline at 20 s, 3 % at 60 s, "
+                  "1 % at 120 s, where emergency vehicles gained less"},
+            Field{"close_m", "m", &C::close_m, 0.0, 300.0,
+                  "Moving vehicles nearer to the stop line count as waiting, too", "assumed"},
+            Field{"change_vehicles", "1", &C::change_vehicles, 0.0, 50.0,
+                  "Vehicles that a change of phase must serve more",
+                  "assumed: those that pass a lane during yellow and all-red"},
+            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
+                  "assumed: walking pace is 1.4 m/s"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+    }
 };
 
 /// Gives time back after a signal was opened for an emergency vehicle: asks that its program resume with the
 /// phase that serves most of the vehicles believed to wait at it, and that greens which serve fewer end
 /// early for a while.
-class RecoverSignals : public Part {
+class RecoverSignals : public Policy {
   public:
-    explicit RecoverSignals(const PartContext& context, RecoverSignalsConfig config = {});
+    explicit RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config = {});
 
     std::string_view name() const override { return "recover_signals"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     RecoverSignalsConfig config_;
     std::map<core::SignalIndex, double> until_s_;
 };

@@ -9,16 +9,16 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char part_name[] = "red_privilege";
+constexpr char policy_name[] = "red_privilege";
 
 }  // namespace
 
-RedPrivilege::RedPrivilege(const PartContext& context, RedPrivilegeConfig config)
+RedPrivilege::RedPrivilege(const PolicyContext& context, RedPrivilegeConfig config)
     : context_(context), config_(config) {}
 
 void RedPrivilege::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(part_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     const auto shows_red = [&](const detail::Approach& approach) {
         const std::string& shown = belief.signals.state[approach.signal.value];
         return std::ranges::any_of(approach.own_links, [&](std::uint16_t link) {

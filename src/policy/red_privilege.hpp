@@ -1,29 +1,47 @@
 #pragma once
 
-#include "policy/part.hpp"
+#include <tuple>
+
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Numbers of RedPrivilege.
 struct RedPrivilegeConfig {
-    double near_m = 200.0;  ///< Granted from this distance to a signal that is not green, (0, 1000]: before
-                            ///< it would brake.
-    double passing_mps = 5.56;  ///< Highest speed at a stop line that shows red, (0, 50]. 20 km/h: assumed,
-                                ///< so slow that it can stop for those who have green.
-    double braking_mps2 = 2.0;  ///< It slows down for that with this deceleration, (0, 9]; comfortable.
+    double near_m = 200.0;
+    double passing_mps = 5.56;
+    double braking_mps2 = 2.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = RedPrivilegeConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
+                  "Granted from this distance to a signal that is not green",
+                  "assumed: before it would brake"},
+            Field{"passing_mps", "m/s", &C::passing_mps, 0.1, 50.0,
+                  "Highest speed at a stop line that shows red",
+                  "20 km/h, assumed: so slow that it can stop for those that have green"},
+            Field{"braking_mps2", "m/s2", &C::braking_mps2, 0.1, 9.0,
+                  "The emergency vehicle slows down for that with this deceleration", "comfortable"},
+            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+    }
 };
 
 /// Emergency vehicles pass red signals, slowly and yielding, as the law of many countries allows. The
 /// privilege ends with the red signal.
-class RedPrivilege : public Part {
+class RedPrivilege : public Policy {
   public:
-    explicit RedPrivilege(const PartContext& context, RedPrivilegeConfig config = {});
+    explicit RedPrivilege(const PolicyContext& context, RedPrivilegeConfig config = {});
 
     std::string_view name() const override { return "red_privilege"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PartContext context_;
+    PolicyContext context_;
     RedPrivilegeConfig config_;
 };
 

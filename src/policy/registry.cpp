@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "core/error.hpp"
 #include "policy/clear_lane.hpp"
@@ -6,7 +7,7 @@
 #include "policy/dissertation.hpp"
 #include "policy/green_wave.hpp"
 #include "policy/listing_5_5.hpp"
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 #include "policy/preempt_signals.hpp"
 #include "policy/recover_signals.hpp"
 #include "policy/red_privilege.hpp"
@@ -14,40 +15,67 @@
 namespace clearway::policy {
 namespace {
 
+/// A policy whose constructor takes the context and a `Config`, where it has numbers.
+template <class Kind, class... Config>
+PolicyEntry entry(const std::string& name, const char* summary) {
+    return {name,
+            summary,
+            {name},
+            core::settings_table<Config...>(),
+            [name](const PolicyContext& context, const core::Settings& settings) -> std::unique_ptr<Policy> {
+                std::tuple<Config...> config;
+                return std::apply(
+                    [&](auto&... numbers) {
+                        core::set_all(core::settings_of(settings, name), name + ".", numbers...);
+                        return std::make_unique<Kind>(context, numbers...);
+                    },
+                    config);
+            }};
+}
+
+/// A policy that combines others and has no numbers of its own.
 template <class Kind>
-std::unique_ptr<Part> make(const PartContext& context) {
-    return std::make_unique<Kind>(context);
+PolicyEntry combination(const char* name, const char* summary, std::vector<std::string> components) {
+    return {name, summary, std::move(components), core::settings_table<>(),
+            [](const PolicyContext& context, const core::Settings& settings) -> std::unique_ptr<Policy> {
+                return std::make_unique<Kind>(context, settings);
+            }};
 }
 
 }  // namespace
 
-const std::vector<PartEntry>& parts() {
-    static const std::vector<PartEntry> entries = {
-        {"listing_5_5", "The dissertation's listing 5.5 as published, defects included", make<Listing55>},
-        {"dissertation", "The dissertation's policy text (4.3) made workable", make<Dissertation>},
-        {"preempt_signals", "Green for the emergency vehicle's approach on its arrival",
-         make<PreemptSignals>},
-        {"recover_signals", "Gives time back to the approaches that waited", make<RecoverSignals>},
-        {"clear_lane", "Automated vehicles ahead leave the emergency vehicle's lane", make<ClearLane>},
-        {"corridor", "preempt_signals, recover_signals and clear_lane together", make<Corridor>},
-        {"green_wave", "Opponent: every signal of the route at the arrival planned once", make<GreenWave>},
-        {"red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding",
-         make<RedPrivilege>},
+const std::vector<PolicyEntry>& policies() {
+    static const std::vector<PolicyEntry> entries = {
+        entry<Listing55, Listing55Config>("listing_5_5",
+                                          "The dissertation's listing 5.5 as published, defects included"),
+        entry<Dissertation, DissertationConfig>("dissertation",
+                                                "The dissertation's policy text (4.3) made workable"),
+        entry<PreemptSignals, PreemptSignalsConfig>(
+            "preempt_signals", "Green for the emergency vehicle's approach on its arrival"),
+        entry<RecoverSignals, RecoverSignalsConfig>("recover_signals",
+                                                    "Gives time back to the approaches that waited"),
+        entry<ClearLane, ClearLaneConfig>("clear_lane",
+                                          "Automated vehicles ahead leave the emergency vehicle's lane"),
+        combination<Corridor>("corridor", "preempt_signals, recover_signals and clear_lane together",
+                              {"preempt_signals", "recover_signals", "clear_lane"}),
+        entry<GreenWave, GreenWaveConfig>("green_wave",
+                                          "Opponent: every signal of the route at the arrival planned once"),
+        entry<RedPrivilege, RedPrivilegeConfig>(
+            "red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding"),
     };
     return entries;
 }
 
-std::unique_ptr<Part> make_part(const std::string& name, const PartContext& context) {
+std::unique_ptr<Policy> make_policy(const std::string& name, const PolicyContext& context,
+                                    const core::Settings& settings) {
     std::vector<std::string> names;
-    for (const PartEntry& entry : parts()) {
-        if (entry.name == name) return entry.make(context);
-        names.push_back(entry.name);
+    for (const PolicyEntry& known : policies()) {
+        if (known.name == name) return known.make(context, settings);
+        names.push_back(known.name);
     }
     const std::string near = core::nearest(name, names);
-    std::string allowed;
-    for (const std::string& known : names)
-        allowed += (allowed.empty() ? "" : ", ") + known;
-    throw core::InputError(core::Problem{"policy part", "'" + name + "' is not known", allowed,
+    throw core::InputError(core::Problem{"policy", "'" + name + "' is not known",
+                                         fmt::format("{}", fmt::join(names, ", ")),
                                          near.empty() ? "" : "did you mean '" + near + "'?"});
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/named_numbers.hpp"
+#include "core/settings.hpp"
 #include "prediction/common_neighbours.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
@@ -20,8 +20,8 @@ namespace {
 struct Registration {
     const char* name = nullptr;
     const char* summary = nullptr;
-    void (*check)(const PredictorSettings&, const std::string& where, std::vector<core::Problem>&) = nullptr;
-    std::unique_ptr<Predictor> (*make)(PredictorContext, const PredictorSettings&) = nullptr;
+    core::SettingsTable (*table)() = nullptr;
+    std::unique_ptr<Predictor> (*make)(PredictorContext, const core::Settings&) = nullptr;
     void (*check_model)(const Weights&) = nullptr;  ///< Of learned predictors.
 };
 
@@ -33,18 +33,10 @@ struct NoSettings {
 template <auto make, class Config = NoSettings>
 constexpr Registration registered(const char* name, const char* summary,
                                   void (*check_model)(const Weights&) = nullptr) {
-    return {name, summary,
-            [](const PredictorSettings& settings, const std::string& where,
-               std::vector<core::Problem>& problems) {
-                PredictionConfig shared;
+    return {name, summary, core::settings_table<PredictionConfig, Config>,
+            [](PredictorContext context, const core::Settings& settings) {
                 Config own;
-                core::set_numbers(settings, where, problems, shared, own);
-            },
-            [](PredictorContext context, const PredictorSettings& settings) {
-                Config own;
-                std::vector<core::Problem> problems;
-                core::set_numbers(settings, "predictor", problems, context.config, own);
-                if (!problems.empty()) throw core::InputError(std::move(problems));
+                core::set_all(settings, "predictor ", context.config, own);
                 if constexpr (std::is_same_v<Config, NoSettings>) {
                     return make(context);
                 } else {
@@ -79,6 +71,17 @@ constexpr Registration registry[] = {
                                check_graphsage),
 };
 
+const Registration& registration_of(const std::string& name) {
+    for (const Registration& registration : registry) {
+        if (name == registration.name) return registration;
+    }
+    const std::vector<std::string> names = predictor_names();
+    const std::string near = core::nearest(name, names);
+    throw core::InputError({"predictor", fmt::format("'{}' is not a predictor", name),
+                            fmt::format("{}", fmt::join(names, ", ")),
+                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+}
+
 }  // namespace
 
 std::vector<PredictorEntry> predictors() {
@@ -97,10 +100,16 @@ std::vector<std::string> predictor_names() {
     return names;
 }
 
-void check_settings(const std::string& name, const PredictorSettings& settings, const std::string& where,
+core::SettingsTable settings_of(const std::string& name) {
+    return registration_of(name).table();
+}
+
+void check_settings(const std::string& name, const core::Settings& settings, const std::string& where,
                     std::vector<core::Problem>& problems) {
     for (const Registration& registration : registry) {
-        if (name == registration.name) registration.check(settings, where, problems);
+        if (name != registration.name) continue;
+        const std::vector<core::Problem> found = registration.table().check(settings, where + " ");
+        problems.insert(problems.end(), found.begin(), found.end());
     }
 }
 
@@ -115,15 +124,8 @@ void check_model(const std::string& name, const std::string& file) {
 }
 
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
-                                          const PredictorSettings& settings) {
-    for (const Registration& registration : registry) {
-        if (name == registration.name) return registration.make(context, settings);
-    }
-    const std::vector<std::string> names = predictor_names();
-    const std::string near = core::nearest(name, names);
-    throw core::InputError({"predictor", fmt::format("'{}' is not a predictor", name),
-                            fmt::format("{}", fmt::join(names, ", ")),
-                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+                                          const core::Settings& settings) {
+    return registration_of(name).make(context, settings);
 }
 
 }  // namespace clearway::prediction

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/settings.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
 #include "roads/network.hpp"
@@ -72,13 +72,13 @@ std::vector<PredictorEntry> predictors();
 /// Their names alone.
 std::vector<std::string> predictor_names();
 
-/// Settings by name: those that all predictors share, and a predictor's own (the field tables of the
-/// predictors' headers).
-using PredictorSettings = std::map<std::string, double>;
+/// Settings that the predictor `name` may have: those that all predictors share, and its own (the field
+/// tables of the predictors' headers). Throws core::InputError for an unknown name.
+core::SettingsTable settings_of(const std::string& name);
 
 /// Appends a problem for every setting that the predictor `name` does not have and every value out of its
 /// range, `where` being where they stand. A name that is no predictor has no problem here.
-void check_settings(const std::string& name, const PredictorSettings& settings, const std::string& where,
+void check_settings(const std::string& name, const core::Settings& settings, const std::string& where,
                     std::vector<core::Problem>& problems);
 
 /// Throws core::InputError when `file` holds no model of the predictor `name`, or the predictor takes none.
@@ -87,6 +87,6 @@ void check_model(const std::string& name, const std::string& file);
 /// Throws core::InputError for an unknown name (naming the nearest), unfit settings, or an unreadable or
 /// unfit model file. `settings` win over `context.config`.
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
-                                          const PredictorSettings& settings = {});
+                                          const core::Settings& settings = {});
 
 }  // namespace clearway::prediction

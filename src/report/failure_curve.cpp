@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/settings.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -68,14 +69,15 @@ Element& find_or_add(std::vector<Element>& elements, const Fits& fits, Element f
 }
 
 std::string policy_of(const experiment::ConditionSpec& condition) {
-    std::string text = fmt::format("{}", fmt::join(condition.parts, " + "));
+    std::string text = fmt::format("{}", fmt::join(condition.policies, " + "));
     if (condition.engine != experiment::Engine::standard)
         text += fmt::format(" ({})", experiment::name(condition.engine));
-    return text;
+    const std::string settings = experiment::settings_text(condition);
+    return settings.empty() ? text : fmt::format("{}, {}", text, settings);
 }
 
 bool is_compared(const analysis::ConditionSummary& condition) {
-    return !condition.baseline.empty() && !condition.condition.parts.empty();
+    return !condition.baseline.empty() && !condition.condition.policies.empty();
 }
 
 void add_conditions(const analysis::ScenarioSummary& scenario, std::vector<FailureCurve>& curves) {

@@ -13,6 +13,7 @@
 #include "analysis/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiment/settings.hpp"
 #include "report/detail/safety_facts.hpp"
 #include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
@@ -38,12 +39,14 @@ std::string title_of(const std::string& condition) {
 }
 
 std::string recipe_of(const experiment::ConditionSpec& condition) {
+    const std::string settings = experiment::settings_text(condition);
     return fmt::format(
-        "sensing {}; repair {}; policy {}; engine {}; safety checks {}{}", condition.failure,
+        "sensing {}; repair {}; policy {}; engine {}; safety checks {}{}{}", condition.failure,
         condition.predictor,
-        condition.parts.empty() ? "none" : fmt::format("{}", fmt::join(condition.parts, " + ")),
+        condition.policies.empty() ? "none" : fmt::format("{}", fmt::join(condition.policies, " + ")),
         experiment::name(condition.engine), experiment::name(condition.safety_checks),
-        condition.bluelight == traffic::BlueLight::on ? "; device.bluelight" : "");
+        condition.bluelight == traffic::BlueLight::on ? "; device.bluelight" : "",
+        settings.empty() ? "" : "; " + settings);
 }
 
 using detail::estimate_from;

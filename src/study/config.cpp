@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -10,8 +11,10 @@
 #include "core/files.hpp"
 #include "core/strict_table.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/settings.hpp"
 #include "metrics/run_metrics.hpp"
 #include "study/detail/factors.hpp"
+#include "study/detail/read_settings.hpp"
 
 namespace clearway::study {
 namespace {
@@ -86,14 +89,45 @@ scenario::Options options_with(const toml::table& overrides, const detail::Assig
     return options;
 }
 
-experiment::ConditionSpec read_condition(const toml::table& table, const std::string& file,
+/// Settings and model of a condition; its failure and predictor are known.
+void read_settings(StrictTable& reader, const std::filesystem::path& file, Problems& problems,
+                   experiment::ConditionSpec& condition) {
+    if (const toml::table* const table = reader.table("set")) {
+        for (const auto& [name, value] : detail::read_settings(*table, file.string(), problems))
+            experiment::set(condition, name, value);
+    }
+    std::string model;
+    reader.text("model", model);
+    if (model.empty()) return;
+    try {
+        experiment::set_model(condition, (file.parent_path() / model).string(), reader.where("model"));
+    } catch (const core::InputError& error) {
+        append(problems, error);
+    }
+}
+
+/// A list of texts, where one may stand alone.
+void read_policies(StrictTable& reader, const toml::table& table, std::vector<std::string>& policies) {
+    if (table.contains("policy") && table.get("policy")->is_string()) {
+        reader.text("policy", policies.emplace_back());
+    } else {
+        reader.texts("policy", policies);
+    }
+    if (!reader.has("parts")) return;
+    std::vector<std::string> ignored;
+    reader.texts("parts", ignored);
+    reader.problem("parts", "is now called policy", "policy = [\"corridor\"]", "Rename the key");
+}
+
+experiment::ConditionSpec read_condition(const toml::table& table, const std::filesystem::path& path,
                                          Problems& problems) {
     experiment::ConditionSpec condition;
+    const std::string file = path.string();
     StrictTable reader(table, "condition", file, problems);
     reader.text("name", condition.name);
     reader.text("failure", condition.failure);
     reader.text("predictor", condition.predictor);
-    reader.texts("parts", condition.parts);
+    read_policies(reader, table, condition.policies);
     reader.word<experiment::Engine>("engine",
                                     {{"standard", experiment::Engine::standard},
                                      {"sublane", experiment::Engine::sublane},
@@ -104,12 +138,14 @@ experiment::ConditionSpec read_condition(const toml::table& table, const std::st
         condition.safety_checks);
     reader.word<traffic::BlueLight>(
         "bluelight", {{"on", traffic::BlueLight::on}, {"off", traffic::BlueLight::off}}, condition.bluelight);
+    read_settings(reader, path, problems, condition);
     reader.finish();
     if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");
     return condition;
 }
 
-void read_conditions(StrictTable& root, const std::string& file, Problems& problems, StudyConfig& config) {
+void read_conditions(StrictTable& root, const std::filesystem::path& file, Problems& problems,
+                     StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("conditions", names);
     for (const std::string& name : names) {
@@ -146,7 +182,7 @@ void add_scenario(const std::string& path, const scenario::Options& options, con
 
 struct Reading {
     const std::filesystem::path& file;
-    const std::vector<detail::Factor>& factors;
+    const detail::Factors& factors;
 };
 
 /// One of `[[scenario]]`: a scenario under a name of its own, with overrides beside those of the study.
@@ -179,8 +215,8 @@ void add_own_scenario(const toml::table& table, toml::table overrides, const det
         config.scenarios.back().name = name + detail::name_of(assignment, reading.factors);
 }
 
-void read_scenarios(StrictTable& root, const std::filesystem::path& file,
-                    const std::vector<detail::Factor>& factors, Problems& problems, StudyConfig& config) {
+void read_scenarios(StrictTable& root, const std::filesystem::path& file, const detail::Factors& factors,
+                    Problems& problems, StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("scenarios", names);
     const std::vector<const toml::table*> own = root.tables("scenario");
@@ -189,7 +225,7 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file,
                      "");
     const toml::table* const given = root.table("overrides");
     const toml::table overrides = given == nullptr ? toml::table{} : *given;
-    for (const detail::Assignment& assignment : detail::combinations(factors, {"scenario"})) {
+    for (const detail::Assignment& assignment : detail::combinations(factors, detail::Subject::scenarios)) {
         const scenario::Options options = options_with(overrides, assignment, file.string(), problems);
         for (const std::string& name : names)
             add_scenario(resolve(name, file), options, detail::name_of(assignment, factors), problems,
@@ -199,11 +235,27 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file,
     }
 }
 
+/// One condition for each combination that differs in what the condition has.
+std::vector<experiment::ConditionSpec> variants(const experiment::ConditionSpec& condition,
+                                                const detail::Factors& factors,
+                                                std::set<const detail::Factor*>& used, Problems& problems) {
+    std::vector<experiment::ConditionSpec> varied;
+    std::set<detail::Assignment> seen;
+    for (const detail::Assignment& full : detail::combinations(factors, detail::Subject::conditions)) {
+        const detail::Assignment assignment = detail::concerning(condition, full);
+        if (!seen.insert(assignment).second) continue;
+        for (const auto& [factor, value] : assignment)
+            used.insert(factor);
+        varied.push_back(detail::with(condition, assignment, problems));
+        varied.back().name += detail::name_of(assignment, factors);
+    }
+    return varied;
+}
+
 /// Puts in the place of each condition that has a policy, a predictor or failing sensors one for each
 /// combination of the factors.
-void vary_conditions(const std::vector<detail::Factor>& factors, Problems& problems, StudyConfig& config) {
-    const std::vector<detail::Assignment> all =
-        detail::combinations(factors, {"condition", "failure", "loop"});
+void vary_conditions(const detail::Factors& factors, Problems& problems, StudyConfig& config) {
+    const std::vector<detail::Assignment> all = detail::combinations(factors, detail::Subject::conditions);
     if (all.size() == 1 && all.front().empty()) return;
     if (std::ranges::none_of(config.conditions, detail::is_varied)) {
         problems.push_back({"factors", "no condition has failures, a predictor or a policy to vary",
@@ -211,15 +263,20 @@ void vary_conditions(const std::vector<detail::Factor>& factors, Problems& probl
         return;
     }
     std::vector<experiment::ConditionSpec> varied;
+    std::set<const detail::Factor*> used;
     for (const experiment::ConditionSpec& condition : config.conditions) {
         if (!detail::is_varied(condition)) {
             varied.push_back(condition);
             continue;
         }
-        for (const detail::Assignment& assignment : all) {
-            varied.push_back(detail::with(condition, assignment, problems));
-            varied.back().name += detail::name_of(assignment, factors);
-        }
+        const std::vector<experiment::ConditionSpec> own = variants(condition, factors, used, problems);
+        varied.insert(varied.end(), own.begin(), own.end());
+    }
+    for (const detail::Factor& factor : factors.list) {
+        if (factor.group == "scenario" || used.contains(&factor)) continue;
+        problems.push_back({factor.where, "is a setting that no condition has",
+                            "settings of the conditions' policies and predictors",
+                            "Add a condition with it, or remove the factor"});
     }
     config.conditions = std::move(varied);
 }
@@ -331,10 +388,10 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     root.integer<std::uint32_t>("replications", 1, most_replications, config.replications);
     read_precision(root, name, problems, config);
     const toml::table* const factor_table = root.table("factors");
-    std::vector<detail::Factor> factors;
+    detail::Factors factors;
     if (factor_table != nullptr) factors = detail::read_factors(*factor_table, name, problems);
     read_scenarios(root, file, factors, problems, config);
-    read_conditions(root, name, problems, config);
+    read_conditions(root, file, problems, config);
     read_quick(root, name, extent, problems, config);
     vary_conditions(factors, problems, config);
     root.finish();

@@ -60,17 +60,22 @@ enum class Extent : std::uint8_t {
 ///     half_width = 2.0                            # of the 95 % interval, in the metric's unit
 ///     at_most = 200                               # replications
 ///
-///     [factors]                                   # each with the values it takes; all combinations are run
+///     [factors]                                   # each with the values it takes
 ///     condition.failure = ["B5", "B20"]
 ///     failure.dark_share = [0.1, 0.3]
-///     loop.policy_period_s = [0.5, 1.0]
+///     loop.policy_period_s = [0.5, 1.0]           # any setting of `clearway list settings`
+///     preempt_signals.lead_s = [4, 8, 16]
+///     set = [{ "clear_lane.beside_m" = 20, "clear_lane.gap_factor" = 0.8 }]   # several at a time
+///     design = "all_combinations"                 # or "one_at_a_time"
 ///     scenario.demand.human = [40, 80]
 ///
 ///     [[condition]]                               # beside the named ones
 ///     name = "b20"
 ///     failure = "B20"
 ///     predictor = "graphsage_corrected"
-///     parts = ["dissertation"]
+///     policy = ["dissertation"]
+///     set = { "dissertation.ahead_m" = 80, "graphsage_corrected.link_threshold" = 0.4 }
+///     model = "my/net.weights"                    # relative to this file; none: the one in the program
 ///
 ///     [quick]                                     # what --quick runs instead; each key optional
 ///     replications = 3

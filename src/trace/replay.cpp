@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/settings.hpp"
 #include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
@@ -60,13 +61,13 @@ class CandidateGatherer {
 class Replay {
   public:
     Replay(const RecordingInfo& info, const experiment::ConditionSpec& condition,
-           const roads::Network& network)
+           const roads::Network& network, const experiment::LoopConfig& loop)
         : chain_(condition, {.network = network,
                              .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
                                                          core::Replication{info.key.replication}),
-                             .policy_period_s = info.settings.policy_period_s,
-                             .link_radius_m = info.settings.link_radius_m}) {
-        rules_.radius_m = info.settings.link_radius_m;
+                             .policy_period_s = loop.policy_period_s,
+                             .link_radius_m = loop.link_radius_m}) {
+        rules_.radius_m = loop.link_radius_m;
     }
 
     void step(const RecordedStep& step) {
@@ -144,7 +145,10 @@ class Replay {
 
 ReplayResult replay(RecordingReader& recording, const experiment::ConditionSpec& condition,
                     const roads::Network& network) {
-    Replay replay(recording.info(), condition, network);
+    const RecordingSettings& recorded = recording.info().settings;
+    const experiment::LoopConfig loop = experiment::loop_config(
+        condition, {.policy_period_s = recorded.policy_period_s, .link_radius_m = recorded.link_radius_m});
+    Replay replay(recording.info(), condition, network, loop);
     while (const auto step = recording.next())
         replay.step(*step);
     return replay.result();

@@ -167,7 +167,7 @@ TEST_F(HelpTest, list_shows_what_can_be_named) {
 
 TEST_F(HelpTest, list_as_json_has_units_in_the_names_of_parameters) {
     const auto list = nlohmann::json::parse(clearway({"list", "--json"}).out);
-    for (const char* const key : {"scenarios", "conditions", "failures", "predictors", "policy_parts"}) {
+    for (const char* const key : {"scenarios", "conditions", "failures", "predictors", "policies"}) {
         EXPECT_FALSE(list.at(key).empty()) << key;
     }
     for (const auto& failure : list["failures"]) {

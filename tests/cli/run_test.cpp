@@ -201,7 +201,7 @@ TEST_F(RunTest, terminated_it_exits_with_143_and_continues_to_the_same_result) {
 TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     write("my.toml",
           "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
-          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\nparts = [\"dissertation\"]\n"
+          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\npolicy = [\"dissertation\"]\n"
           "safety_checks = \"off\"\n");
     const Ended plan = clearway({"study", "my.toml", "--dry-run", "--json"});
     ASSERT_EQ(plan.code, 0) << plan.err;

@@ -21,7 +21,7 @@ UnitSpec example() {
     condition.name = "b10";
     condition.failure = "B10,mean_outage_s=20,detection=range";
     condition.predictor = "dead_reckoning";
-    condition.parts = {"dissertation", "preempt"};
+    condition.policies = {"dissertation", "preempt"};
     condition.engine = Engine::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
     condition.loop_settings = {{"policy_period_s", "1"}};

@@ -27,7 +27,7 @@ ConditionSpec condition(const std::string& name, const std::string& failure, con
     spec.name = name;
     spec.failure = failure;
     spec.predictor = predictor;
-    spec.parts = std::move(parts);
+    spec.policies = std::move(parts);
     spec.engine = engine;
     return spec;
 }

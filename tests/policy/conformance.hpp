@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "actuation/fakes.hpp"
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::testing {
 
@@ -26,7 +26,7 @@ core::VehicleKey emergency_key();
 /// Vehicles stand still. Checks that each lease is legal, and keeps them all.
 class PartRun {
   public:
-    PartRun(std::unique_ptr<policy::Part> part, ActuationBench& bench)
+    PartRun(std::unique_ptr<policy::Policy> part, ActuationBench& bench)
         : part_(std::move(part)), bench_(bench) {}
 
     void run_for(double duration_s);
@@ -40,7 +40,7 @@ class PartRun {
     void act();
     void expect_legal(const traffic::Lease& lease);
 
-    std::unique_ptr<policy::Part> part_;
+    std::unique_ptr<policy::Policy> part_;
     ActuationBench& bench_;
     std::vector<std::string> leases_;
     std::vector<traffic::Command> commands_;

@@ -9,8 +9,8 @@ using traffic::VehicleClass;
 
 class EveryPart : public ::testing::TestWithParam<std::string> {
   protected:
-    static std::unique_ptr<policy::Part> make() {
-        return policy::make_part(GetParam(), policy::PartContext{two_crossings()});
+    static std::unique_ptr<policy::Policy> make() {
+        return policy::make_policy(GetParam(), policy::PolicyContext{two_crossings()});
     }
 };
 
@@ -132,14 +132,14 @@ TEST_P(EveryPart, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
-std::vector<std::string> part_names() {
+std::vector<std::string> policy_names() {
     std::vector<std::string> names;
-    for (const policy::PartEntry& entry : policy::parts())
+    for (const policy::PolicyEntry& entry : policy::policies())
         names.push_back(entry.name);
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Parts, EveryPart, ::testing::ValuesIn(part_names()),
+INSTANTIATE_TEST_SUITE_P(Parts, EveryPart, ::testing::ValuesIn(policy_names()),
                          [](const auto& part) { return part.param; });
 
 }  // namespace

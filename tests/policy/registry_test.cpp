@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 #include "support/crossing_scene.hpp"
 
 namespace clearway::testing {
@@ -9,7 +9,7 @@ namespace {
 
 TEST(PartRegistry, names_the_nearest_part_for_one_it_does_not_know) {
     try {
-        policy::make_part("disertation", policy::PartContext{two_crossings()});
+        policy::make_policy("disertation", policy::PolicyContext{two_crossings()});
         FAIL() << "no error";
     } catch (const core::InputError& error) {
         ASSERT_EQ(error.problems().size(), 1U);
@@ -20,7 +20,7 @@ TEST(PartRegistry, names_the_nearest_part_for_one_it_does_not_know) {
 
 TEST(PartRegistry, has_unique_names_and_a_summary_of_one_line_each) {
     std::vector<std::string> names;
-    for (const policy::PartEntry& entry : policy::parts()) {
+    for (const policy::PolicyEntry& entry : policy::policies()) {
         EXPECT_EQ(entry.summary.find('\n'), std::string::npos);
         EXPECT_FALSE(entry.summary.empty());
         names.push_back(entry.name);

@@ -17,12 +17,12 @@ const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
 // The approach is 489.6 m long; 16.67 m/s are allowed.
 constexpr double line_m = 489.6;
 
-std::vector<traffic::Lease> act(policy::Part& part, CrossingScene& scene, double time_s = 100.0,
+std::vector<traffic::Lease> act(policy::Policy& policy, CrossingScene& scene, double time_s = 100.0,
                                 const std::optional<std::string>& signals = std::nullopt) {
     traffic::BelievedGraph& belief = scene.belief(signals);
     belief.time = core::Seconds(time_s);
     std::vector<traffic::Lease> leases;
-    part.act(belief, leases);
+    policy.act(belief, leases);
     return leases;
 }
 
@@ -124,7 +124,7 @@ TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_
     belief.vehicles.clear();
     belief.first_link = {0};
     std::vector<traffic::Lease> leases;
-    part.act(belief, leases);
+    policy.act(belief, leases);
     EXPECT_EQ(leases.size(), 1U);
 }
 

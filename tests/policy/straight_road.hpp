@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "policy/part.hpp"
+#include "policy/policy.hpp"
 #include "support/ascii_scene.hpp"
 
 namespace clearway::testing {
@@ -16,7 +16,7 @@ class StraightRoad {
     explicit StraightRoad(std::string_view drawing) : scene(drawing) {}
 
     /// Leases of one call, with everything known; emergency vehicles know themselves.
-    const std::vector<traffic::Lease>& act(policy::Part& part) {
+    const std::vector<traffic::Lease>& act(policy::Policy& policy) {
         traffic::BelievedGraph belief = support::perfect_belief(scene);
         belief.own_states.clear();
         for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
@@ -24,7 +24,7 @@ class StraightRoad {
                 belief.own_states.push_back(vehicle);
         }
         leases_.clear();
-        part.act(belief, leases_);
+        policy.act(belief, leases_);
         return leases_;
     }
 

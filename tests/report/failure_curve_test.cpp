@@ -26,7 +26,7 @@ analysis::ConditionSummary condition(const std::string& failure, const std::stri
     summary.condition.name = predictor + failure;
     summary.condition.failure = failure;
     summary.condition.predictor = predictor;
-    summary.condition.parts = {part};
+    summary.condition.policies = {part};
     summary.baseline = "baseline";
     for (const analysis::MetricInfo& info : analysis::all_metrics()) {
         analysis::MetricSummary metric;

@@ -45,10 +45,10 @@ class FrozenStudy {
         baseline.name = "baseline";
         experiment::ConditionSpec helps;
         helps.name = "helps";
-        helps.parts = {"corridor"};
+        helps.policies = {"corridor"};
         experiment::ConditionSpec hardly;
         hardly.name = "hardly";
-        hardly.parts = {"dissertation"};
+        hardly.policies = {"dissertation"};
         hardly.safety_checks = traffic::SafetyChecks::off;
         experiment::ConditionSpec solo;
         solo.name = "solo";
@@ -138,8 +138,8 @@ class FrozenStudy {
         numbers.arrived = both ? 50 : 49;
         numbers.unfinished = both ? 0 : 1;
         numbers.collisions = key.condition == "hardly" ? key.replication % 2 : 0;
-        numbers.leases_issued = condition.parts.empty() ? 0 : 40 + key.replication;
-        numbers.leases_refused = condition.parts.empty() ? 0 : key.replication;
+        numbers.leases_issued = condition.policies.empty() ? 0 : 40 + key.replication;
+        numbers.leases_refused = condition.policies.empty() ? 0 : key.replication;
         if (condition.engine != experiment::Engine::solo && key.scenario == "crossing")
             add_traffic(key, run.traffic);
         store_.write(run, {});

@@ -63,11 +63,11 @@ class RunFolder : public ::testing::Test {
         manifest.sumo_version = "1.15.0";
         manifest.replications = 3;
         manifest.scenarios = {{"merge", "v1", "Merge", "name = \"merge\"\n", "abc", "Map data: somebody"}};
-        experiment::ConditionSpec baseline{.name = "baseline", .parts = {}};
-        experiment::ConditionSpec helpful{.name = "graph_simulation", .parts = {"dissertation"}};
+        experiment::ConditionSpec baseline{.name = "baseline", .policies = {}};
+        experiment::ConditionSpec helpful{.name = "graph_simulation", .policies = {"dissertation"}};
         helpful.safety_checks = traffic::SafetyChecks::off;
-        experiment::ConditionSpec broken{.name = "broken", .parts = {"dissertation"}};
-        experiment::ConditionSpec solo{.name = "solo", .parts = {}, .engine = experiment::Engine::solo};
+        experiment::ConditionSpec broken{.name = "broken", .policies = {"dissertation"}};
+        experiment::ConditionSpec solo{.name = "solo", .policies = {}, .engine = experiment::Engine::solo};
         manifest.conditions = {baseline, helpful, broken, solo};
         const results::Store store = results::Store::create(folder.path() / "study", manifest);
         for (std::uint32_t replication = 0; replication < 3; ++replication) {

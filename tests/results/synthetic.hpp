@@ -22,7 +22,7 @@ inline Manifest manifest(std::uint32_t replications = 2) {
     baseline.name = "baseline";
     experiment::ConditionSpec treated;
     treated.name = "treated";
-    treated.parts = {"dissertation"};
+    treated.policies = {"dissertation"};
     result.conditions = {baseline, treated};
     return result;
 }

@@ -44,7 +44,7 @@ step_length_s = 0.1
 name = "b20"
 failure = "B20"
 predictor = "dead_reckoning"
-parts = ["dissertation"]
+policy = ["dissertation"]
 safety_checks = "off"
 )");
     EXPECT_EQ(config.name, "outages");
@@ -146,7 +146,7 @@ conditions = ["base line"]
 variant = "denser"
 [[condition]]
 failure = "B20"
-part = ["dissertation"]
+polcy = ["dissertation"]
 )");
     EXPECT_THAT(message, HasSubstr("study.toml:1:"));
     EXPECT_THAT(message, HasSubstr("Did you mean 'replications'?"));
@@ -155,7 +155,7 @@ part = ["dissertation"]
     EXPECT_THAT(message, HasSubstr("merge"));
     EXPECT_THAT(message, HasSubstr("'baseline'"));
     EXPECT_THAT(message, HasSubstr("\"denser\" is not known"));
-    EXPECT_THAT(message, HasSubstr("Did you mean 'parts'?"));
+    EXPECT_THAT(message, HasSubstr("Did you mean 'policy'?"));
     EXPECT_THAT(message, HasSubstr("condition.name"));
 }
 

@@ -59,7 +59,7 @@ TEST_F(Factors, OfScenariosMakeScenarios) {
 scenario.drivers.speed_factor_mean = [0.9, 1.1]
 scenario.density = [1, 2]
 loop.policy_period_s = [0.5, 1]
-condition.parts = [["dissertation"], ["clear_lane", "preempt_signals"]]
+condition.policy = [["dissertation"], ["clear_lane", "preempt_signals"]]
 )");
     EXPECT_THAT(names(config.scenarios), testing::Contains("merge+density=2+speed_factor_mean=1.1"));
     ASSERT_EQ(config.scenarios.size(), 4U);
@@ -69,10 +69,10 @@ condition.parts = [["dissertation"], ["clear_lane", "preempt_signals"]]
     }
     EXPECT_EQ(config.conditions.size(), 2U + 4U);
     const auto two = std::ranges::find_if(config.conditions, [](const auto& condition) {
-        return condition.name == "graph_simulation+parts=clear_lane.preempt_signals+policy_period_s=1";
+        return condition.name == "graph_simulation+policy=clear_lane.preempt_signals+policy_period_s=1";
     });
     ASSERT_NE(two, config.conditions.end());
-    EXPECT_THAT(two->parts, ElementsAre("clear_lane", "preempt_signals"));
+    EXPECT_THAT(two->policies, ElementsAre("clear_lane", "preempt_signals"));
     EXPECT_EQ(two->loop_settings.at("policy_period_s"), "1");
 }
 

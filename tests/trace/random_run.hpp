@@ -43,7 +43,7 @@ class RandomRun {
         info.condition.name = "mine";
         info.condition.failure = "B10";
         info.condition.predictor = "dead_reckoning";
-        info.condition.parts = {"dissertation"};
+        info.condition.policies = {"dissertation"};
         info.provenance.clearway_version = "0.1.0";
         info.provenance.study_seed = 18446744073709551615U;
         info.settings = {0.25, 0.5, 50.0, std::string(32, 'a')};

@@ -21,7 +21,7 @@ ConditionSpec condition(const std::string& failure, const std::string& predictor
     spec.name = "mine";
     spec.failure = failure;
     spec.predictor = predictor;
-    spec.parts = std::move(parts);
+    spec.policies = std::move(parts);
     return spec;
 }
 

@@ -23,9 +23,10 @@ struct Approach {
 std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
                                  core::Metres horizon);
 
-/// Vehicles that stand ahead on the way to a stop line `distance` away: on each edge the longest queue of its
-/// lanes.
-std::size_t halted_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);
+/// Vehicles slower than `halted_mps` ahead on the way to a stop line `distance` away: on each edge the
+/// longest queue of its lanes.
+std::size_t halted_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
+                         double halted_mps);
 
 /// Time to drive `distance` along the route at the speed the vehicle is allowed on each edge, s.
 double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);

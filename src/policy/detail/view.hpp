@@ -15,21 +15,13 @@
 
 namespace clearway::policy::detail {
 
-/// A link is taken to exist from this probability on.
-inline constexpr float link_exists = 0.5F;
-/// Below this speed a vehicle counts as standing in a queue, m/s (walking pace is 1.4).
-inline constexpr float halted_mps = 0.5F;
-/// How long a lease of these parts lives unless renewed, s, or two periods where those are longer: as the
-/// prototype.
-inline constexpr double usual_lease_s = 2.0;
-
 /// A vehicle believed ahead of another on its route.
 struct VehicleAhead {
     const traffic::BelievedVehicle* vehicle = nullptr;
     double distance_m = 0.0;  ///< Front to front, along the route.
 };
 
-/// Questions that several parts ask of a belief. Refers to the belief and the network; use it within one
+/// Questions that several policies ask of a belief. Refers to the belief and the network; use it within one
 /// `act`.
 class View {
   public:
@@ -70,16 +62,14 @@ class View {
     const traffic::BelievedGraph& belief_;
 };
 
-/// Writes the leases of one part.
+/// Writes the leases of one policy.
 class LeaseWriter {
   public:
-    /// `policy` has static storage; `period` is the time between two decisions.
+    /// `policy` has static storage; `period` is the time between two decisions. A lease lives `lease_s`
+    /// unless renewed, or two periods where those are longer.
     LeaseWriter(const char* policy, core::Seconds period, core::Seconds now,
-                std::vector<traffic::Lease>& leases)
-        : policy_(policy),
-          usual_(std::max(usual_lease_s, two_periods(period).value)),
-          now_(now),
-          leases_(leases) {}
+                std::vector<traffic::Lease>& leases, double lease_s = 0.0)
+        : policy_(policy), usual_(std::max(lease_s, two_periods(period).value)), now_(now), leases_(leases) {}
 
     /// Long enough for a lease that every decision renews, and no longer.
     static core::Seconds two_periods(core::Seconds period) { return core::Seconds(2.0 * period.value); }

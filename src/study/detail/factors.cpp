@@ -7,21 +7,41 @@
 
 #include <fmt/format.h>
 
-#include "core/settings.hpp"
-#include "experiment/loop_config.hpp"
+#include "experiment/settings.hpp"
+#include "study/detail/read_settings.hpp"
 
 namespace clearway::study::detail {
 namespace {
 
 using Problems = std::vector<core::Problem>;
 
-const std::vector<std::string> groups = {"condition", "failure", "loop", "scenario"};
+constexpr const char* several = "set";
+constexpr const char* design_key = "design";
 const std::vector<std::string> condition_keys = {"bluelight", "engine",    "failure",
-                                                 "parts",     "predictor", "safety_checks"};
+                                                 "policy",    "predictor", "safety_checks"};
+
+/// What a factor may be of: conditions, scenarios, several settings, or any component with settings.
+const std::vector<std::string>& groups() {
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> names = {"condition", "scenario", several};
+        for (const experiment::Component& component : experiment::components())
+            names.push_back(component.name);
+        return names;
+    }();
+    return all;
+}
+
+bool is_component(const std::string& group) {
+    return group != "condition" && group != "scenario" && group != several;
+}
 
 std::string place(const toml::node& node, const std::string& file, const std::string& key) {
     return fmt::format("{}:{}:{}: factors.{}", file, node.source().begin.line, node.source().begin.column,
                        key);
+}
+
+std::string last_part(const std::string& key) {
+    return key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -48,18 +68,9 @@ bool read_value(const toml::node& node, FactorValue& value) {
             value.text += (value.text.empty() ? "" : ".") + *word;
         }
         toml_text << *list;
-    } else if (const auto text = node.value_exact<std::string>()) {
+    } else if (const auto text = setting_value(node)) {
         value.text = *text;
-        toml_text << *node.as_string();
-    } else if (const auto whole = node.value_exact<std::int64_t>()) {
-        value.text = fmt::format("{}", *whole);
-        toml_text << *whole;
-    } else if (const auto number = node.value_exact<double>()) {
-        value.text = fmt::format("{}", *number);
-        toml_text << *node.as_floating_point();
-    } else if (const auto truth = node.value_exact<bool>()) {
-        value.text = *truth ? "true" : "false";
-        toml_text << value.text;
+        node.visit([&](const auto& plain) { toml_text << plain; });
     } else {
         return false;
     }
@@ -80,6 +91,35 @@ void read_list(const toml::array& list, Factor factor, std::vector<Factor>& fact
         }
     }
     factors.push_back(std::move(factor));
+}
+
+/// `set = [{ "a.b" = 1, "c.d" = 2 }, ...]`: each value sets several numbers at a time.
+void read_several(const toml::node& node, const std::string& file, std::vector<Factor>& factors,
+                  Problems& problems) {
+    Factor factor{several, several, place(node, file, several), {}};
+    const toml::array* const list = node.as_array();
+    if (list == nullptr || list->empty() || !list->is_homogeneous(toml::node_type::table)) {
+        problems.push_back(
+            {factor.where, "is not a list of settings", R"([{ "COMPONENT.NAME" = VALUE, ... }, ...])", ""});
+        return;
+    }
+    for (const toml::node& element : *list) {
+        FactorValue value;
+        value.settings = read_settings(*element.as_table(), file, problems);
+        for (const auto& [name, text] : value.settings)
+            value.text += (value.text.empty() ? "" : ".") + last_part(name) + "_" + text;
+        factor.values.push_back(std::move(value));
+    }
+    factors.push_back(std::move(factor));
+}
+
+Design read_design(const toml::node& node, const std::string& file, Problems& problems) {
+    const auto word = node.value_exact<std::string>();
+    if (word == "one_at_a_time") return Design::one_at_a_time;
+    if (word != "all_combinations")
+        problems.push_back(
+            {place(node, file, design_key), "is not known", "all_combinations, one_at_a_time", ""});
+    return Design::all_combinations;
 }
 
 // NOLINTNEXTLINE(readability-function-size): a table, its place, and two lists to fill
@@ -103,10 +143,10 @@ void check_names(const std::vector<Factor>& factors, Problems& problems) {
         if (factor.group == "condition" &&
             std::ranges::find(condition_keys, factor.key) == condition_keys.end())
             add_unknown(factor.where, factor.key, condition_keys, problems);
-        if (factor.group != "loop") continue;
-        experiment::LoopConfig loop;
+        if (!is_component(factor.group)) continue;
+        const std::string name = factor.group + "." + factor.key;
         for (const FactorValue& value : factor.values) {
-            for (const core::Problem& problem : core::apply_settings({{factor.key, value.text}}, "", loop))
+            for (const core::Problem& problem : experiment::check_setting(name, value.text, ""))
                 problems.push_back({factor.where, problem.what, problem.allowed, problem.cure});
         }
     }
@@ -126,7 +166,8 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
                        Problems& problems) {
     if (factor.key == "failure") condition.failure = value.text;
     if (factor.key == "predictor") condition.predictor = value.text;
-    if (factor.key == "parts") condition.parts = value.words.empty() ? std::vector{value.text} : value.words;
+    if (factor.key == "policy")
+        condition.policies = value.words.empty() ? std::vector{value.text} : value.words;
     if (factor.key == "engine") set_word(factor, value, experiment::engine_from, condition.engine, problems);
     if (factor.key == "bluelight")
         set_word(factor, value, experiment::switch_from<traffic::BlueLight>, condition.bluelight, problems);
@@ -145,39 +186,43 @@ std::string folder_text(std::string text) {
     return text;
 }
 
-std::string last_part(const std::string& key) {
-    return key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);
-}
-
 }  // namespace
 
-std::vector<Factor> read_factors(const toml::table& table, const std::string& file, Problems& problems) {
-    std::vector<Factor> factors;
+Factors read_factors(const toml::table& table, const std::string& file, Problems& problems) {
+    Factors factors;
     for (const auto& [name, node] : table) {
         const std::string group(name.str());
         const std::string where = place(node, file, group);
-        if (std::ranges::find(groups, group) == groups.end()) {
+        if (group == design_key) {
+            factors.design = read_design(node, file, problems);
+        } else if (group == several) {
+            read_several(node, file, factors.list, problems);
+        } else if (std::ranges::find(groups(), group) == groups().end()) {
             const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
             if (bare)
                 problems.push_back(
-                    {where, "is unknown", list_of(groups), "Did you mean 'condition." + group + "'?"});
-            if (!bare) add_unknown(where, group, groups, problems);
+                    {where, "is unknown", list_of(groups()), "Did you mean 'condition." + group + "'?"});
+            if (!bare) add_unknown(where, group, groups(), problems);
         } else if (const toml::table* below = node.as_table()) {
-            read_group(*below, file, group, "", factors, problems);
+            read_group(*below, file, group, "", factors.list, problems);
         } else {
             problems.push_back({where, "is not a table", group + ".NAME = [values]",
                                 group == "failure" ? "Did you mean 'condition.failure'?" : ""});
         }
     }
-    check_names(factors, problems);
+    check_names(factors.list, problems);
     return factors;
 }
 
-std::vector<Assignment> combinations(const std::vector<Factor>& factors,
-                                     const std::vector<std::string>& wanted) {
+std::vector<Assignment> combinations(const Factors& factors, Subject subject) {
     std::vector<Assignment> all = {{}};
-    for (const Factor& factor : factors) {
-        if (std::ranges::find(wanted, factor.group) == wanted.end()) continue;
+    for (const Factor& factor : factors.list) {
+        if ((factor.group == "scenario") != (subject == Subject::scenarios)) continue;
+        if (factors.design == Design::one_at_a_time) {
+            for (const FactorValue& value : factor.values)
+                all.push_back({{&factor, &value}});
+            continue;
+        }
         std::vector<Assignment> longer;
         for (const Assignment& assignment : all) {
             for (const FactorValue& value : factor.values) {
@@ -190,25 +235,50 @@ std::vector<Assignment> combinations(const std::vector<Factor>& factors,
     return all;
 }
 
-std::string name_of(const Assignment& assignment, const std::vector<Factor>& factors) {
+std::string name_of(const Assignment& assignment, const Factors& factors) {
     std::string name;
     for (const auto& [factor, value] : assignment) {
         const std::string key = last_part(factor->key);
-        const auto alike =
-            std::ranges::count_if(factors, [&](const Factor& other) { return last_part(other.key) == key; });
+        const auto alike = std::ranges::count_if(
+            factors.list, [&](const Factor& other) { return last_part(other.key) == key; });
         name += fmt::format("+{}={}", alike > 1 ? factor->group + "." + factor->key : key,
                             folder_text(value->text));
     }
     return name;
 }
 
+Assignment concerning(const experiment::ConditionSpec& condition, const Assignment& assignment) {
+    experiment::ConditionSpec changed = condition;
+    Problems ignored;  // found again by `with`
+    for (const auto& [factor, value] : assignment) {
+        if (factor->group == "condition") set_condition_key(*factor, *value, changed, ignored);
+    }
+    const std::vector<std::string> present = experiment::components_of(changed);
+    const auto has = [&](const std::string& component) {
+        return std::ranges::find(present, component) != present.end();
+    };
+    Assignment concerned;
+    for (const auto& [factor, value] : assignment) {
+        const bool has_all = std::ranges::all_of(value->settings, [&](const auto& setting) {
+            return has(setting.first.substr(0, setting.first.find('.')));
+        });
+        if (has_all && (!is_component(factor->group) || has(factor->group)))
+            concerned.emplace_back(factor, value);
+    }
+    return concerned;
+}
+
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                Problems& problems) {
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
-        // Groups come in the order of their names, so the failure itself is set before its fields.
-        if (factor->group == "failure") condition.failure += fmt::format(",{}={}", factor->key, value->text);
-        if (factor->group == "loop") condition.loop_settings[factor->key] = value->text;
+    }
+    // The failure itself is set before its fields.
+    for (const auto& [factor, value] : assignment) {
+        if (is_component(factor->group))
+            experiment::set(condition, factor->group + "." + factor->key, value->text);
+        for (const auto& [name, text] : value->settings)
+            experiment::set(condition, name, text);
     }
     return condition;
 }

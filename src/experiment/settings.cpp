@@ -1,0 +1,266 @@
+#include "experiment/settings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/files.hpp"
+#include "core/folder_name.hpp"
+#include "policy/policy.hpp"
+#include "prediction/predictor.hpp"
+#include "sensing/failure_config.hpp"
+
+namespace clearway::experiment {
+namespace {
+
+constexpr const char* loop_name = "loop";
+constexpr const char* failure_name = "failure";
+constexpr const char* actuation_name = "actuation";
+constexpr const char* siren_name = "siren";
+/// Longest name that a description makes; longer ones end in digits of their hash.
+constexpr std::size_t longest_name = 80;
+
+std::vector<Component> make_components() {
+    std::vector<Component> all = {
+        {loop_name, "The closed loop", core::settings_table<LoopConfig>()},
+        {failure_name,
+         "Sensors: on top of the named failure, whose own values may differ from the defaults here",
+         core::settings_table<sensing::FailureConfig>()}};
+    for (const prediction::PredictorEntry& entry : prediction::predictors())
+        all.push_back({entry.name, "Predictor: " + entry.summary, prediction::settings_of(entry.name)});
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        if (!entry.table.rows.empty()) all.push_back({entry.name, "Policy: " + entry.summary, entry.table});
+    }
+    all.push_back({actuation_name, "How leases are carried out: signal transitions and their limits",
+                   core::settings_table<actuation::ActuatorConfig>()});
+    all.push_back({siren_name, "Human drivers who hear a siren: on top of what the scenario says",
+                   core::settings_table<drivers::SirenConfig, drivers::ReactionConfig>()});
+    return all;
+}
+
+const Component* component_named(const std::string& name) {
+    const auto found = std::ranges::find(components(), name, &Component::name);
+    return found == components().end() ? nullptr : &*found;
+}
+
+/// Component and name of `component.name`; the first is empty where there is no dot.
+std::pair<std::string, std::string> parted(const std::string& name) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) return {"", name};
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// Every setting of these components, in full.
+std::vector<std::string> full_names(const std::vector<std::string>& of) {
+    std::vector<std::string> names;
+    for (const Component& component : components()) {
+        if (std::ranges::find(of, component.name) == of.end()) continue;
+        for (const core::SettingInfo& row : component.table.rows)
+            names.push_back(component.name + "." + row.name);
+    }
+    return names;
+}
+
+std::vector<std::string> component_names() {
+    std::vector<std::string> names;
+    for (const Component& component : components())
+        names.push_back(component.name);
+    return names;
+}
+
+/// The full name that is meant by one without a component or with a wrong one.
+std::string meant(const std::string& name, const std::vector<std::string>& of) {
+    const std::vector<std::string> known = full_names(of);
+    const std::string last = parted(name).second;
+    for (const std::string& full : known) {
+        if (parted(full).second == last) return full;
+    }
+    return core::nearest(name, known);
+}
+
+std::string question(const std::string& near) {
+    return near.empty() ? "`clearway list settings` shows them all" : fmt::format("Did you mean '{}'?", near);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+void check_model(const ConditionSpec& condition, const std::string& where,
+                 std::vector<core::Problem>& problems) {
+    if (condition.model_file.empty()) return;
+    try {
+        prediction::check_model(condition.predictor, condition.model_file);
+        checked_model(condition);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("{}model: {}", where, problem.where);
+            problems.push_back(std::move(problem));
+        }
+    }
+}
+
+/// What cannot be in the name of a folder, and what separates fields, becomes `_`.
+std::string folder_text(std::string text) {
+    for (char& letter : text) {
+        if (letter == '=' || !core::is_folder_name(std::string("x") + letter)) letter = '_';
+    }
+    return text;
+}
+
+/// `lead_s_12`; with its component where two settings end alike.
+std::string setting_word(const std::string& name, const std::string& value, const core::Settings& all) {
+    const std::string last = parted(name).second;
+    const auto alike =
+        std::ranges::count_if(all, [&](const auto& other) { return parted(other.first).second == last; });
+    return (alike > 1 ? name : last) + "_" + value;
+}
+
+}  // namespace
+
+const std::vector<Component>& components() {
+    static const std::vector<Component> all = make_components();
+    return all;
+}
+
+std::vector<std::string> components_of(const ConditionSpec& condition) {
+    if (condition.engine == Engine::solo) return {};
+    std::vector<std::string> present = {loop_name, failure_name, condition.predictor, siren_name};
+    if (!condition.policies.empty()) present.emplace_back(actuation_name);
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        if (std::ranges::find(condition.policies, entry.name) == condition.policies.end()) continue;
+        present.insert(present.end(), entry.components.begin(), entry.components.end());
+    }
+    std::vector<std::string> ordered;
+    for (const Component& component : components()) {
+        if (std::ranges::find(present, component.name) != present.end()) ordered.push_back(component.name);
+    }
+    return ordered;
+}
+
+void set(ConditionSpec& condition, const std::string& name, const std::string& value) {
+    const auto [component, field] = parted(name);
+    const std::string text = core::setting_text(value);
+    if (component != failure_name) {
+        condition.settings.insert_or_assign(name, text);
+        return;
+    }
+    const std::string item = field + "=" + text;
+    std::string failure;
+    bool is_there = false;
+    std::size_t begin = 0;
+    while (begin <= condition.failure.size()) {
+        const std::size_t comma = std::min(condition.failure.find(',', begin), condition.failure.size());
+        const std::string old = condition.failure.substr(begin, comma - begin);
+        const bool same = old.starts_with(field + "=");
+        failure += (failure.empty() ? "" : ",") + (same ? item : old);
+        is_there = is_there || same;
+        begin = comma + 1;
+    }
+    condition.failure = is_there ? failure : failure + "," + item;
+}
+
+void set_model(ConditionSpec& condition, const std::string& file, const std::string& where) {
+    if (!std::filesystem::is_regular_file(file))
+        throw core::InputError(
+            {where, fmt::format("{} is no file", file), "a file of weights", "`clearway train` writes one"});
+    condition.model_file = std::filesystem::absolute(file).lexically_normal().string();
+    condition.model_hash = core::content_hash(core::read_file(file));
+}
+
+std::string checked_model(const ConditionSpec& condition) {
+    if (condition.model_file.empty()) return {};
+    if (core::content_hash(core::read_file(condition.model_file)) != condition.model_hash)
+        throw core::InputError({condition.model_file, "is not the model that was given, it has changed",
+                                "content hash " + condition.model_hash,
+                                "Bring that file back, or begin a new study"});
+    return condition.model_file;
+}
+
+std::vector<core::Problem> check_setting(const std::string& name, const std::string& value,
+                                         const std::string& where) {
+    const auto [component, field] = parted(name);
+    const Component* const known = component_named(component);
+    if (known == nullptr)
+        return {{where + name, "is unknown",
+                 "COMPONENT.NAME, the component being one of " + joined(component_names()),
+                 question(meant(name, component_names()))}};
+    return known->table.check({{field, value}}, where + component + ".");
+}
+
+std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where) {
+    std::vector<core::Problem> problems;
+    const std::vector<std::string> present = components_of(condition);
+    for (const auto& [name, value] : condition.settings) {
+        const std::string component = parted(name).first;
+        const bool is_known = component_named(component) != nullptr;
+        if (is_known && std::ranges::find(present, component) == present.end()) {
+            problems.push_back(
+                {where + name,
+                 fmt::format("is a setting of {}, which the condition does not have", component),
+                 present.empty() ? "none: each emergency vehicle is alone on the road"
+                                 : "settings of " + joined(present),
+                 question(meant(name, present))});
+            continue;
+        }
+        const std::vector<core::Problem> found = check_setting(name, value, where);
+        problems.insert(problems.end(), found.begin(), found.end());
+    }
+    check_model(condition, where, problems);
+    return problems;
+}
+
+std::string settings_text(const ConditionSpec& condition) {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : condition.settings)
+        words.push_back(name + "=" + value);
+    if (!condition.model_file.empty())
+        words.push_back("model=" + std::filesystem::path(condition.model_file).filename().string());
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string described_name(const ConditionSpec& condition) {
+    const ConditionSpec usual;
+    std::vector<std::string> words = condition.policies;
+    if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
+    if (words.empty()) words.emplace_back("no_policy");
+    if (condition.failure != usual.failure) words.push_back(condition.failure);
+    if (condition.predictor != usual.predictor) words.push_back(condition.predictor);
+    if (!condition.model_file.empty())
+        words.push_back(std::filesystem::path(condition.model_file).stem().string());
+    if (condition.engine != usual.engine) words.emplace_back(name(condition.engine));
+    if (condition.safety_checks != usual.safety_checks) words.emplace_back("unchecked");
+    for (const auto& [name, value] : condition.settings)
+        words.push_back(setting_word(name, value, condition.settings));
+    std::string text = folder_text(fmt::format("{}", fmt::join(words, "_")));
+    if (text.size() > longest_name) {
+        constexpr std::size_t digits = 8;
+        text = text.substr(0, longest_name - digits - 1) + "_" + core::content_hash(text).substr(0, digits);
+    }
+    return text;
+}
+
+LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual) {
+    LoopConfig config = usual;
+    core::set_all(core::settings_of(condition.settings, loop_name),
+                  fmt::format("condition {}: loop.", condition.name), config);
+    return config;
+}
+
+actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual) {
+    core::set_all(core::settings_of(condition.settings, actuation_name),
+                  fmt::format("condition {}: actuation.", condition.name), usual);
+    return usual;
+}
+
+Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& of_scenario) {
+    Sirens sirens{of_scenario, {}};
+    core::set_all(core::settings_of(condition.settings, siren_name),
+                  fmt::format("condition {}: siren.", condition.name), sirens.siren, sirens.reaction);
+    return sirens;
+}
+
+}  // namespace clearway::experiment

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/lease.hpp"
+
+namespace clearway::policy {
+
+/// Reads the believed graph and issues leases. A condition has a list of policies. A policy may keep state
+/// between steps, is used by one thread, and draws nothing at random. It never learns whether the graph is
+/// true, observed or repaired, and it never releases what it asked for: leases end by themselves.
+class Policy {
+  public:
+    Policy() = default;
+    Policy(const Policy&) = delete;
+    Policy& operator=(const Policy&) = delete;
+    virtual ~Policy() = default;
+
+    virtual std::string_view name() const = 0;
+    /// Called every `PolicyContext::period` with the belief of that moment. Appends to `leases`.
+    virtual void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) = 0;
+};
+
+/// What a policy needs beside the belief. The network outlives the policy.
+struct PolicyContext {
+    const roads::Network& network;
+    core::Seconds period{0.5};  ///< Between two calls of `act`.
+};
+
+/// A policy as the registry knows it.
+struct PolicyEntry {
+    std::string name;
+    std::string summary;  ///< One line for `clearway list`.
+    /// Names of the policies whose settings it has: its own, or those that it combines.
+    std::vector<std::string> components;
+    core::SettingsTable table;  ///< Of its own settings.
+    /// Settings are named with their component, `preempt_signals.lead_s`; those of others are left out.
+    std::function<std::unique_ptr<Policy>(const PolicyContext& context, const core::Settings& settings)> make;
+};
+
+/// All registered policies.
+const std::vector<PolicyEntry>& policies();
+
+/// Throws core::InputError for an unknown name, naming the nearest, and for settings that its table does not
+/// allow.
+std::unique_ptr<Policy> make_policy(const std::string& name, const PolicyContext& context,
+                                    const core::Settings& settings = {});
+
+}  // namespace clearway::policy
