@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common_options.hpp"
-#include "cli/settings_text.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/settings_page.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "scenario/config.hpp"
@@ -153,13 +153,13 @@ core::ExitCode list_settings(const Arguments& arguments) {
                                     : fmt::format("`{}` cannot be listed alone", arguments.words.front()),
                                 settings, "Say `clearway list`, or `clearway list settings`"});
     const std::vector<experiment::Component> components =
-        components_named(arguments.words.size() > 1 ? arguments.words.back() : "");
+        experiment::components_named(arguments.words.size() > 1 ? arguments.words.back() : "");
     if (arguments.as_markdown) {
-        fmt::print("{}", settings_markdown(components));
+        fmt::print("{}", experiment::settings_markdown(components));
     } else if (arguments.printing == Printing::json) {
-        fmt::print("{}", settings_json(components));
+        fmt::print("{}", experiment::settings_json(components));
     } else {
-        fmt::print("{}", settings_text(components));
+        fmt::print("{}", experiment::settings_console(components));
     }
     return core::ExitCode::ok;
 }

@@ -87,14 +87,36 @@ TEST_F(BadInputTest, all_problems_of_a_study_file_are_told_at_once) {
                                  HasSubstr("my.toml:7:"), HasSubstr("failur")));
 }
 
+TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
+    write_line_scenario();
+    const auto refused = [&](std::vector<std::string> words, const std::string& message) {
+        words.insert(words.begin(), {"run", "line", "--out", "out", "--policy", "corridor"});
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(message));
+        EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    };
+    refused({"--set", "preempt_signals.leed_s=12"}, "Did you mean 'lead_s'?");
+    refused({"--set", "preempt_signals.lead_s=99"}, "99 is out of range (allowed: 0 to 60)");
+    refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is no assignment");
+    refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
+    refused({"--model", "none.weights"}, "none.weights is no file");
+    write("net.weights", "no weights");
+    refused({"--predictor", "graphsage", "--model", "net.weights"},
+            "condition corridor_graphsage_net: model: ");
+    refused({"--model", "net.weights"}, "none is not learned and takes no model");
+    EXPECT_EQ(clearway({"list", "settings", "corridr"}).code, 3);
+    EXPECT_THAT(clearway({"list", "setings"}).err, HasSubstr("cannot be listed alone"));
+}
+
 TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
     write_line_scenario();
     const Ended ended = clearway({"run", "line", "--out", "out", "--failure",
                                   "B10,dark_share=1.5,onbord_range_m=50", "--policy", "dissertation"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("condition custom: failure `B10,dark_share=1.5,onbord_range_m=50`"),
-                      HasSubstr("did you mean onboard_range_m?")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("condition dissertation_B10_dark_share_1.5_onbord_range_m_50: "
+                                           "failure `B10,dark_share=1.5,onbord_range_m=50`"),
+                                 HasSubstr("did you mean onboard_range_m?")));
     const Ended data =
         clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "loss_rate=2"});
     EXPECT_EQ(data.code, 3);

@@ -32,7 +32,8 @@ TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
         clearway({"run", "./town", "--density", "0.3", "--seeds", "1", "--no-solo", "--policy", "corridor",
                   "--failure", "B10", "--predictor", "dead_reckoning", "--record", "--out", "out"});
     ASSERT_EQ(run.code, 0) << run.err;
-    const Ended written = clearway({"trajectories", "out/town/custom/0", "--out", "ways"});
+    const Ended written =
+        clearway({"trajectories", "out/town/corridor_B10_dead_reckoning/0", "--out", "ways"});
     ASSERT_EQ(written.code, 0) << written.err;
     const auto json = nlohmann::json::parse(read("ways/trajectories.geojson"));
     ASSERT_FALSE(json.at("features").empty());
@@ -79,13 +80,13 @@ TEST_F(CityTest, a_scenario_of_sumo_is_imported_checked_and_run_with_its_persons
     const Ended run = clearway(
         {"run", "./town", "--seeds", "1", "--no-solo", "--policy", "corridor", "--record", "--out", "out"});
     ASSERT_EQ(run.code, 0) << run.err;
-    for (const char* const name : {"baseline", "custom"})
+    for (const char* const name : {"baseline", "corridor"})
         EXPECT_EQ(nlohmann::json::parse(read(fmt::format("out/runs/town/{}/00000/run.json", name)))
                       .at("metrics")
                       .at("pedestrian_count"),
                   20)
             << name;
-    ASSERT_EQ(clearway({"trajectories", "out/town/custom/0", "--out", "ways"}).code, 0);
+    ASSERT_EQ(clearway({"trajectories", "out/town/corridor/0", "--out", "ways"}).code, 0);
     EXPECT_THAT(read("ways/sumo/run.sumocfg"), HasSubstr("emergency.rou.xml,persons.rou.xml"));
 }
 

@@ -43,11 +43,27 @@ class RunTest : public UserTest {
     void interrupt_and_resume(int signal, int expected_code) const;
 };
 
+TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--no-solo", "--out", "out", "--policy", "corridor", "--set",
+                  "clear_lane.horizon_m=300", "--set", "actuation.hold_cap_s=30.0"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string name = "corridor_hold_cap_s_30_horizon_m_300";
+    const nlohmann::json set = {{"actuation.hold_cap_s", "30"}, {"clear_lane.horizon_m", "300"}};
+    const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+    EXPECT_EQ(manifest.at("conditions").back().at("name"), name);
+    EXPECT_EQ(manifest.at("conditions").back().at("settings"), set);
+    EXPECT_FALSE(manifest.at("conditions").front().contains("settings"));
+    const auto run = nlohmann::json::parse(read("out/runs/line/" + name + "/00000/run.json"));
+    EXPECT_EQ(run.at("condition_spec").at("settings"), set);
+    EXPECT_THAT(read("out/report.html"), HasSubstr("actuation.hold_cap_s=30 clear_lane.horizon_m=300"));
+}
+
 TEST_F(RunTest, writes_a_run_folder_and_prints_tables_on_standard_output_alone) {
     const Ended ended = clearway({"run", "line", "--seeds", "2", "--out", "out", "--policy", "dissertation",
                                   "--failure", "B10", "--predictor", "dead_reckoning"});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(ended.out, AllOf(HasSubstr("EV travel time"), HasSubstr("custom")));
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("EV travel time"), HasSubstr("dissertation_B10_dead_reckoning")));
     EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("elapsed")), Not(HasSubstr("report.html"))));
     EXPECT_THAT(ended.err, AllOf(HasSubstr("6/6"), HasSubstr("report.html")));
     for (const char* const file : {"manifest.json", "command.txt", "runs.csv", "vehicles.csv",

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "experiment/condition_json.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::experiment {
@@ -24,7 +25,9 @@ UnitSpec example() {
     condition.policies = {"dissertation", "preempt"};
     condition.engine = Engine::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
-    condition.loop_settings = {{"policy_period_s", "1"}};
+    condition.settings = {{"loop.policy_period_s", "1"}, {"dissertation.ahead_m", "80"}};
+    condition.model_file = "/models/net.weights";
+    condition.model_hash = "00ff";
     condition.bluelight = traffic::BlueLight::on;
     unit.conditions = {condition, ConditionSpec{}};
     unit.limits = {.wall_s = 12.5, .memory_mib = 300};
@@ -35,6 +38,19 @@ UnitSpec example() {
 TEST(UnitSpec, SurvivesTheWayThroughAFile) {
     const support::TemporaryFolder folder;
     EXPECT_EQ(read_unit(folder.write("unit.json", to_json(example()))), example());
+}
+
+TEST(UnitSpec, WithNothingSetIsTheSameTextAsBeforeThereWereSettings) {
+    ConditionSpec condition;
+    condition.name = "b10";
+    condition.failure = "B10";
+    condition.policies = {"corridor"};
+    EXPECT_EQ(to_json(condition).dump(),
+              R"({"name":"b10","failure":"B10","predictor":"none","parts":["corridor"],)"
+              R"("engine":"standard","safety_checks":"on"})");
+    condition.settings = {{"loop.policy_period_s", "1"}};
+    EXPECT_EQ(to_json(condition)["loop_settings"].dump(), R"({"policy_period_s":"1"})");
+    EXPECT_FALSE(to_json(condition).contains("settings"));
 }
 
 TEST(UnitSpec, ReportsEveryProblemOfAFileAtOnce) {

@@ -433,7 +433,7 @@ TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
 TEST(Worker, GivesParametersOfFailureAndLoopToACondition) {
     ConditionSpec often = perfect;
     often.name = "often";
-    often.loop_settings = {{"policy_period_s", "0.25"}};
+    often.settings = {{"loop.policy_period_s", "0.25"}};
     ConditionSpec dark = repaired;
     dark.name = "dark";
     dark.failure += ",dark_share=0.9";

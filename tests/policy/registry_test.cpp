@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -7,7 +9,7 @@
 namespace clearway::testing {
 namespace {
 
-TEST(PartRegistry, names_the_nearest_part_for_one_it_does_not_know) {
+TEST(PolicyRegistry, names_the_nearest_policy_for_one_it_does_not_know) {
     try {
         policy::make_policy("disertation", policy::PolicyContext{two_crossings()});
         FAIL() << "no error";
@@ -18,7 +20,7 @@ TEST(PartRegistry, names_the_nearest_part_for_one_it_does_not_know) {
     }
 }
 
-TEST(PartRegistry, has_unique_names_and_a_summary_of_one_line_each) {
+TEST(PolicyRegistry, has_unique_names_and_a_summary_of_one_line_each) {
     std::vector<std::string> names;
     for (const policy::PolicyEntry& entry : policy::policies()) {
         EXPECT_EQ(entry.summary.find('\n'), std::string::npos);
@@ -27,6 +29,34 @@ TEST(PartRegistry, has_unique_names_and_a_summary_of_one_line_each) {
     }
     std::ranges::sort(names);
     EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+/// Signals asked for at 130 m, 7.8 s before arrival at the allowed speed.
+std::size_t asked_at_130_m(const std::string& policy, const core::Settings& settings) {
+    CrossingScene scene;
+    scene.add({"e", traffic::VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 1, 489.6 - 130.0, 16.0});
+    traffic::BelievedGraph& belief = scene.belief(std::nullopt);
+    belief.time = core::Seconds(100.0);
+    std::vector<traffic::Lease> leases;
+    policy::make_policy(policy, policy::PolicyContext{two_crossings()}, settings)->act(belief, leases);
+    return static_cast<std::size_t>(std::ranges::count_if(leases, [](const traffic::Lease& lease) {
+        return std::holds_alternative<traffic::HoldGreen>(lease.action);
+    }));
+}
+
+TEST(PolicyRegistry, passes_settings_to_the_policy_and_through_a_combination) {
+    for (const char* const policy : {"preempt_signals", "corridor"}) {
+        EXPECT_EQ(asked_at_130_m(policy, {}), 0U) << policy;
+        EXPECT_EQ(asked_at_130_m(policy, {{"preempt_signals.lead_s", "12"}}), 1U) << policy;
+        EXPECT_EQ(asked_at_130_m(policy, {{"green_wave.before_s", "60"}}), 0U) << policy;
+    }
+}
+
+TEST(PolicyRegistry, refuses_settings_that_a_policy_does_not_have) {
+    for (const char* const policy : {"preempt_signals", "corridor"}) {
+        EXPECT_THROW(asked_at_130_m(policy, {{"preempt_signals.leed_s", "12"}}), core::InputError);
+        EXPECT_THROW(asked_at_130_m(policy, {{"preempt_signals.lead_s", "61"}}), core::InputError);
+    }
 }
 
 }  // namespace

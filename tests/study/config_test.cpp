@@ -137,6 +137,20 @@ TEST(ShippedStudies, CanBeReadWholeAndQuickWhereTheySaySo) {
     EXPECT_GT(read, 0U) << "studies/sensor_failure.toml has one";
 }
 
+TEST_F(StudyFile, RefusesSettingsAndModelsThatDoNotExist) {
+    const std::string begin =
+        "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[[condition]]\n"
+        "name = \"corridor\"\npolicy = [\"corridor\"]\n";
+    EXPECT_EQ(problems(begin + "set = { \"clear_lane.horizon_m\" = 300 }\n"), "none");
+    EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizn_m\" = 300 }\n"),
+                testing::AllOf(HasSubstr("study.toml:6:"), HasSubstr("'horizon_m'")));
+    EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = -1 }\n"),
+                HasSubstr("-1 is out of range"));
+    EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = [1] }\n"), HasSubstr("is no value"));
+    EXPECT_THAT(problems(begin + "model = \"none.weights\"\n"), HasSubstr("none.weights is no file"));
+    EXPECT_THAT(problems(begin + "parts = [\"corridor\"]\n"), HasSubstr("parts: is now called policy"));
+}
+
 TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {
     const std::string message = problems(R"(replikations = 30
 replications = -3

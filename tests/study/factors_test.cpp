@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "experiment/settings.hpp"
 #include "study/config.hpp"
 #include "study/plan.hpp"
 #include "support/temporary_folder.hpp"
@@ -73,7 +74,80 @@ condition.policy = [["dissertation"], ["clear_lane", "preempt_signals"]]
     });
     ASSERT_NE(two, config.conditions.end());
     EXPECT_THAT(two->policies, ElementsAre("clear_lane", "preempt_signals"));
-    EXPECT_EQ(two->loop_settings.at("policy_period_s"), "1");
+    EXPECT_EQ(two->settings.at("loop.policy_period_s"), "1");
+}
+
+constexpr const char* two_policies = R"(
+[[condition]]
+name = "corridor"
+policy = ["corridor"]
+[[condition]]
+name = "green_wave"
+policy = "green_wave"
+)";
+
+TEST_F(Factors, OfASettingVaryTheConditionsThatHaveIt) {
+    const StudyConfig config = read(std::string(two_policies) + R"([factors]
+preempt_signals.lead_s = [4, 16]
+actuation.hold_cap_s = [30]
+)");
+    EXPECT_THAT(
+        names(config.conditions),
+        ElementsAre("baseline", "graph_simulation+hold_cap_s=30", "solo", "corridor+hold_cap_s=30+lead_s=4",
+                    "corridor+hold_cap_s=30+lead_s=16", "green_wave+hold_cap_s=30"));
+    EXPECT_EQ(config.conditions[4].settings,
+              (core::Settings{{"actuation.hold_cap_s", "30"}, {"preempt_signals.lead_s", "16"}}));
+    EXPECT_THAT(problems("[factors]\npreempt_signals.lead_s = [4]\n"),
+                HasSubstr("is a setting that no condition has"));
+    EXPECT_THAT(problems(std::string(two_policies) + "[factors]\npreempt_signals.lead_s = [4, 99]\n"),
+                HasSubstr("99 is out of range"));
+    EXPECT_THAT(problems(std::string(two_policies) + "[factors]\npreempt_signals.leed_s = [4]\n"),
+                HasSubstr("'lead_s'"));
+}
+
+TEST_F(Factors, OneAtATimeKeepTheConditionItself) {
+    const StudyConfig config = read(std::string(two_policies) + R"([factors]
+design = "one_at_a_time"
+preempt_signals.lead_s = [4, 16]
+green_wave.before_s = [20]
+)");
+    EXPECT_THAT(names(config.conditions),
+                ElementsAre("baseline", "graph_simulation", "solo", "corridor", "corridor+lead_s=4",
+                            "corridor+lead_s=16", "green_wave", "green_wave+before_s=20"));
+    EXPECT_THAT(problems("[factors]\ndesign = \"some\"\n"), HasSubstr("all_combinations, one_at_a_time"));
+}
+
+TEST_F(Factors, OfSeveralSettingsSetThemTogether) {
+    const StudyConfig config = read(std::string(two_policies) + R"([factors]
+set = [{ "preempt_signals.lead_s" = 4, "clear_lane.horizon_m" = 300 }, { preempt_signals.lead_s = 16 }]
+)");
+    EXPECT_THAT(names(config.conditions),
+                ElementsAre("baseline", "graph_simulation", "solo", "corridor+set=horizon_m_300.lead_s_4",
+                            "corridor+set=lead_s_16", "green_wave"));
+    EXPECT_EQ(config.conditions[3].settings,
+              (core::Settings{{"clear_lane.horizon_m", "300"}, {"preempt_signals.lead_s", "4"}}));
+    EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out")) << "the names can be folders";
+    EXPECT_THAT(problems(std::string(two_policies) + "[factors]\nset = [1]\n"),
+                HasSubstr("is not a list of settings"));
+}
+
+TEST_F(Factors, ConditionsAndSettingsSetTheSame) {
+    const StudyConfig by_factor = read(std::string(two_policies) + R"([factors]
+preempt_signals.lead_s = [12.0]
+failure.dark_share = [0.5]
+)");
+    const StudyConfig by_condition = read(R"([[condition]]
+name = "corridor+dark_share=0.5+lead_s=12"
+policy = ["corridor"]
+set = { "preempt_signals.lead_s" = 12, failure.dark_share = 0.5 }
+)");
+    EXPECT_EQ(by_factor.conditions[3], by_condition.conditions[3]);
+    experiment::ConditionSpec by_hand;
+    by_hand.name = by_factor.conditions[3].name;
+    by_hand.policies = {"corridor"};
+    experiment::set(by_hand, "failure.dark_share", "0.50");
+    experiment::set(by_hand, "preempt_signals.lead_s", "12.00");
+    EXPECT_EQ(by_factor.conditions[3], by_hand);
 }
 
 TEST_F(Factors, ThatAreUnknownNameTheNearest) {

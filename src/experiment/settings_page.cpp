@@ -1,16 +1,15 @@
-#include "cli/settings_text.hpp"
+#include "experiment/settings_page.hpp"
 
 #include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/names.hpp"
 #include "policy/policy.hpp"
 
-namespace clearway::cli {
+namespace clearway::experiment {
 namespace {
 
 constexpr std::size_t columns = 80;
@@ -36,7 +35,8 @@ std::string unit_of(const core::SettingInfo& row) {
 
 /// `0 to 60`, or the words.
 std::string range_of(const core::SettingInfo& row) {
-    return row.words.empty() ? fmt::format("{} to {}", row.minimum, row.maximum) : joined(row.words);
+    return row.words.empty() ? fmt::format("{} to {}", row.minimum, row.maximum)
+                             : fmt::format("{}", fmt::join(row.words, ", "));
 }
 
 /// A bar would end a cell.
@@ -46,17 +46,17 @@ std::string cell(std::string text) {
     return text;
 }
 
-std::vector<std::string> names_of(const std::vector<experiment::Component>& components) {
+std::vector<std::string> names_of(const std::vector<Component>& components) {
     std::vector<std::string> names;
-    for (const experiment::Component& component : components)
+    for (const Component& component : components)
         names.push_back(component.name);
     return names;
 }
 
 }  // namespace
 
-std::vector<experiment::Component> components_named(const std::string& name) {
-    const std::vector<experiment::Component>& all = experiment::components();
+std::vector<Component> components_named(const std::string& name) {
+    const std::vector<Component>& all = components();
     if (name.empty()) return all;
     std::vector<std::string> wanted = {name};
     std::vector<std::string> known = names_of(all);
@@ -64,17 +64,22 @@ std::vector<experiment::Component> components_named(const std::string& name) {
         if (entry.name == name) wanted = entry.components;
         if (std::ranges::find(known, entry.name) == known.end()) known.push_back(entry.name);
     }
-    std::vector<experiment::Component> found;
-    std::ranges::copy_if(all, std::back_inserter(found), [&](const experiment::Component& component) {
+    std::vector<Component> found;
+    std::ranges::copy_if(all, std::back_inserter(found), [&](const Component& component) {
         return std::ranges::find(wanted, component.name) != wanted.end();
     });
-    if (found.empty()) throw core::InputError(unknown_name("list settings", name, known));
+    if (found.empty()) {
+        const std::string near = core::nearest(name, known);
+        throw core::InputError({"list settings", fmt::format("`{}` is unknown", name),
+                                fmt::format("{}", fmt::join(known, ", ")),
+                                near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
+    }
     return found;
 }
 
-std::string settings_text(const std::vector<experiment::Component>& components) {
+std::string settings_console(const std::vector<Component>& components) {
     std::string text;
-    for (const experiment::Component& component : components) {
+    for (const Component& component : components) {
         text += text.empty() ? "" : "\n";
         text += wrapped(fmt::format("{}: {}", component.name, component.summary), "");
         for (const core::SettingInfo& row : component.table.rows) {
@@ -89,10 +94,10 @@ std::string settings_text(const std::vector<experiment::Component>& components) 
     return text;
 }
 
-std::string settings_json(const std::vector<experiment::Component>& components) {
+std::string settings_json(const std::vector<Component>& components) {
     using Json = nlohmann::ordered_json;
     Json list = Json::array();
-    for (const experiment::Component& component : components) {
+    for (const Component& component : components) {
         for (const core::SettingInfo& row : component.table.rows) {
             Json item = {{"name", component.name + "." + row.name},
                          {"component", component.name},
@@ -112,14 +117,14 @@ std::string settings_json(const std::vector<experiment::Component>& components) 
     return list.dump(2) + "\n";
 }
 
-std::string settings_markdown(const std::vector<experiment::Component>& components) {
+std::string settings_markdown(const std::vector<Component>& components) {
     std::string text =
         "# Settings\n\n"
         "Every number that a condition may set, by its full name: `--set preempt_signals.lead_s=12` on the\n"
         "command line, `set = { \"preempt_signals.lead_s\" = 12 }` in a `[[condition]]` of a study file, or\n"
         "`preempt_signals.lead_s = [4, 8, 16]` below `[factors]`. This page is generated from the program's\n"
         "tables: `clearway list settings --markdown > docs/reference/settings.md`.\n";
-    for (const experiment::Component& component : components) {
+    for (const Component& component : components) {
         text += fmt::format("\n## {}\n\n{}.\n\n", component.name, component.summary);
         text +=
             "| name | default | unit | allowed | what it is | why this default "
@@ -132,4 +137,4 @@ std::string settings_markdown(const std::vector<experiment::Component>& componen
     return text;
 }
 
-}  // namespace clearway::cli
+}  // namespace clearway::experiment

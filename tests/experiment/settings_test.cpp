@@ -1,0 +1,207 @@
+#include "experiment/settings.hpp"
+
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiment/settings_page.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::experiment {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ConditionSpec corridor() {
+    ConditionSpec condition;
+    condition.name = "corridor";
+    condition.policies = {"corridor"};
+    return condition;
+}
+
+std::string problems_of(const ConditionSpec& condition) {
+    std::string text;
+    for (const core::Problem& problem : check_settings(condition, "condition: "))
+        text += core::format_problem(problem) + "\n";
+    return text;
+}
+
+std::string problems_of(const std::string& name, const std::string& value) {
+    ConditionSpec condition = corridor();
+    set(condition, name, value);
+    return problems_of(condition);
+}
+
+TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
+    std::set<std::string> names;
+    for (const Component& component : components()) {
+        EXPECT_THAT(component.table.rows, testing::Not(IsEmpty())) << component.name;
+        for (const core::SettingInfo& row : component.table.rows) {
+            const std::string name = component.name + "." + row.name;
+            EXPECT_TRUE(names.insert(name).second) << name << " stands there twice";
+            EXPECT_THAT(check_setting(name, row.preset, ""), IsEmpty()) << name;
+            EXPECT_FALSE(row.doc.empty()) << name;
+            EXPECT_FALSE(row.source.empty()) << name << " has no reason";
+            if (!row.words.empty()) continue;
+            EXPECT_LT(row.minimum, row.maximum) << name;
+            EXPECT_THAT(check_setting(name, fmt::format("{}", 2.0 * row.maximum + 1.0), ""),
+                        testing::SizeIs(1))
+                << name << " has no upper bound";
+        }
+    }
+    EXPECT_TRUE(names.contains("preempt_signals.lead_s"));
+    EXPECT_TRUE(names.contains("graphsage.link_threshold"));
+    EXPECT_TRUE(names.contains("kalman.along_psd"));
+    EXPECT_TRUE(names.contains("actuation.hold_cap_s"));
+    EXPECT_TRUE(names.contains("siren.compliance"));
+    EXPECT_TRUE(names.contains("siren.memory_s"));
+    EXPECT_TRUE(names.contains("loop.policy_period_s"));
+    EXPECT_TRUE(names.contains("failure.dark_share"));
+}
+
+TEST(Settings, OfEveryPartThatAConditionHasAreAccepted) {
+    ConditionSpec condition = corridor();
+    condition.predictor = "graphsage";
+    for (const std::string& component : components_of(condition)) {
+        if (component == "failure") continue;  // its fields depend on each other
+        for (const Component& known : components()) {
+            if (known.name != component) continue;
+            for (const core::SettingInfo& row : known.table.rows)
+                set(condition, component + "." + row.name, row.preset);
+        }
+    }
+    EXPECT_THAT(problems_of(condition), IsEmpty());
+    EXPECT_THAT(components_of(condition),
+                testing::ElementsAre("loop", "failure", "graphsage", "preempt_signals", "recover_signals",
+                                     "clear_lane", "actuation", "siren"));
+}
+
+TEST(Settings, ThatCannotBeNameTheNearest) {
+    EXPECT_THAT(problems_of("preempt_signals.leed_s", "12"), HasSubstr("Did you mean 'lead_s'?"));
+    EXPECT_THAT(problems_of("preemt_signals.lead_s", "12"),
+                HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
+    EXPECT_THAT(problems_of("lead_s", "12"), HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
+    EXPECT_THAT(
+        problems_of("preempt_signals.lead_s", "99"),
+        testing::AllOf(HasSubstr("preempt_signals.lead_s: 99 is out of range"), HasSubstr("0 to 60")));
+    EXPECT_THAT(problems_of("preempt_signals.lead_s", "soon"), HasSubstr("\"soon\" is not a number"));
+    EXPECT_THAT(problems_of("recover_signals.change_vehicles", "2.5"),
+                HasSubstr("2.5 is not a whole number"));
+    EXPECT_THAT(problems_of("green_wave.before_s", "5"),
+                HasSubstr("is a setting of green_wave, which the condition does not have"));
+    EXPECT_THAT(problems_of("kalman.link_threshold", "0.4"),
+                testing::AllOf(HasSubstr("kalman, which the condition does not have"),
+                               HasSubstr("Did you mean 'none.link_threshold'?")));
+    EXPECT_THAT(problems_of("preempt_signals.lead_s", "nan"), HasSubstr("out of range"));
+}
+
+TEST(Settings, OfASoloConditionAreRefused) {
+    ConditionSpec solo;
+    solo.engine = Engine::solo;
+    set(solo, "loop.policy_period_s", "1");
+    EXPECT_THAT(problems_of(solo), HasSubstr("alone on the road"));
+}
+
+TEST(Settings, OfAFailureBecomeAPartOfIt) {
+    ConditionSpec condition = corridor();
+    condition.failure = "B10";
+    set(condition, "failure.dark_share", "0.50");
+    EXPECT_EQ(condition.failure, "B10,dark_share=0.5");
+    set(condition, "failure.exits", "unknown");
+    set(condition, "failure.dark_share", "0.7");
+    EXPECT_EQ(condition.failure, "B10,dark_share=0.7,exits=unknown");
+    EXPECT_THAT(condition.settings, IsEmpty());
+}
+
+TEST(Settings, OfOneValueAreOneTextHoweverItIsSpelled) {
+    ConditionSpec one = corridor();
+    ConditionSpec other = corridor();
+    set(one, "preempt_signals.lead_s", "12.0");
+    set(other, "preempt_signals.lead_s", "12");
+    EXPECT_EQ(one, other);
+}
+
+TEST(Settings, ReachTheConfigurations) {
+    ConditionSpec condition = corridor();
+    set(condition, "loop.link_radius_m", "80");
+    set(condition, "actuation.hold_cap_s", "30");
+    set(condition, "siren.compliance", "0.25");
+    set(condition, "siren.memory_s", "9");
+    EXPECT_DOUBLE_EQ(loop_config(condition).link_radius_m, 80.0);
+    EXPECT_DOUBLE_EQ(loop_config(condition).policy_period_s, 0.5);
+    EXPECT_DOUBLE_EQ(actuator_config(condition, {}).hold_cap_s, 30.0);
+    const Sirens sirens = siren_config(condition, {.compliance = 1.0, .audible_m = 77.0});
+    EXPECT_DOUBLE_EQ(sirens.siren.compliance, 0.25);
+    EXPECT_DOUBLE_EQ(sirens.siren.audible_m, 77.0);
+    EXPECT_DOUBLE_EQ(sirens.reaction.memory_s, 9.0);
+    set(condition, "loop.policy_period_s", "99");
+    EXPECT_THROW(loop_config(condition), core::InputError);
+}
+
+TEST(Settings, NameAConditionAfterWhatItIs) {
+    ConditionSpec condition = corridor();
+    EXPECT_EQ(described_name(condition), "corridor");
+    condition.failure = "B10";
+    condition.predictor = "graphsage";
+    EXPECT_EQ(described_name(condition), "corridor_B10_graphsage");
+    set(condition, "preempt_signals.lead_s", "12");
+    EXPECT_EQ(described_name(condition), "corridor_B10_graphsage_lead_s_12");
+    EXPECT_EQ(settings_text(condition), "preempt_signals.lead_s=12");
+    set(condition, "clear_lane.horizon_m", "100");
+    set(condition, "preempt_signals.horizon_m", "300");
+    EXPECT_THAT(described_name(condition),
+                HasSubstr("clear_lane.horizon_m_100_preempt_signals.horizon_m_300"));
+    set(condition, "failure.dark_share", "0.5");
+    EXPECT_THAT(described_name(condition), testing::StartsWith("corridor_B10_dark_share_0.5_"));
+    for (const char* const name : {"lead_per_halted_s", "longest_lead_s", "slowest_share", "halted_mps"})
+        set(condition, std::string("preempt_signals.") + name, "1");
+    EXPECT_LE(described_name(condition).size(), 80U);
+}
+
+TEST(Settings, OfAModelKeepItsContent) {
+    const support::TemporaryFolder folder;
+    ConditionSpec condition = corridor();
+    EXPECT_THROW(set_model(condition, (folder.path() / "none.weights").string(), "--model"),
+                 core::InputError);
+    const auto file = folder.write("net.weights", "no weights");
+    set_model(condition, file.string(), "--model");
+    EXPECT_THAT(problems_of(condition), HasSubstr("none is not learned and takes no model"));
+    condition.predictor = "graphsage";
+    EXPECT_THAT(problems_of(condition), HasSubstr("condition: model: "));
+    EXPECT_EQ(checked_model(condition), file.string());
+    const std::string before = condition.model_hash;
+    folder.write("net.weights", "other weights");
+    EXPECT_THROW(checked_model(condition), core::InputError);
+    set_model(condition, file.string(), "--model");
+    EXPECT_NE(condition.model_hash, before);
+}
+
+TEST(SettingsPage, IsTheOneThatIsCommitted) {
+    const std::filesystem::path page =
+        std::filesystem::path(CLEARWAY_SOURCE_DIR) / "docs" / "reference" / "settings.md";
+    EXPECT_EQ(core::read_file(page), settings_markdown(components()))
+        << "renew it: clearway list settings --markdown > docs/reference/settings.md";
+}
+
+TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
+    const std::vector<Component> found = components_named("corridor");
+    ASSERT_EQ(found.size(), 3U);
+    const std::string text = settings_console(found);
+    EXPECT_THAT(text, HasSubstr("  preempt_signals.lead_s = 8 s (0 to 60)\n"));
+    EXPECT_THAT(text, HasSubstr("Why: "));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 80U) << line;
+    try {
+        components_named("corridr");
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean `corridor`?"));
+    }
+}
+
+}  // namespace
+}  // namespace clearway::experiment
