@@ -2,58 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/settings.hpp"
-#include "traffic/command.hpp"
-#include "traffic/departure.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::experiment {
 
-/// SUMO options that a whole process shares; conditions of one process differ in everything else.
-enum class Engine : std::uint8_t {
-    standard,
-    sublane,  ///< --lateral-resolution.
-    solo,     ///< Each emergency vehicle alone on the road with every signal open.
-};
-
-/// `standard`, `sublane`, `solo`.
-std::string_view name(Engine engine);
-std::optional<Engine> engine_from(std::string_view word);
-
-/// `on`, `off`.
-std::string_view name(traffic::SafetyChecks checks);
-/// One of an enumeration of these two.
-template <class Switch>
-std::optional<Switch> switch_from(std::string_view word) {
-    if (word == "on") return Switch::on;
-    if (word == "off") return Switch::off;
-    return std::nullopt;
-}
-
 /// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };
-
-/// A named combination of failure, predictor and policy parts.
-struct ConditionSpec {
-    std::string name;
-    std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
-    std::string predictor = "none";
-    std::vector<std::string> parts;  ///< Policy parts; empty: the car-following model alone.
-    Engine engine = Engine::standard;
-    traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
-    core::Settings loop_settings = {};  ///< Members of LoopConfig that differ from its defaults.
-    traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
-
-    /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
-    bool acts() const { return !parts.empty() || bluelight == traffic::BlueLight::on; }
-
-    bool operator==(const ConditionSpec&) const = default;
-};
 
 /// What a run may use before it is ended. A run over a limit has failed; the others of its unit go on.
 struct RunLimits {
