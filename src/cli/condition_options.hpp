@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::cli {
 

@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/error.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::study::detail {
 
