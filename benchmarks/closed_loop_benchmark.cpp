@@ -22,13 +22,13 @@ std::filesystem::path temporary_folder() {
     return folder;
 }
 
-experiment::UnitSpec dense_city(const std::filesystem::path& folder) {
+experiment::RunJob dense_city(const std::filesystem::path& folder) {
     scenario::Options options;
     options.variant = scenario::Variant::dense;
     const scenario::ScenarioConfig config = scenario::load("city", options);
     scenario::store(config, folder);
     scenario::build_network(config, folder);
-    experiment::UnitSpec unit;
+    experiment::RunJob unit;
     unit.scenario = config.name;
     unit.scenario_file = folder / "scenario.toml";
     unit.network_folder = folder;
@@ -48,7 +48,7 @@ experiment::ConditionSpec condition(const std::string& failure, const std::strin
 
 void closed_loop(benchmark::State& state, const experiment::ConditionSpec& spec) {
     const std::filesystem::path folder = temporary_folder();
-    const experiment::UnitSpec unit = dense_city(folder);
+    const experiment::RunJob unit = dense_city(folder);
     results::RunTiming timing;
     double vehicle_steps = 0.0;
     for (auto _ : state) {

@@ -86,7 +86,7 @@ void write_shard(const study::Plan& plan, const study::Shard& shard, const std::
     const results::Store store = results::Store::create(folder, plan.manifest);
     for (std::size_t number = 0; number < plan.units.size(); ++number) {
         if (!study::has_unit(shard, number)) continue;
-        const experiment::UnitSpec& unit = plan.units[number].unit;
+        const experiment::RunJob& unit = plan.units[number].unit;
         for (const experiment::ConditionSpec& condition : unit.conditions)
             write_run(store, record_of({unit.scenario, condition.name, unit.replication}, condition));
     }

@@ -4,10 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "loop/attached_run.hpp"
-#include "loop/dataset.hpp"
-#include "loop/evaluate_links.hpp"
-#include "loop/shown_run.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
 
@@ -15,11 +11,8 @@ namespace {
 
 constexpr const char* usage =
     "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
-    "  clearway-run --unit FILE      run the conditions of a unit file\n"
-    "  clearway-run --dataset FILE   record a data set as a dataset file says\n"
-    "  clearway-run --links FILE     judge predictors as a links file says\n"
-    "  clearway-run --attach FILE    go on with a simulation that runs elsewhere, as an attach file says\n"
-    "  clearway-run --show FILE      run the one condition of a unit file in a window\n"
+    "  clearway-run JOB.json    do the job of a file: runs, a data set, links to evaluate, or a simulation\n"
+    "                           that runs elsewhere\n"
     "  clearway-run --version\n";
 
 int fail_usage() {
@@ -31,20 +24,14 @@ int fail_usage() {
 
 int main(int argument_count, char** arguments) {
     namespace core = clearway::core;
-    namespace loop = clearway::loop;
-    const std::string_view order = argument_count > 1 ? arguments[1] : "";
+    const std::string_view word = argument_count == 2 ? arguments[1] : "";
     try {
-        if (order == "--version") {
+        if (word == "--version") {
             fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, clearway::sumo::version());
             return 0;
         }
-        if (argument_count != 3) return fail_usage();
-        if (order == "--unit") return static_cast<int>(loop::run_unit(arguments[2]));
-        if (order == "--dataset") return static_cast<int>(loop::record_dataset(arguments[2]));
-        if (order == "--links") return static_cast<int>(loop::evaluate_links(arguments[2]));
-        if (order == "--show") return static_cast<int>(loop::run_shown(arguments[2]));
-        if (order == "--attach") return static_cast<int>(loop::run_attached(arguments[2]));
-        return fail_usage();
+        if (word.empty() || word.starts_with('-')) return fail_usage();
+        return static_cast<int>(clearway::loop::work_on(word));
     } catch (const core::Error& error) {
         fmt::print(stderr, "clearway-run: {}\n", error.what());
         return static_cast<int>(error.exit_code());

@@ -7,7 +7,7 @@
 
 #include <CLI/App.hpp>
 
-#include "experiment/unit.hpp"
+#include "experiment/run_job.hpp"
 
 namespace clearway::cli {
 

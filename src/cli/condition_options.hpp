@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::cli {
 

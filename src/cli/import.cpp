@@ -1,7 +1,6 @@
 #include "scenario_import/import.hpp"
 
 #include <chrono>
-#include <csignal>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,8 +11,8 @@
 #include <unistd.h>
 
 #include "cli/common_options.hpp"
-#include "cli/interruption.hpp"
 #include "cli/verb.hpp"
+#include "core/interruption.hpp"
 #include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/progress.hpp"
@@ -57,12 +56,12 @@ class Stages {
 core::ExitCode import(Arguments& arguments) {
     arguments.request.files.assign(arguments.files.begin(), arguments.files.end());
     arguments.request.folder = arguments.name;
-    const InterruptionWatch interruption;
+    const core::InterruptionWatch interruption;
     Stages stages;
     const scenario_import::Findings findings =
         scenario_import::import(arguments.request, [&](const std::string& stage, double) {
-            if (const int signal = interruption.received(); signal != 0)
-                throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
+            if (interruption.signal() != 0)
+                throw core::Error(interruption.exit_code(core::ExitCode::ok),
                                   "interrupted; nothing is left behind");
             stages.show(stage);
         });

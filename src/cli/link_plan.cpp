@@ -11,7 +11,7 @@
 #include "cli/programs.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
-#include "experiment/link_order.hpp"
+#include "experiment/link_job.hpp"
 #include "links/link_judgement.hpp"
 #include "links/link_run.hpp"
 #include "prediction/predictor.hpp"
@@ -107,10 +107,10 @@ std::vector<std::uint32_t> replications(const LinkPlan& plan) {
     return numbers;
 }
 
-std::vector<experiment::LinkPredictorOrder> missing(const LinkPlan& plan, const RunFiles& files,
-                                                    const scenario::ScenarioConfig& config,
-                                                    std::uint32_t replication) {
-    std::vector<experiment::LinkPredictorOrder> orders;
+std::vector<experiment::JudgedPredictor> missing(const LinkPlan& plan, const RunFiles& files,
+                                                 const scenario::ScenarioConfig& config,
+                                                 std::uint32_t replication) {
+    std::vector<experiment::JudgedPredictor> orders;
     for (const LinkPredictor& predictor : plan.predictors) {
         const fs::path file = files.file(config, replication, predictor);
         if (fs::exists(file)) continue;
@@ -120,15 +120,15 @@ std::vector<experiment::LinkPredictorOrder> missing(const LinkPlan& plan, const 
     return orders;
 }
 
-/// The orders of a scenario, which is stored and built when there are any.
-void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::ScenarioConfig& config,
-                std::vector<WorkerOrder>& work) {
+/// The jobs of a scenario, which is stored and built when there are any.
+void add_jobs(const LinkPlan& plan, const RunFiles& files, const scenario::ScenarioConfig& config,
+              std::vector<WorkerJob>& work) {
     const Place place = files.place_of(config);
     bool built = false;
     for (const std::uint32_t replication : replications(plan)) {
-        experiment::LinkOrder order;
-        order.predictors = missing(plan, files, config, replication);
-        if (order.predictors.empty()) continue;
+        experiment::LinkJob job;
+        job.predictors = missing(plan, files, config, replication);
+        if (job.predictors.empty()) continue;
         if (!built) {
             core::make_folder(place.folder);
             scenario::store(config, place.folder);
@@ -136,20 +136,19 @@ void add_orders(const LinkPlan& plan, const RunFiles& files, const scenario::Sce
             built = true;
         }
         const std::string name = fmt::format("{}-{}-{}", config.name, replication, ::getpid());
-        order.scenario = config.name;
-        order.scenario_file = place.folder / "scenario.toml";
-        order.network_folder = place.folder / "network";
-        order.study_seed = plan.benchmark.study_seed;
-        order.replication = replication;
-        order.work_folder = plan.folder / "work" / name;
-        order.failures = plan.benchmark.failures;
-        order.exits = plan.benchmark.exits;
+        job.scenario = config.name;
+        job.scenario_file = place.folder / "scenario.toml";
+        job.network_folder = place.folder / "network";
+        job.study_seed = plan.benchmark.study_seed;
+        job.replication = replication;
+        job.work_folder = plan.folder / "work" / name;
+        job.failures = plan.benchmark.failures;
+        job.exits = plan.benchmark.exits;
         work.push_back({.label = fmt::format("{} replication {}", config.name, replication),
-                        .option = "--links",
-                        .file = plan.folder / "orders" / (name + ".json"),
-                        .text = experiment::to_json(order),
-                        .log = plan.folder / "orders" / (name + ".log"),
-                        .work = order.work_folder});
+                        .job = job,
+                        .file = plan.folder / "jobs" / (name + ".json"),
+                        .log = plan.folder / "jobs" / (name + ".log"),
+                        .work = job.work_folder});
     }
 }
 
@@ -242,9 +241,9 @@ void check(const LinkPlan& plan) {
 
 core::ExitCode complete_runs(const LinkPlan& plan) {
     const RunFiles files(plan);
-    std::vector<WorkerOrder> work;
+    std::vector<WorkerJob> work;
     for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios)
-        add_orders(plan, files, config, work);
+        add_jobs(plan, files, config, work);
     if (work.empty()) return core::ExitCode::ok;
     return work_on(work, plan.jobs, "runs").exit_code;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/worker_orders.hpp"
+#include "cli/worker_jobs.hpp"
 #include "links/link_benchmark.hpp"
 #include "report/links.hpp"
 

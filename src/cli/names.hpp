@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::cli {
 

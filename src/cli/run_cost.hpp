@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "results/store.hpp"
 #include "scenario/config.hpp"
 

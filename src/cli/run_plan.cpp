@@ -6,102 +6,25 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
 #include "cli/names.hpp"
 #include "cli/programs.hpp"
-#include "cli/shipped_trainings.hpp"
+#include "cli/shipped_files.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
-#include "metrics/counts.hpp"
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
 #include "results/table_reader.hpp"
-#include "scenario/network.hpp"
-#include "scenario/picture.hpp"
-#include "scenario/prepare.hpp"
+#include "study/side_files.hpp"
 
 namespace clearway::cli {
 namespace {
 
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_failures = 10;
-
-/// The edges with more lanes for cars than the dissertation's networks have, as read_facts expects them.
-std::string wide_edges_json(const roads::Network& network) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const scenario::WideEdge& edge : scenario::wide_edges(network)) {
-        rows.push_back({{"edge", edge.id}, {"street", edge.name}, {"car_lanes", edge.car_lanes}});
-    }
-    return rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-/// Street names of edges outside junctions, as read_facts expects them.
-std::string streets_json(const roads::Network& network) {
-    nlohmann::ordered_json names = nlohmann::ordered_json::object();
-    for (const roads::Edge& edge : network.edges()) {
-        if (!edge.internal && !edge.name.empty()) names[edge.id] = edge.name;
-    }
-    return names.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-/// Counted flows of a scenario, where it has them, as read_facts expects them. Throws core::InputError for
-/// edges that the network has not.
-void write_counts(const scenario::ScenarioConfig& config, const roads::Network& network,
-                  const std::filesystem::path& file) {
-    if (config.demand.counts.empty()) return;
-    const std::filesystem::path source = scenario::resolve(config, config.demand.counts);
-    std::vector<core::Problem> problems;
-    for (const metrics::EdgeCount& count : metrics::read_counts(source)) {
-        if (network.find_edge(count.edge)) continue;
-        problems.push_back({source.string(), fmt::format("the network has no edge {}", count.edge),
-                            "edges of the scenario's network", ""});
-    }
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    core::write_atomically(file, core::read_file(source));
-}
-
-/// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts, its wide edges, its street names, and a picture for the report.
-void complete_scenario(const scenario::ScenarioConfig& config, const experiment::UnitSpec& unit,
-                       const std::filesystem::path& folder) {
-    const std::filesystem::path picture = folder / "network.svg";
-    if (std::filesystem::exists(picture)) return;
-    const scenario::BuiltNetwork built = scenario::open_network(config, unit.network_folder);
-    const std::filesystem::path demand = folder / "demand" / std::to_string(unit.replication);
-    core::make_folder(demand);
-    scenario::prepare(config, built, core::StudySeed{unit.study_seed}, core::Replication{unit.replication},
-                      demand);
-    const std::string title = config.title.empty() ? config.name : config.title;
-    core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
-    write_counts(config, built.network, folder / "counts.csv");
-    core::write_atomically(folder / "streets.json", streets_json(built.network));
-    core::write_atomically(picture, scenario::network_picture(built.network, title));
-}
-
-void complete_scenarios(const study::Plan& plan, const results::Store& store) {
-    std::vector<core::Problem> problems;
-    for (const scenario::ScenarioConfig& config : plan.scenarios) {
-        const auto planned = std::ranges::find_if(
-            plan.units, [&](const study::PlannedUnit& each) { return each.unit.scenario == config.name; });
-        if (planned == plan.units.end()) continue;
-        try {
-            complete_scenario(config, planned->unit, store.scenario_folder(config.name));
-        } catch (const core::InputError& error) {
-            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-        }
-    }
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-}
-
-/// The command that began the study stays, whatever continues it.
-void write_command(const results::Store& store, const std::string& command) {
-    const std::filesystem::path file = store.folder() / "command.txt";
-    if (!std::filesystem::exists(file)) core::write_atomically(file, command + "\n");
-}
 
 /// The headline of a study while it runs, read again every two seconds.
 class PresentEstimate {
@@ -192,9 +115,10 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions&
     const bool is_new = is_absent_or_empty(options.folder);
     try {
         results::Store store = study::prepare_folder(plan, options.folder);
-        complete_scenarios(plan, store);
-        write_command(store, options.command);
-        copy_shipped_trainings(store.folder() / "training");
+        study::complete_scenarios(plan, store);
+        study::keep_command(store, options.command);
+        if (const auto trainings = shipped(std::filesystem::path("models") / "training"))
+            study::copy_trainings(*trainings, store);
         return store;
     } catch (const core::InputError&) {
         std::error_code ignored;

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/worker_orders.hpp"
+#include "cli/worker_jobs.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -33,10 +33,10 @@ void require_display() {
 }
 
 /// What makes the first replication of a condition.
-experiment::UnitSpec unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
+experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
     for (const study::PlannedUnit& planned : plan.units) {
         if (planned.unit.engine != shown.engine) continue;
-        experiment::UnitSpec unit = planned.unit;
+        experiment::RunJob unit = planned.unit;
         unit.conditions = {shown};
         return unit;
     }
@@ -44,18 +44,14 @@ experiment::UnitSpec unit_of(const study::Plan& plan, const experiment::Conditio
 }
 
 /// Shows the run; ok, or what kept it from its end.
-core::ExitCode show(const experiment::UnitSpec& unit) {
+core::ExitCode show(const experiment::RunJob& unit) {
     const std::string label =
         experiment::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
     const std::filesystem::path work = unit.output / "work" / fmt::format("window-{}", ::getpid());
     fmt::print(stderr, "clearway: {} in sumo-gui\n", label);
-    const WorkerResult result = work_on({{.label = label,
-                                          .option = "--show",
-                                          .file = work / "unit.json",
-                                          .text = experiment::to_json(unit),
-                                          .log = work / "worker.log",
-                                          .work = work}},
-                                        1, "shown");
+    const WorkerResult result = work_on(
+        {{.label = label, .job = unit, .file = work / "job.json", .log = work / "worker.log", .work = work}},
+        1, "shown");
     std::error_code ignored;
     std::filesystem::remove_all(work, ignored);
     return result.exit_code;
@@ -68,7 +64,7 @@ core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& opt
     require_display();
     const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
     const results::Store store = prepare_run_folder(plan, options);
-    experiment::UnitSpec unit = unit_of(plan, shown);
+    experiment::RunJob unit = unit_of(plan, shown);
     unit.window = window;
     const core::ExitCode code = show(unit);
     if (code != core::ExitCode::ok) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/run_plan.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/run_job.hpp"
 
 namespace clearway::cli {
 

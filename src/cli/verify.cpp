@@ -177,7 +177,7 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
             fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(condition->engine));
         const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
         if (is_new) {
-            experiment::UnitSpec spec;
+            experiment::RunJob spec;
             spec.scenario = key.scenario;
             spec.scenario_file = folder / "scenarios" / key.scenario / "scenario.toml";
             spec.network_folder = folder / "scenarios" / key.scenario / "network";
@@ -187,7 +187,7 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
             spec.output = std::filesystem::absolute(out);
             plan.units.push_back({name, std::move(spec)});
         }
-        experiment::UnitSpec& spec = plan.units[unit->second].unit;
+        experiment::RunJob& spec = plan.units[unit->second].unit;
         spec.conditions.push_back(*condition);
         if (std::filesystem::exists(trace::recording_file(folder, key)))
             spec.recording = experiment::StepRecording::on;

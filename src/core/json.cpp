@@ -11,7 +11,15 @@ ObjectReader::ObjectReader(const Json& object, std::string where, std::vector<co
     if (!object.is_object()) problems_.push_back({where_, "is not a JSON object", "", ""});
 }
 
+void ObjectReader::refuse_others() {
+    if (!object_.is_object()) return;
+    for (const auto& [key, value] : object_.items()) {
+        if (!asked_for_.contains(key)) problem(key.c_str(), "is unknown");
+    }
+}
+
 const Json* ObjectReader::find(const char* key) {
+    asked_for_.emplace(key);
     const auto found = object_.is_object() ? object_.find(key) : object_.end();
     if (found != object_.end()) return &*found;
     if (object_.is_object()) problem(key, "is missing");

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +23,20 @@ template <class Value>
 struct OptionalValue : std::false_type {};
 template <class Value>
 struct OptionalValue<std::optional<Value>> : std::true_type {};
+
+/// Whether an enumeration says by `spellings(Value)` how its values are written.
+template <class Value>
+concept SpelledEnum = std::is_enum_v<Value> && requires {
+    spellings(Value{});
+};
+
+template <SpelledEnum Value>
+std::string spelling(Value value) {
+    for (const auto& [choice, word] : spellings(Value{})) {
+        if (choice == value) return word;
+    }
+    return "";
+}
 
 /// Text of a value: two blanks of indent, a line end at the end. Bytes that are not UTF-8 are replaced, for
 /// names come from files of others.
@@ -70,12 +86,27 @@ class ObjectReader {
     void read_fields(Struct& target) {
         core::for_each_field<Struct>([&](const auto& field) { read(field.name, target.*field.member); });
     }
+    /// Keys that have not been asked for are problems.
+    void refuse_others();
     /// A key that must hold an object or an array; an empty value when it does not.
     const Json& child(const char* key, Json::value_t type);
     void problem(const char* key, std::string what);
 
   private:
     const Json* find(const char* key);
+
+    template <SpelledEnum Value>
+    void convert(const char* key, const Json& node, Value& target) {
+        std::string allowed;
+        for (const auto& [choice, word] : spellings(Value{})) {
+            if (node == word) {
+                target = choice;
+                return;
+            }
+            allowed += (allowed.empty() ? "" : ", ") + std::string(word);
+        }
+        problems_.push_back({fmt::format("{}: {}", where_, key), node.dump() + " is not known", allowed, ""});
+    }
 
     template <class Value>
     void convert(const char* key, const Json& node, Value& target) {
@@ -90,6 +121,7 @@ class ObjectReader {
     }
 
     const Json& object_;
+    std::set<std::string, std::less<>> asked_for_;
     std::string where_;
     std::vector<core::Problem>& problems_;
 };
@@ -105,6 +137,8 @@ void write_fields(Json& object, const Struct& source) {
             } else {
                 object[field.name] = nullptr;
             }
+        } else if constexpr (SpelledEnum<std::decay_t<decltype(value)>>) {
+            object[field.name] = spelling(value);
         } else {
             object[field.name] = value;
         }

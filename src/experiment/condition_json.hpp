@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::experiment {
 

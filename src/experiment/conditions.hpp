@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::experiment {
 

@@ -8,7 +8,7 @@
 #include "core/settings.hpp"
 #include "drivers/siren.hpp"
 #include "experiment/loop_config.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::experiment {
 

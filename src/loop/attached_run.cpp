@@ -12,13 +12,10 @@
 
 #include "core/files.hpp"
 #include "core/random.hpp"
-#include "experiment/attach_order.hpp"
 #include "experiment/settings.hpp"
-#include "loop/closed_loop.hpp"
-#include "loop/machinery.hpp"
+#include "loop/condition_run.hpp"
 #include "loop/road_layout.hpp"
 #include "results/store.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -56,11 +53,11 @@ bool has_sublanes(const sumo::RemoteSumo& sumo) {
     return std::strtod(sumo.option("lateral-resolution").c_str(), nullptr) > 0.0;
 }
 
-results::Manifest manifest_of(const experiment::AttachOrder& order, const std::filesystem::path& network) {
+results::Manifest manifest_of(const experiment::AttachJob& job, const std::filesystem::path& network) {
     results::ScenarioEntry entry{
         .name = scenario_name,
         .version = "as it ran",
-        .title = fmt::format("the simulation at {}:{}", order.host, order.port),
+        .title = fmt::format("the simulation at {}:{}", job.host, job.port),
         .configuration = fmt::format("network = \"{}\"\nnetwork_hash = \"{}\"\n", network.string(),
                                      core::content_hash(core::read_file(network))),
         .configuration_hash = {},
@@ -70,10 +67,10 @@ results::Manifest manifest_of(const experiment::AttachOrder& order, const std::f
     manifest.study = scenario_name;
     manifest.clearway_version = CLEARWAY_VERSION;
     manifest.sumo_version = sumo::version();
-    manifest.study_seed = order.study_seed;
+    manifest.study_seed = job.study_seed;
     manifest.replications = 1;
     manifest.scenarios = {std::move(entry)};
-    manifest.conditions = {order.condition};
+    manifest.conditions = {job.condition};
     return manifest;
 }
 
@@ -85,10 +82,10 @@ struct Ground {
     core::Seconds end;
 };
 
-Ground ground_of(const sumo::RemoteSumo& sumo, const experiment::AttachOrder& order) {
+Ground ground_of(const sumo::RemoteSumo& sumo, const experiment::AttachJob& job) {
     Ground ground;
     ground.network_file =
-        order.network.empty() ? file_of(sumo, "net-file", "Give the file with --network") : order.network;
+        job.network.empty() ? file_of(sumo, "net-file", "Give the file with --network") : job.network;
     ground.additional_files = additional_files_of(sumo);
     ground.trip_file = file_of(sumo, "tripinfo-output",
                                "Start SUMO with --tripinfo-output FILE: times and losses come from it");
@@ -96,60 +93,49 @@ Ground ground_of(const sumo::RemoteSumo& sumo, const experiment::AttachOrder& or
     return ground;
 }
 
-}  // namespace
-
-core::ExitCode run_attached(const std::filesystem::path& order_file) {
-    experiment::AttachOrder order = experiment::read_attach_order(order_file);
-    const auto started = std::chrono::steady_clock::now();
-    sumo::RemoteSumo sumo(order.host, order.port);
-    const Ground ground = ground_of(sumo, order);
-    for (const std::string& type : order.automated)
-        sumo.declare(type, traffic::VehicleClass::automated);
-    for (const std::string& type : order.emergency)
-        sumo.declare(type, traffic::VehicleClass::emergency);
-    if (has_sublanes(sumo)) order.condition.engine = experiment::Engine::sublane;
-    const roads::Network network = roads::Network::read(ground.network_file, ground.additional_files);
-    const results::Store store =
-        results::Store::create(order.output, manifest_of(order, ground.network_file));
-
-    sumo::Session session(std::move(sumo), order.output / "logs", names_of(network));
-    metrics::Recorder recorder(metrics::RecorderConfig::of_latency(
-        core::Seconds(sensing::failure_from(order.condition.failure).latency_s)));
+Stage stage_of(const experiment::AttachJob& job, const roads::Network& network, const Ground& ground) {
     metrics::RoadLayout layout = road_layout(network, {});
     layout.demand_until_s = ground.end.value;
-    recorder.watch(std::move(layout));
-    const Surroundings surroundings{
-        .network = network,
-        .random = core::KeyedRandom(core::StudySeed{order.study_seed}, core::Replication{0}),
-        .loop = experiment::loop_config(order.condition),
-        .siren = {}};
-    ClosedLoop loop(session, make_machinery(order.condition, surroundings), surroundings.loop, recorder);
-    loop.run(ground.end);
+    return {
+        .surroundings = {.network = network,
+                         .random = core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{0}),
+                         .loop = experiment::loop_config(job.condition),
+                         .siren = {}},
+        .layout = std::move(layout),
+        .horizon = ground.end};
+}
 
-    metrics::RunEnd end{.tripinfo_files = {ground.trip_file},
-                        .planned = {},
-                        .time = session.time(),
-                        .leases = totals_of(loop.actuator())};
+}  // namespace
+
+core::ExitCode run_attached(experiment::AttachJob job) {
+    const auto started = std::chrono::steady_clock::now();
+    sumo::RemoteSumo sumo(job.host, job.port);
+    const Ground ground = ground_of(sumo, job);
+    for (const std::string& type : job.automated)
+        sumo.declare(type, traffic::VehicleClass::automated);
+    for (const std::string& type : job.emergency)
+        sumo.declare(type, traffic::VehicleClass::emergency);
+    if (has_sublanes(sumo)) job.condition.engine = experiment::Engine::sublane;
+    const roads::Network network = roads::Network::read(ground.network_file, ground.additional_files);
+    const results::Store store = results::Store::create(job.output, manifest_of(job, ground.network_file));
+
+    sumo::Session session(std::move(sumo), job.output / "logs", names_of(network));
+    metrics::Recorder recorder;
+    ClosedLoop loop(session, recorder);
+    const metrics::LeaseTotals leases =
+        run_condition(loop, recorder, job.condition, stage_of(job, network, ground));
+
+    metrics::RunEnd end{
+        .tripinfo_files = {ground.trip_file}, .planned = {}, .time = session.time(), .leases = leases};
     session.close();
     end.planned = metrics::planned_in(ground.trip_file, session.roster());
-    metrics::RunSummary summary = recorder.finish(end);
     const results::ScenarioEntry& entry = store.manifest().scenarios.front();
-    results::RunTiming timing;
-    timing.simulator_s = loop.timing().simulator_s;
-    timing.coupling_s = loop.timing().coupling_s;
-    timing.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    store.write({.key = {entry.name, order.condition.name, 0},
-                 .condition = order.condition,
-                 .provenance = {.clearway_version = CLEARWAY_VERSION,
-                                .sumo_version = sumo::version(),
-                                .configuration_hash = entry.configuration_hash,
-                                .demand_hash = {},
-                                .study_seed = order.study_seed,
-                                .simulator_seed = 0,
-                                .trace_hash = summary.trace_hash},
-                 .metrics = summary.metrics,
-                 .vehicles = std::move(summary.vehicles),
-                 .traffic = std::move(summary.traffic)},
+    experiment::Provenance provenance = own_provenance();
+    provenance.configuration_hash = entry.configuration_hash;
+    provenance.study_seed = job.study_seed;
+    const results::RunTiming timing = timing_of(loop.timing(), started);
+    store.write(record_of({entry.name, job.condition.name, 0}, job.condition, std::move(provenance),
+                          recorder.finish(end)),
                 timing);
     return core::ExitCode::ok;
 }

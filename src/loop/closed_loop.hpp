@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "actuation/actuator.hpp"
@@ -36,29 +37,42 @@ struct LoopTiming {
 };
 
 /// The only place that knows the order of the design: truth -> sensing -> prediction -> policy -> actuation
-/// -> simulator, with metrics beside it. One run; one thread.
+/// -> simulator, with metrics beside it. Every step of every run is made here: those of a warm-up and of
+/// vehicles alone on the road without the middle part. Members throw core::SimulatorError as the session
+/// does. One run; one thread.
 class ClosedLoop {
   public:
-    /// All references outlive the loop. `listener` may be null.
-    ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
-               metrics::Recorder& recorder, trace::StepListener* listener = nullptr);
+    /// Both outlive the loop. Until `begin`, the simulation goes on by itself.
+    ClosedLoop(sumo::Session& session, metrics::Recorder& recorder)
+        : session_(session), recorder_(recorder) {}
 
-    /// Steps until no vehicle is left or `horizon` is reached, then gives back all that is held.
-    /// Throws core::SimulatorError as the session does.
+    /// From the next step on, `machinery` senses, decides and acts. `timing` starts anew.
+    void begin(Machinery machinery, const LoopConfig& config);
+    /// From the next step on, `listener` is told of each; it outlives the loop and may be null.
+    void tell(trace::StepListener* listener) { listener_ = listener; }
+
+    /// Steps as long as a step of `step_length` does not pass `end`.
+    void warm_up(core::Seconds end, core::Seconds step_length);
+    /// Steps until no vehicle is left or `horizon` is reached.
     void run(core::Seconds horizon);
+    /// Gives back all that the machinery holds, and answers what became of its leases.
+    metrics::LeaseTotals finish();
 
+    /// Of all steps, or of those since `begin`.
     const LoopTiming& timing() const { return timing_; }
-    const actuation::Actuator& actuator() const { return *machinery_.actuator; }
 
   private:
     void step();
+    /// Answers whether something was decided.
+    bool decide(const truth::Snapshot& snapshot);
+    void act(const truth::Snapshot& snapshot);
     void score(const truth::Snapshot& snapshot);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
 
     sumo::Session& session_;
-    Machinery machinery_;
     metrics::Recorder& recorder_;
-    trace::StepListener* listener_;
+    std::optional<Machinery> machinery_;
+    trace::StepListener* listener_ = nullptr;
 
     graph::LinkRules rules_;
     graph::ProximityBuilder builder_;

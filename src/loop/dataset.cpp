@@ -22,86 +22,85 @@ experiment::ConditionSpec plain_traffic() {
     return condition;
 }
 
-void record_published(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
-    const prediction::FeatureSchema schema = order.feature_count == 2
+void record_published(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
+    const prediction::FeatureSchema schema = job.feature_count == 2
                                                  ? prediction::as_published_position_schema()
                                                  : prediction::as_published_attributes_schema();
-    samples::PairDatasetRecorder recorder(run.network(), rules, schema, order.pairs);
+    samples::PairDatasetRecorder recorder(run.network(), rules, schema, job.pairs);
     run.record(plain_traffic(), recorder);
     const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
-        throw core::InputError({order.scenario,
-                                "no two vehicles of linkable classes ever came near each other",
+        throw core::InputError({job.scenario, "no two vehicles of linkable classes ever came near each other",
                                 "at least one link", "Raise the density, or choose another seed"});
     }
-    samples::write_pair_dataset(order.output, dataset);
-    fmt::print("{}: {} vehicles, {} pairs at {:.2f} s\n", order.output.string(), dataset.vehicle_count(),
+    samples::write_pair_dataset(job.output, dataset);
+    fmt::print("{}: {} vehicles, {} pairs at {:.2f} s\n", job.output.string(), dataset.vehicle_count(),
                dataset.pair_count(), recorder.time().value);
 }
 
-bool exits_unknown(const experiment::DatasetOrder& order) {
-    return order.exits == "unknown";
+bool exits_unknown(const experiment::DatasetJob& job) {
+    return job.exits == "unknown";
 }
 
 /// The failure as data sets name it.
-std::string failure_name(const experiment::DatasetOrder& order, const std::string& failure) {
-    return failure + (exits_unknown(order) ? " exits unknown" : "");
+std::string failure_name(const experiment::DatasetJob& job, const std::string& failure) {
+    return failure + (exits_unknown(job) ? " exits unknown" : "");
 }
 
-std::unique_ptr<sensing::SensorModel> sensor_for(const experiment::DatasetOrder& order,
+std::unique_ptr<sensing::SensorModel> sensor_for(const experiment::DatasetJob& job,
                                                  const std::string& failure, const UnitRun& run,
                                                  const graph::LinkRules& rules) {
     sensing::FailureConfig config = sensing::failure_from(failure);
-    if (exits_unknown(order)) config.exits = sensing::Exits::unknown;
-    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    if (exits_unknown(job)) config.exits = sensing::Exits::unknown;
+    const core::KeyedRandom random(core::StudySeed{job.study_seed}, core::Replication{job.replication});
     return sensing::make_sensor(config, random, {.network = run.network(), .rules = rules});
 }
 
 /// One recorder of a kind for each failure, all watching one run.
 template <class Recorder>
-void record_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
+void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules,
                     const prediction::FeatureSchema& features) {
     std::vector<std::unique_ptr<Recorder>> recorders;
     trace::Listeners all;
-    for (const std::string& failure : order.failures) {
-        const samples::GraphSampleOrigin origin{.scenario = order.scenario,
-                                                .failure = failure_name(order, failure),
+    for (const std::string& failure : job.failures) {
+        const samples::GraphSampleOrigin origin{.scenario = job.scenario,
+                                                .failure = failure_name(job, failure),
                                                 .features = features,
-                                                .study_seed = order.study_seed,
-                                                .replication = order.replication,
+                                                .study_seed = job.study_seed,
+                                                .replication = job.replication,
                                                 .link_radius_m = rules.radius_m};
         recorders.push_back(std::make_unique<Recorder>(run.network(), rules, origin,
-                                                       sensor_for(order, failure, run, rules),
-                                                       core::Seconds(order.interval_s)));
+                                                       sensor_for(job, failure, run, rules),
+                                                       core::Seconds(job.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            experiment::sample_file(order, order.failures[i], samples::graph_sample_extension);
+            experiment::sample_file(job, job.failures[i], samples::graph_sample_extension);
         recorders[i]->writer().write(file);
         fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
     }
 }
 
-void record_pair_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+void record_pair_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
     std::vector<std::unique_ptr<samples::PairSampleRecorder>> recorders;
     trace::Listeners all;
-    for (const std::string& failure : order.failures) {
-        const samples::PairSampleOrigin origin{.scenario = order.scenario,
-                                               .failure = failure_name(order, failure),
-                                               .study_seed = order.study_seed,
-                                               .replication = order.replication,
+    for (const std::string& failure : job.failures) {
+        const samples::PairSampleOrigin origin{.scenario = job.scenario,
+                                               .failure = failure_name(job, failure),
+                                               .study_seed = job.study_seed,
+                                               .replication = job.replication,
                                                .link_radius_m = rules.radius_m};
         recorders.push_back(std::make_unique<samples::PairSampleRecorder>(
-            run.network(), rules, origin, sensor_for(order, failure, run, rules),
-            core::Seconds(order.interval_s)));
+            run.network(), rules, origin, sensor_for(job, failure, run, rules),
+            core::Seconds(job.interval_s)));
         all.add(*recorders.back());
     }
     run.record(plain_traffic(), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            experiment::sample_file(order, order.failures[i], samples::pair_sample_ending);
+            experiment::sample_file(job, job.failures[i], samples::pair_sample_ending);
         samples::write_pair_samples(file, recorders[i]->samples());
         fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
     }
@@ -109,32 +108,24 @@ void record_pair_samples(const experiment::DatasetOrder& order, UnitRun& run, co
 
 }  // namespace
 
-core::ExitCode record_dataset(const std::filesystem::path& order_file) {
-    const experiment::DatasetOrder order = experiment::read_dataset_order(order_file);
-    core::make_folder(order.output);
-    const detail::WorkFolder work(order.output /
-                                  fmt::format("work-{}-{}", order.scenario, order.replication));
-    experiment::UnitSpec unit;
-    unit.scenario = order.scenario;
-    unit.scenario_file = order.scenario_file;
-    unit.network_folder = order.network_folder;
-    unit.study_seed = order.study_seed;
-    unit.replication = order.replication;
-    UnitRun run(unit, work.path(), work.path());
+core::ExitCode record_dataset(const experiment::DatasetJob& job) {
+    core::make_folder(job.output);
+    const detail::WorkFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
+    UnitRun run(job, work.path());
     graph::LinkRules rules;
     rules.radius_m = LoopConfig{}.link_radius_m;
-    switch (order.kind) {
+    switch (job.dataset) {
         case experiment::DatasetKind::published:
-            record_published(order, run, rules);
+            record_published(job, run, rules);
             break;
         case experiment::DatasetKind::samples:
-            record_samples<samples::SampleRecorder>(order, run, rules, prediction::corrected_schema());
+            record_samples<samples::SampleRecorder>(job, run, rules, prediction::corrected_schema());
             break;
         case experiment::DatasetKind::repair:
-            record_samples<samples::RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
+            record_samples<samples::RepairSampleRecorder>(job, run, rules, prediction::repair_schema());
             break;
         case experiment::DatasetKind::pair_samples:
-            record_pair_samples(order, run, rules);
+            record_pair_samples(job, run, rules);
             break;
     }
     return core::ExitCode::ok;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiment/link_order.hpp"
 #include "links/link_evaluation.hpp"
 #include "loop/detail/work_folder.hpp"
 #include "loop/unit_run.hpp"
@@ -23,17 +22,17 @@ sensing::Exits exits_from(const std::string& word) {
     throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
 }
 
-std::unique_ptr<prediction::Predictor> make(const experiment::LinkPredictorOrder& order,
+std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& job,
                                             const roads::Network& network, const graph::LinkRules& rules) {
     return prediction::make_predictor(
-        order.name, {.network = network, .rules = rules, .model_file = order.model_file}, order.settings);
+        job.name, {.network = network, .rules = rules, .model_file = job.model_file}, job.settings);
 }
 
-void add_trials(const experiment::LinkOrder& order, const roads::Network& network,
-                const graph::LinkRules& rules, links::LinkEvaluator& evaluator) {
-    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
-    for (const std::string& exits : order.exits) {
-        for (const std::string& failure : order.failures) {
+void add_trials(const experiment::LinkJob& job, const roads::Network& network, const graph::LinkRules& rules,
+                links::LinkEvaluator& evaluator) {
+    const core::KeyedRandom random(core::StudySeed{job.study_seed}, core::Replication{job.replication});
+    for (const std::string& exits : job.exits) {
+        for (const std::string& failure : job.failures) {
             sensing::FailureConfig config = sensing::failure_from(failure);
             config.exits = exits_from(exits);
             links::LinkTrial::Setup setup{
@@ -41,32 +40,32 @@ void add_trials(const experiment::LinkOrder& order, const roads::Network& networ
                 .exits = exits,
                 .sensor = sensing::make_sensor(config, random, {.network = network, .rules = rules}),
                 .predictors = {}};
-            for (const experiment::LinkPredictorOrder& predictor : order.predictors)
+            for (const experiment::JudgedPredictor& predictor : job.predictors)
                 setup.predictors.push_back(make(predictor, network, rules));
             evaluator.add(std::move(setup));
         }
     }
 }
 
-void check_scored(const experiment::LinkOrder& order, const links::LinkEvaluator& evaluator) {
+void check_scored(const experiment::LinkJob& job, const links::LinkEvaluator& evaluator) {
     for (const links::LinkTrial& trial : evaluator.trials()) {
         if (trial.result(0).truth.reports > 0) continue;
         throw core::InputError(
-            {order.scenario,
+            {job.scenario,
              "the run ended before a report was scored: no vehicle is on the road once the "
              "first emergency vehicle departs or the warm-up ends",
              "at least one report", "Give the scenario a longer window or horizon"});
     }
 }
 
-void write_results(const experiment::LinkOrder& order, const std::string& configuration_hash,
+void write_results(const experiment::LinkJob& job, const std::string& configuration_hash,
                    const links::LinkEvaluator& evaluator) {
-    for (std::size_t number = 0; number < order.predictors.size(); ++number) {
-        const experiment::LinkPredictorOrder& predictor = order.predictors[number];
-        links::LinkRun run{.scenario = order.scenario,
+    for (std::size_t number = 0; number < job.predictors.size(); ++number) {
+        const experiment::JudgedPredictor& predictor = job.predictors[number];
+        links::LinkRun run{.scenario = job.scenario,
                            .configuration_hash = configuration_hash,
-                           .study_seed = order.study_seed,
-                           .replication = order.replication,
+                           .study_seed = job.study_seed,
+                           .replication = job.replication,
                            .predictor = predictor.name,
                            .cases = {}};
         links::LinkTiming timing;
@@ -81,25 +80,18 @@ void write_results(const experiment::LinkOrder& order, const std::string& config
 
 }  // namespace
 
-core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
-    const experiment::LinkOrder order = experiment::read_link_order(order_file);
-    const detail::WorkFolder work(order.work_folder);
-    experiment::UnitSpec unit;
-    unit.scenario = order.scenario;
-    unit.scenario_file = order.scenario_file;
-    unit.network_folder = order.network_folder;
-    unit.study_seed = order.study_seed;
-    unit.replication = order.replication;
-    UnitRun run(unit, work.path(), work.path());
+core::ExitCode evaluate_links(const experiment::LinkJob& job) {
+    const detail::WorkFolder work(job.work_folder);
+    UnitRun run(job, work.path());
     graph::LinkRules rules;
     rules.radius_m = experiment::LoopConfig{}.link_radius_m;
     links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
-    add_trials(order, run.network(), rules, evaluator);
+    add_trials(job, run.network(), rules, evaluator);
     experiment::ConditionSpec plain_traffic;
     plain_traffic.name = "links";
     run.record(plain_traffic, evaluator);
-    check_scored(order, evaluator);
-    write_results(order, run.scenario_hash(), evaluator);
+    check_scored(job, evaluator);
+    write_results(job, run.scenario_hash(), evaluator);
     return core::ExitCode::ok;
 }
 

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <filesystem>
-
 #include "core/error.hpp"
+#include "experiment/link_job.hpp"
 
 namespace clearway::loop {
 
-/// Runs the simulation of an order file (experiment::LinkOrder) and writes a LinkRun for each predictor.
-/// Throws core::Error.
-core::ExitCode evaluate_links(const std::filesystem::path& order_file);
+/// Runs the simulation of the job and writes a LinkRun for each predictor. Throws core::Error.
+core::ExitCode evaluate_links(const experiment::LinkJob& job);
 
 }  // namespace clearway::loop

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/random.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "loop/closed_loop.hpp"
 #include "roads/network.hpp"
 

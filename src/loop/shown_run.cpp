@@ -86,11 +86,9 @@ core::Error reason(const core::SimulatorError& fault, sumo::ChildSumo& child) {
 
 }  // namespace
 
-core::ExitCode run_shown(const std::filesystem::path& unit_file) {
-    const experiment::UnitSpec unit = experiment::read_unit(unit_file);
+core::ExitCode run_shown(const experiment::RunJob& unit, const std::filesystem::path& work) {
     const experiment::WindowSpec window = unit.window.value_or(experiment::WindowSpec{});
     const results::Store store = results::Store::open(unit.output);
-    const std::filesystem::path work = std::filesystem::absolute(unit_file).parent_path();
     const std::filesystem::path demand = work / "demand";
     core::make_folder(demand);
     std::optional<sumo::ChildSumo> child;

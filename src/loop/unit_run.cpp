@@ -4,12 +4,9 @@
 #include <chrono>
 #include <memory>
 
-#include <sys/resource.h>
-
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
-#include "sensing/failure_config.hpp"
 #include "trace/listeners.hpp"
 #include "trace/recording.hpp"
 
@@ -19,7 +16,7 @@ namespace {
 /// Width of a lane's lateral cells in the sublane model, m (facts: 0.5).
 constexpr const char* lateral_resolution_m = "0.5";
 
-sumo::SessionConfig session_config(const experiment::UnitSpec& unit, const scenario::Prepared& prepared,
+sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenario::Prepared& prepared,
                                    const roads::Network& network, const std::filesystem::path& folder) {
     sumo::SessionConfig config;
     config.network = prepared.network_file;
@@ -37,10 +34,11 @@ sumo::SessionConfig session_config(const experiment::UnitSpec& unit, const scena
     return config;
 }
 
-long peak_kib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
+/// A job of one simulation that asks for nothing else.
+experiment::RunJob plain_job(const experiment::Simulation& simulation) {
+    experiment::RunJob job;
+    static_cast<experiment::Simulation&>(job) = simulation;
+    return job;
 }
 
 /// Writes every step into the file of the run.
@@ -66,7 +64,7 @@ std::unique_ptr<sumo::Session> in_this_process(sumo::SessionConfig config) {
     return std::make_unique<sumo::Session>(std::move(config));
 }
 
-UnitRun::UnitRun(const experiment::UnitSpec& unit, const std::filesystem::path& demand_folder,
+UnitRun::UnitRun(const experiment::RunJob& unit, const std::filesystem::path& demand_folder,
                  const std::filesystem::path& folder, const StartSession& start)
     : unit_(unit),
       config_(scenario::load(unit.scenario_file.string())),
@@ -74,9 +72,13 @@ UnitRun::UnitRun(const experiment::UnitSpec& unit, const std::filesystem::path& 
       network_(scenario::open_network(config_, unit.network_folder)),
       prepared_(scenario::prepare(config_, network_, core::StudySeed{unit.study_seed},
                                   core::Replication{unit.replication}, demand_folder)),
-      session_(start(session_config(unit, prepared_, network_.network, folder))) {
+      session_(start(session_config(unit, prepared_, network_.network, folder))),
+      loop_(*session_, recorder_) {
     if (unit_.engine != experiment::Engine::solo) warm_up();
 }
+
+UnitRun::UnitRun(const experiment::Simulation& simulation, const std::filesystem::path& folder)
+    : UnitRun(plain_job(simulation), folder, folder) {}
 
 core::Seconds UnitRun::first_emergency() const {
     if (prepared_.emergency.empty()) return core::Seconds(prepared_.time.warm_up_s);
@@ -88,11 +90,8 @@ core::Seconds UnitRun::first_emergency() const {
 }
 
 void UnitRun::warm_up() {
-    const double first = first_emergency().value;
-    while (session_->time().value + prepared_.time.step_length_s <= first - lead_before_emergency.value) {
-        session_->step();
-        recorder_.step(session_->snapshot(), session_->roster(), session_->events(), {});
-    }
+    loop_.warm_up(core::Seconds(first_emergency().value - lead_before_emergency.value),
+                  core::Seconds(prepared_.time.step_length_s));
 }
 
 results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
@@ -105,22 +104,12 @@ results::RunRecord UnitRun::finish_in(const std::filesystem::path& folder,
 results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& condition,
                                         results::RunTiming& timing, trace::StepListener* audience) {
     const auto started = std::chrono::steady_clock::now();
-    LoopTiming spent;
     metrics::RunEnd end;
     if (condition.engine == experiment::Engine::solo) {
-        run_solo(audience);
+        run_alone(audience);
         end.planned = metrics::read_planned({}, prepared_.emergency);
     } else {
-        trace::Listeners listeners;
-        if (audience != nullptr) listeners.add(*audience);
-        std::unique_ptr<FileRecording> recording;
-        if (unit_.recording == experiment::StepRecording::on) {
-            const trace::RecordingInfo info = recording_info(condition);
-            recording = std::make_unique<FileRecording>(trace::recording_file(unit_.output, info.key), info);
-            listeners.add(*recording);
-        }
-        spent = run_condition(condition, listeners.empty() ? nullptr : &listeners, end.leases);
-        if (recording) recording->finish();
+        end.leases = run_recorded(condition, audience);
         std::vector<std::filesystem::path> files = {prepared_.additional_files.front()};  // vehicle types
         files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
         end.planned = metrics::read_planned(files, prepared_.emergency);
@@ -129,31 +118,34 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
     session_->close();
     end.tripinfo_files = {session_->trip_file()};
     metrics::RunSummary summary = recorder_.finish(end);
+    timing = timing_of(loop_.timing(), started);
+    return record_of({unit_.scenario, condition.name, unit_.replication}, condition, provenance(),
+                     std::move(summary));
+}
 
-    timing.simulator_s = spent.simulator_s;
-    timing.coupling_s = spent.coupling_s;
-    timing.peak_kib = peak_kib();
-    timing.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    return {.key = {unit_.scenario, condition.name, unit_.replication},
-            .condition = condition,
-            .provenance = provenance(summary.trace_hash),
-            .metrics = summary.metrics,
-            .vehicles = std::move(summary.vehicles),
-            .traffic = std::move(summary.traffic)};
+metrics::LeaseTotals UnitRun::run_recorded(const experiment::ConditionSpec& condition,
+                                           trace::StepListener* audience) {
+    trace::Listeners listeners;
+    if (audience != nullptr) listeners.add(*audience);
+    std::unique_ptr<FileRecording> recording;
+    if (unit_.recording == experiment::StepRecording::on) {
+        const trace::RecordingInfo info = recording_info(condition);
+        recording = std::make_unique<FileRecording>(trace::recording_file(unit_.output, info.key), info);
+        listeners.add(*recording);
+    }
+    const metrics::LeaseTotals leases = run_together(condition, listeners.empty() ? nullptr : &listeners);
+    if (recording) recording->finish();
+    return leases;
 }
 
 void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepListener& listener) {
-    metrics::LeaseTotals leases;
-    run_condition(condition, &listener, leases);
+    run_together(condition, &listener);
     session_->close();
 }
 
-LoopTiming UnitRun::run_condition(const experiment::ConditionSpec& condition, trace::StepListener* listener,
-                                  metrics::LeaseTotals& leases) {
+metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& condition,
+                                           trace::StepListener* listener) {
     add_emergency_vehicles(condition.bluelight);
-    watch_roads();
-    recorder_.configure(metrics::RecorderConfig::of_latency(
-        core::Seconds(sensing::failure_from(condition.failure).latency_s)));
     const Surroundings surroundings{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
@@ -161,11 +153,11 @@ LoopTiming UnitRun::run_condition(const experiment::ConditionSpec& condition, tr
         .siren = config_.siren,
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians()};
-    ClosedLoop loop(*session_, make_machinery(condition, surroundings), surroundings.loop, recorder_,
-                    listener);
-    loop.run(core::Seconds(prepared_.time.horizon_s));
-    leases = totals_of(loop.actuator());
-    return loop.timing();
+    return run_condition(loop_, recorder_, condition,
+                         {.surroundings = surroundings,
+                          .layout = layout(),
+                          .horizon = core::Seconds(prepared_.time.horizon_s),
+                          .listener = listener});
 }
 
 void UnitRun::add_emergency_vehicles(traffic::BlueLight bluelight) {
@@ -175,28 +167,23 @@ void UnitRun::add_emergency_vehicles(traffic::BlueLight bluelight) {
     }
 }
 
-void UnitRun::watch_roads() {
+metrics::RoadLayout UnitRun::layout() const {
     std::vector<metrics::EdgeCount> counts;
     if (!config_.demand.counts.empty())
         counts = metrics::read_counts(scenario::resolve(config_, config_.demand.counts));
     metrics::RoadLayout layout = road_layout(network_.network, prepared_.emergency, counts);
     layout.demand_until_s = prepared_.time.window_s;
     layout.keep_journeys = unit_.replication < journeys_kept;
-    recorder_.watch(std::move(layout));
+    return layout;
 }
 
-void UnitRun::run_solo(trace::StepListener* audience) {
+void UnitRun::run_alone(trace::StepListener* audience) {
     open_all_signals();
+    loop_.tell(audience);
     for (traffic::EmergencyDeparture departure : prepared_.emergency) {
         departure.depart = session_->time();
         session_->add(departure);
-        const double limit_s = session_->time().value + prepared_.time.horizon_s;
-        while (session_->expected_vehicles() > 0 && session_->time().value < limit_s) {
-            session_->step();
-            recorder_.step(session_->snapshot(), session_->roster(), session_->events(), {});
-            if (audience != nullptr)
-                audience->on_step_end({&session_->snapshot(), &session_->roster(), &session_->events()});
-        }
+        loop_.run(core::Seconds(session_->time().value + prepared_.time.horizon_s));
     }
 }
 
@@ -214,21 +201,20 @@ trace::RecordingInfo UnitRun::recording_info(const experiment::ConditionSpec& co
     const LoopConfig loop = experiment::loop_config(condition);
     return {.key = {unit_.scenario, condition.name, unit_.replication},
             .condition = condition,
-            .provenance = provenance(""),
+            .provenance = provenance(),
             .settings = {.step_length_s = prepared_.time.step_length_s,
                          .policy_period_s = loop.policy_period_s,
                          .link_radius_m = loop.link_radius_m,
                          .network_hash = core::content_hash(core::read_file(network_.file))}};
 }
 
-experiment::Provenance UnitRun::provenance(const std::string& trace_hash) const {
-    return {.clearway_version = CLEARWAY_VERSION,
-            .sumo_version = sumo::version(),
-            .configuration_hash = scenario_hash_,
-            .demand_hash = prepared_.demand_hash,
-            .study_seed = unit_.study_seed,
-            .simulator_seed = prepared_.simulator_seed,
-            .trace_hash = trace_hash};
+experiment::Provenance UnitRun::provenance() const {
+    experiment::Provenance provenance = own_provenance();
+    provenance.configuration_hash = scenario_hash_;
+    provenance.demand_hash = prepared_.demand_hash;
+    provenance.study_seed = unit_.study_seed;
+    provenance.simulator_seed = prepared_.simulator_seed;
+    return provenance;
 }
 
 }  // namespace clearway::loop

@@ -5,9 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "experiment/unit.hpp"
-#include "loop/closed_loop.hpp"
-#include "loop/machinery.hpp"
+#include "experiment/run_job.hpp"
+#include "loop/condition_run.hpp"
 #include "metrics/recorder.hpp"
 #include "results/store.hpp"
 #include "scenario/prepare.hpp"
@@ -28,8 +27,10 @@ class UnitRun {
   public:
     /// Prepares the demand, loads SUMO and steps to `lead_before_emergency` before the first emergency
     /// vehicle. Outputs go to `folder`, the demand to `demand_folder`.
-    UnitRun(const experiment::UnitSpec& unit, const std::filesystem::path& demand_folder,
+    UnitRun(const experiment::RunJob& unit, const std::filesystem::path& demand_folder,
             const std::filesystem::path& folder, const StartSession& start = in_this_process);
+    /// A simulation that no study asked for, to record data from; all files go to `folder`.
+    UnitRun(const experiment::Simulation& simulation, const std::filesystem::path& folder);
 
     /// Runs one condition to its end in this process, which was forked for it: outputs first move to
     /// `folder`.
@@ -50,23 +51,26 @@ class UnitRun {
   private:
     void warm_up();
     void add_emergency_vehicles(traffic::BlueLight bluelight);
-    /// Has the recorder say where time is lost, from now on.
-    void watch_roads();
+    metrics::RoadLayout layout() const;
     /// Each emergency vehicle alone, one after the other, with every signal open.
-    void run_solo(trace::StepListener* audience);
+    void run_alone(trace::StepListener* audience);
     void open_all_signals();
-    LoopTiming run_condition(const experiment::ConditionSpec& condition, trace::StepListener* listener,
-                             metrics::LeaseTotals& leases);
+    metrics::LeaseTotals run_together(const experiment::ConditionSpec& condition,
+                                      trace::StepListener* listener);
+    /// The same, with a recording where the job asks for one.
+    metrics::LeaseTotals run_recorded(const experiment::ConditionSpec& condition,
+                                      trace::StepListener* audience);
     trace::RecordingInfo recording_info(const experiment::ConditionSpec& condition) const;
-    experiment::Provenance provenance(const std::string& trace_hash) const;
+    experiment::Provenance provenance() const;
 
-    experiment::UnitSpec unit_;
+    experiment::RunJob unit_;
     scenario::ScenarioConfig config_;
     std::string scenario_hash_;
     scenario::BuiltNetwork network_;
     scenario::Prepared prepared_;
     std::unique_ptr<sumo::Session> session_;
     metrics::Recorder recorder_;
+    ClosedLoop loop_;
 };
 
 }  // namespace clearway::loop

@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 
 #include "core/error.hpp"
-#include "core/process.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -43,18 +42,15 @@ ChildSignals::~ChildSignals() {
 }
 
 WatchedEnd watch(pid_t child, const experiment::RunLimits& limits) {
-    const auto started = std::chrono::steady_clock::now();
+    const core::Child watched{child, std::chrono::steady_clock::now()};
+    const core::ProcessLimits allowed{.wall_s = limits.wall_s, .memory_mib = limits.memory_mib};
     const sigset_t set = child_ended();
     WatchedEnd end;
     while (!has_ended(child, end.status)) {
         sigtimedwait(&set, nullptr, &look_period);
-        if (end.by != WatchedEnd::By::itself) continue;
-        const double wall_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-        if (wall_s > limits.wall_s) end.by = WatchedEnd::By::wall_limit;
-        if (limits.memory_mib > 0 && core::resident_kib(child).value_or(0) > limits.memory_mib * 1024)
-            end.by = WatchedEnd::By::memory_limit;
-        if (end.by != WatchedEnd::By::itself) ::kill(child, SIGKILL);
+        if (end.by != core::EndedBy::itself) continue;
+        end.by = core::limit_passed_by(watched, allowed);
+        if (end.by != core::EndedBy::itself) ::kill(child, SIGKILL);
     }
     return end;
 }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include <sys/types.h>
 
-#include "experiment/unit.hpp"
+#include "core/supervisor.hpp"
+#include "experiment/run_job.hpp"
 
 namespace clearway::loop {
 
@@ -19,14 +18,13 @@ class ChildSignals {
 
 /// How a watched process ended.
 struct WatchedEnd {
-    enum class By : std::uint8_t { itself, wall_limit, memory_limit };
-    By by = By::itself;
+    core::EndedBy by = core::EndedBy::itself;
     int status = 0;  ///< Of waitpid.
 };
 
-/// Waits for the end of `child`, a child of this process, and kills it (SIGKILL) when it runs longer or holds
-/// more than allowed. Needs a ChildSignals that was there before the fork. Throws core::EnvironmentError when
-/// there is no such child.
+/// Waits for the end of `child`, a child of this process that was forked a moment ago, and kills it (SIGKILL)
+/// when it runs longer or holds more than allowed. Needs a ChildSignals that was there before the fork.
+/// Throws core::EnvironmentError when there is no such child.
 WatchedEnd watch(pid_t child, const experiment::RunLimits& limits);
 
 }  // namespace clearway::loop

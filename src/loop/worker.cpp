@@ -15,6 +15,11 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "experiment/job.hpp"
+#include "loop/attached_run.hpp"
+#include "loop/dataset.hpp"
+#include "loop/evaluate_links.hpp"
+#include "loop/shown_run.hpp"
 #include "loop/unit_run.hpp"
 #include "loop/watch.hpp"
 
@@ -29,13 +34,13 @@ struct Places {
     std::filesystem::path work;
 };
 
-experiment::RunKey key_of(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) {
+experiment::RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) {
     return {unit.scenario, condition.name, unit.replication};
 }
 
 /// What the failures of one unit have in common.
 struct Unit {
-    const experiment::UnitSpec& spec;
+    const experiment::RunJob& spec;
     const results::Store& store;
     std::filesystem::path file;
 };
@@ -45,7 +50,7 @@ results::FailureRecord failure_of(const Unit& unit, const experiment::RunKey& ke
     results::FailureRecord failure;
     failure.key = key;
     failure.log_tail = core::tail(folder / "sumo.log", log_lines);
-    failure.command = core::shell_text({core::program_folder() / "clearway-run", "--unit", unit.file});
+    failure.command = core::shell_text({core::program_folder() / "clearway-run", unit.file});
     return failure;
 }
 
@@ -71,10 +76,10 @@ void store_failure(const Unit& unit, const experiment::RunKey& key, const Watche
                    const std::filesystem::path& folder) {
     results::FailureRecord failure = failure_of(unit, key, folder);
     failure.signal = WTERMSIG(end.status);
-    if (end.by == WatchedEnd::By::wall_limit) {
+    if (end.by == core::EndedBy::time_limit) {
         failure.cause = results::FailureCause::time_limit;
         failure.message = fmt::format("did not end within {:g} s", unit.spec.limits.wall_s);
-    } else if (end.by == WatchedEnd::By::memory_limit) {
+    } else if (end.by == core::EndedBy::memory_limit) {
         failure.cause = results::FailureCause::memory;
         failure.message = fmt::format("needed more than {} MiB", unit.spec.limits.memory_mib);
     } else {
@@ -141,7 +146,7 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::
     return core::ExitCode::ok;
 }
 
-Places places_of(const experiment::UnitSpec& unit, const results::Store& store,
+Places places_of(const experiment::RunJob& unit, const results::Store& store,
                  const std::filesystem::path& unit_file) {
     const std::string replication = std::to_string(unit.replication);
     Places places{.demand = store.scenario_folder(unit.scenario) / "demand" / replication,
@@ -151,10 +156,10 @@ Places places_of(const experiment::UnitSpec& unit, const results::Store& store,
     return places;
 }
 
-}  // namespace
-
-core::ExitCode run_unit(const std::filesystem::path& unit_file) {
-    const experiment::UnitSpec unit = experiment::read_unit(unit_file);
+/// Loads SUMO once, warms up once, forks one child per condition that has no record yet, and stores what each
+/// child found. A child that fails leaves a failure record with its cause, also when it was killed by a
+/// signal or for passing a limit of the job, and the others go on.
+core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::path& unit_file) {
     const results::Store store = results::Store::open(unit.output);
     const Places places = places_of(unit, store, unit_file);
     const Unit shared{unit, store, std::filesystem::absolute(unit_file)};
@@ -181,6 +186,25 @@ core::ExitCode run_unit(const std::filesystem::path& unit_file) {
     const auto is_complete = [&](const experiment::RunKey& key) { return store.complete(key); };
     if (std::ranges::all_of(keys, is_complete)) std::filesystem::remove_all(places.work);
     return core::ExitCode::ok;
+}
+
+/// What to do for each kind of job.
+struct Work {
+    std::filesystem::path file;  ///< Of the job.
+
+    core::ExitCode operator()(const experiment::RunJob& job) const {
+        return job.window ? run_shown(job, std::filesystem::absolute(file).parent_path())
+                          : run_unit(job, file);
+    }
+    core::ExitCode operator()(const experiment::DatasetJob& job) const { return record_dataset(job); }
+    core::ExitCode operator()(const experiment::LinkJob& job) const { return evaluate_links(job); }
+    core::ExitCode operator()(const experiment::AttachJob& job) const { return run_attached(job); }
+};
+
+}  // namespace
+
+core::ExitCode work_on(const std::filesystem::path& job_file) {
+    return std::visit(Work{job_file}, experiment::read_job(job_file));
 }
 
 }  // namespace clearway::loop

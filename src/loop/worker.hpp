@@ -6,11 +6,10 @@
 
 namespace clearway::loop {
 
-/// Does the work of one unit file (experiment::UnitSpec) as study::run asks: loads SUMO once, warms up once,
-/// forks one child per condition that has no record yet, and stores what each child found. A child that fails
-/// leaves a failure record with its cause, also when it was killed by a signal or for passing a limit of the
-/// unit, and the others go on. Returns ok, or environment or conflict when the first child ends so. Throws
-/// core::Error for faults before the first fork.
-core::ExitCode run_unit(const std::filesystem::path& unit_file);
+/// Does the job (experiment::Job) that a file holds: the work of one process. A run job answers ok when each
+/// of its conditions has a record of its run or of its failure, and environment or conflict when a run ends
+/// so. Throws core::Error: of a run job, for faults before the first condition starts; of the others as
+/// run_shown, record_dataset, evaluate_links and run_attached do.
+core::ExitCode work_on(const std::filesystem::path& job_file);
 
 }  // namespace clearway::loop

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "roads/network.hpp"

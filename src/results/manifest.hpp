@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "results/record.hpp"
 
 namespace clearway::results {

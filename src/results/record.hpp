@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "experiment/condition.hpp"
 #include "experiment/run_key.hpp"
-#include "experiment/unit.hpp"
 #include "metrics/run_metrics.hpp"
 
 namespace clearway::results {

@@ -260,7 +260,7 @@ bool Store::complete(const experiment::RunKey& key) const {
     return fs::exists(run_folder(key) / "run.json");
 }
 
-bool Store::done(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) const {
+bool Store::done(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) const {
     const experiment::RunKey key{unit.scenario, condition.name, unit.replication};
     if (!complete(key)) return false;
     return unit.recording == experiment::StepRecording::off || condition.engine == experiment::Engine::solo ||

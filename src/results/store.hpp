@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/run_job.hpp"
 #include "results/manifest.hpp"
 #include "results/record.hpp"
 
@@ -75,7 +76,7 @@ class Store {
     bool complete(const experiment::RunKey& key) const;
     /// Whether nothing is left to do for a condition of a unit: complete, and recorded where that is asked
     /// for.
-    bool done(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) const;
+    bool done(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) const;
     /// Nothing unless the run is complete. Throws core::InputError for a damaged record.
     std::optional<RunRecord> read(const experiment::RunKey& key, VehicleRows rows = VehicleRows::all) const;
     /// How the emergency vehicles of a run travelled; empty for a run that is not complete and for those

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "experiment/dataset_order.hpp"
+#include "experiment/dataset_job.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
 #include "prediction/features.hpp"

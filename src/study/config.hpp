@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "results/manifest.hpp"
 #include "scenario/config.hpp"
 

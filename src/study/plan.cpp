@@ -115,7 +115,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
     plan.scenarios = config.scenarios;
     const fs::path output = fs::absolute(folder);
     for (const UnitPlace& place : units_of(plan.manifest)) {
-        experiment::UnitSpec unit;
+        experiment::RunJob unit;
         unit.scenario = plan.manifest.scenarios[place.scenario].name;
         unit.scenario_file = output / "scenarios" / unit.scenario / scenario_file_name;
         unit.network_folder = output / "scenarios" / unit.scenario / network_name;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/run_job.hpp"
 #include "results/manifest.hpp"
 #include "results/store.hpp"
 #include "study/config.hpp"
@@ -16,7 +16,7 @@ namespace clearway::study {
 /// A unit and the name of its files: `city-0007-standard`.
 struct PlannedUnit {
     std::string name;
-    experiment::UnitSpec unit;
+    experiment::RunJob unit;
 };
 
 /// Where a unit stands in a study. `scenario` is a row of the manifest's scenarios.

@@ -1,17 +1,15 @@
 #include "study/runner.hpp"
 
 #include <algorithm>
-#include <csignal>
+#include <chrono>
 #include <deque>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/process.hpp"
+#include "core/supervisor.hpp"
+#include "experiment/job.hpp"
 #include "study/detail/folder_lock.hpp"
-#include "study/detail/interrupt.hpp"
-#include "study/detail/worker_pool.hpp"
 
 namespace clearway::study {
 namespace {
@@ -20,39 +18,29 @@ using core::ExitCode;
 using experiment::RunKey;
 using results::FailureCause;
 
-constexpr auto pause = std::chrono::milliseconds(10);
 constexpr auto progress_period = std::chrono::milliseconds(250);
 constexpr int log_lines = 30;
 constexpr int program_not_started = 127;
 
-unsigned worker_count(const RunnerOptions& options) {
-    return options.workers != 0 ? options.workers : std::max(1U, std::thread::hardware_concurrency());
-}
-
-RunKey key_of(const experiment::UnitSpec& unit, const experiment::ConditionSpec& condition) {
+RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) {
     return {unit.scenario, condition.name, unit.replication};
 }
 
 /// What a worker's end says about the runs that it left without a record.
-FailureCause cause_of(const detail::WorkerEnd& end) {
-    if (end.ended_by == detail::EndedBy::time_limit) return FailureCause::time_limit;
-    if (end.ended_by == detail::EndedBy::memory_limit) return FailureCause::memory;
+FailureCause cause_of(const core::TaskEnd& end) {
+    if (end.ended_by == core::EndedBy::time_limit) return FailureCause::time_limit;
+    if (end.ended_by == core::EndedBy::memory_limit) return FailureCause::memory;
     if (end.exit.signal != 0) return FailureCause::signal;
     if (end.exit.code == static_cast<int>(ExitCode::bad_input)) return FailureCause::bad_input;
     return FailureCause::other;
 }
 
 /// One call of `run`.
-class Runner {
+class Runner : private core::TaskList {
   public:
     Runner(const Plan& plan, const results::Store& store, const RunnerOptions& options,
            const std::function<void(const StudyProgress&)>& on_progress)
-        : plan_(plan),
-          store_(store),
-          options_(options),
-          on_progress_(on_progress),
-          lock_(store.folder()),
-          pool_({worker_count(options), options.termination_grace_s}) {
+        : plan_(plan), store_(store), options_(options), on_progress_(on_progress), lock_(store.folder()) {
         if (options_.worker_program.empty())
             options_.worker_program = core::program_folder() / "clearway-run";
         core::make_folder(store.unit_file("").parent_path());
@@ -63,25 +51,16 @@ class Runner {
     }
 
     StudyResult run() {
-        while (watch_.signal() == 0 && !(queue_.empty() && pool_.idle())) {
-            while (!queue_.empty() && !pool_.full())
-                start_next();
-            for (const detail::WorkerEnd& end : pool_.collect())
-                handle(end);
-            report(Report::when_due);
-            std::this_thread::sleep_for(pause);
-        }
-        pool_.end_all();
+        core::Supervisor({options_.workers, options_.termination_grace_s}).run(*this, interruption_);
         store_.remove_leftovers();
-        report(Report::now);
-        return {exit_code(), progress_};
+        report({});
+        return {interruption_.exit_code(progress_.failed > 0 ? ExitCode::runs_failed : ExitCode::ok),
+                progress_};
     }
 
   private:
-    enum class Report { when_due, now };
-
     /// Conditions of a unit without a record, and without a failure that another attempt cannot change.
-    std::vector<experiment::ConditionSpec> open_conditions(const experiment::UnitSpec& unit) const {
+    std::vector<experiment::ConditionSpec> open_conditions(const experiment::RunJob& unit) const {
         std::vector<experiment::ConditionSpec> open;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
@@ -104,7 +83,7 @@ class Runner {
 
     void queue_units() {
         for (std::size_t job = 0; job < plan_.units.size(); ++job) {
-            const experiment::UnitSpec& unit = plan_.units[job].unit;
+            const experiment::RunJob& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit);
             if (!open.empty()) queue_.push_back(job);
             forget_failures(unit, open);
@@ -115,30 +94,31 @@ class Runner {
         lock_.note(settled_.complete + settled_.failed);
     }
 
-    void forget_failures(const experiment::UnitSpec& unit,
+    void forget_failures(const experiment::RunJob& unit,
                          const std::vector<experiment::ConditionSpec>& conditions) const {
         for (const experiment::ConditionSpec& condition : conditions)
             store_.forget_failure(key_of(unit, condition));
     }
 
-    void start_next() {
-        const std::size_t job = queue_.front();
+    std::optional<core::Task> next() override {
+        if (queue_.empty()) return std::nullopt;
+        const std::size_t row = queue_.front();
         queue_.pop_front();
-        const PlannedUnit& planned = plan_.units[job];
-        experiment::UnitSpec unit = planned.unit;
-        uncount(unit, settled_);
-        unit.conditions = open_conditions(unit);
-        unit.limits = options_.limits;
-        forget_failures(unit, unit.conditions);
-        ++attempts_[job];
+        const PlannedUnit& planned = plan_.units[row];
+        experiment::RunJob job = planned.unit;
+        uncount(job, settled_);
+        job.conditions = open_conditions(job);
+        job.limits = options_.limits;
+        forget_failures(job, job.conditions);
+        ++attempts_[row];
         const auto file = store_.unit_file(planned.name);
-        core::write_atomically(file, experiment::to_json(unit));
-        core::Command command;
-        command.program = options_.worker_program;
-        command.arguments = {"--unit", file.string()};
-        command.output = log_file(job);
-        const auto places = static_cast<double>(unit.conditions.size() + 1);  // one for the shared warm-up
-        pool_.start(job, command, {options_.limits.wall_s * places, options_.limits.memory_mib});
+        core::write_atomically(file, experiment::to_json(job));
+        const auto places = static_cast<double>(job.conditions.size() + 1);  // one for the shared warm-up
+        return core::Task{.id = row,
+                          .command = {.program = options_.worker_program,
+                                      .arguments = {file.string()},
+                                      .output = log_file(row)},
+                          .limits = {options_.limits.wall_s * places, options_.limits.memory_mib}};
     }
 
     std::filesystem::path log_file(std::size_t job) const {
@@ -146,20 +126,21 @@ class Runner {
         return store_.log_file(attempts_[job] <= 1 ? name : fmt::format("{}.{}", name, attempts_[job]));
     }
 
-    void handle(const detail::WorkerEnd& end) {
-        const experiment::UnitSpec& unit = plan_.units[end.job].unit;
+    void ended(const core::TaskEnd& end) override {
+        const experiment::RunJob& unit = plan_.units[end.id].unit;
+        if (end.ended_by == core::EndedBy::interruption) return count(unit, settled_);
         stop_if_environment(end);
         bool retry = false;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (!store_.complete(key)) retry = settle(end, key) || retry;
         }
-        if (retry) queue_.push_front(end.job);
+        if (retry) queue_.push_front(end.id);
         count(unit, settled_);
     }
 
     /// Records why a run has no result; true when it is to be tried again instead.
-    bool settle(const detail::WorkerEnd& end, const RunKey& key) const {
+    bool settle(const core::TaskEnd& end, const RunKey& key) const {
         auto failure = store_.read_failure(key);
         const bool told_by_worker = failure.has_value();
         if (!failure) failure = failure_of(key, end);
@@ -167,14 +148,14 @@ class Runner {
             if (!told_by_worker) store_.write(*failure);
             return false;
         }
-        if (attempts_[end.job] < options_.attempts) return true;
-        failure->attempts = attempts_[end.job];
-        if (told_by_worker) failure->log_tail += core::tail(log_file(end.job), log_lines);
+        if (attempts_[end.id] < options_.attempts) return true;
+        failure->attempts = attempts_[end.id];
+        if (told_by_worker) failure->log_tail += core::tail(log_file(end.id), log_lines);
         store_.write(*failure);
         return false;
     }
 
-    void stop_if_environment(const detail::WorkerEnd& end) {
+    void stop_if_environment(const core::TaskEnd& end) {
         const int code = end.exit.code;
         if (end.exit.signal != 0) return;
         if (code == program_not_started)
@@ -184,30 +165,30 @@ class Runner {
         if (code == static_cast<int>(ExitCode::environment))
             throw core::EnvironmentError(
                 fmt::format("a worker could not go on; what is complete is kept in {}\n{}",
-                            store_.folder().string(), core::tail(log_file(end.job), log_lines)));
+                            store_.folder().string(), core::tail(log_file(end.id), log_lines)));
         if (code == static_cast<int>(ExitCode::conflict))
-            throw core::ConflictError(core::tail(log_file(end.job), log_lines));
+            throw core::ConflictError(core::tail(log_file(end.id), log_lines));
     }
 
     /// Of a run about which its worker left no word.
-    results::FailureRecord failure_of(const RunKey& key, const detail::WorkerEnd& end) const {
+    results::FailureRecord failure_of(const RunKey& key, const core::TaskEnd& end) const {
         results::FailureRecord failure;
         failure.key = key;
         failure.cause = cause_of(end);
         failure.exit_code = end.exit.code;
         failure.signal = end.exit.signal;
-        failure.attempts = attempts_[end.job];
-        failure.log_tail = core::tail(log_file(end.job), log_lines);
-        failure.command = core::shell_text({options_.worker_program.string(), "--unit",
-                                            store_.unit_file(plan_.units[end.job].name).string()});
+        failure.attempts = attempts_[end.id];
+        failure.log_tail = core::tail(log_file(end.id), log_lines);
+        failure.command = core::shell_text(
+            {options_.worker_program.string(), store_.unit_file(plan_.units[end.id].name).string()});
         failure.message = message_of(end);
         return failure;
     }
 
-    std::string message_of(const detail::WorkerEnd& end) const {
-        if (end.ended_by == detail::EndedBy::time_limit)
+    std::string message_of(const core::TaskEnd& end) const {
+        if (end.ended_by == core::EndedBy::time_limit)
             return fmt::format("its unit did not end within {:g} s a run", options_.limits.wall_s);
-        if (end.ended_by == detail::EndedBy::memory_limit)
+        if (end.ended_by == core::EndedBy::memory_limit)
             return fmt::format("the warm-up needed more than {} MiB", options_.limits.memory_mib);
         if (end.exit.signal != 0) return "the worker was " + end.exit.describe();
         return end.exit.ok() ? "the worker ended without a record of this run"
@@ -218,7 +199,7 @@ class Runner {
         std::size_t complete = 0;
         std::size_t failed = 0;
     };
-    Counts counts_of(const experiment::UnitSpec& unit) const {
+    Counts counts_of(const experiment::RunJob& unit) const {
         Counts counts;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
@@ -230,34 +211,30 @@ class Runner {
         }
         return counts;
     }
-    void count(const experiment::UnitSpec& unit, Counts& total) const {
+    void count(const experiment::RunJob& unit, Counts& total) const {
         const Counts counts = counts_of(unit);
         total.complete += counts.complete;
         total.failed += counts.failed;
     }
-    void uncount(const experiment::UnitSpec& unit, Counts& total) const {
+    void uncount(const experiment::RunJob& unit, Counts& total) const {
         const Counts counts = counts_of(unit);
         total.complete -= counts.complete;
         total.failed -= counts.failed;
     }
 
-    void report(Report when) {
-        const auto now = std::chrono::steady_clock::now();
-        if (when == Report::when_due && now - reported_ < progress_period) return;
-        reported_ = now;
-        Counts counts = settled_;
-        for (const std::size_t job : pool_.jobs())
-            count(plan_.units[job].unit, counts);
-        progress_.done = counts.complete;
-        progress_.failed = counts.failed;
-        progress_.elapsed_s = std::chrono::duration<double>(now - started_).count();
-        if (on_progress_) on_progress_(progress_);
+    void tick(std::span<const std::size_t> running) override {
+        if (std::chrono::steady_clock::now() - reported_ >= progress_period) report(running);
     }
 
-    ExitCode exit_code() const {
-        if (watch_.signal() == SIGINT) return ExitCode::interrupted;
-        if (watch_.signal() == SIGTERM) return ExitCode::terminated;
-        return progress_.failed > 0 ? ExitCode::runs_failed : ExitCode::ok;
+    void report(std::span<const std::size_t> running) {
+        reported_ = std::chrono::steady_clock::now();
+        Counts counts = settled_;
+        for (const std::size_t row : running)
+            count(plan_.units[row].unit, counts);
+        progress_.done = counts.complete;
+        progress_.failed = counts.failed;
+        progress_.elapsed_s = std::chrono::duration<double>(reported_ - started_).count();
+        if (on_progress_) on_progress_(progress_);
     }
 
     const Plan& plan_;
@@ -265,8 +242,7 @@ class Runner {
     RunnerOptions options_;
     const std::function<void(const StudyProgress&)>& on_progress_;
     detail::FolderLock lock_;
-    detail::InterruptWatch watch_;
-    detail::WorkerPool pool_;
+    core::InterruptionWatch interruption_;
     std::deque<std::size_t> queue_;  ///< Rows of the plan's units.
     std::vector<int> attempts_;      ///< By unit, in this call.
     Counts settled_;                 ///< Of the units that no worker works on.

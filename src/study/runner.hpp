@@ -36,10 +36,9 @@ struct StudyResult {
     StudyProgress progress;
 };
 
-/// Runs what is missing in `store` with worker processes: `clearway-run --unit FILE`. The contract with a
-/// worker:
+/// Runs what is missing in `store` with worker processes: `clearway-run FILE`. The contract with a worker:
 ///
-/// - FILE is a experiment::UnitSpec as JSON; its conditions are those without a record.
+/// - FILE is an experiment::RunJob as JSON; its conditions are those without a record.
 /// - The worker stores each run that ends by results::Store::write, and each run that fails while the worker
 ///   lives by writing a results::FailureRecord: it holds each run to the unit's limits and sees by which
 ///   signal it died. It exits 0 when every condition has one of the two.

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "experiment/condition.hpp"
 #include "experiment/run_key.hpp"
-#include "experiment/unit.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/command.hpp"
 #include "traffic/lease.hpp"

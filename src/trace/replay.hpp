@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 #include "metrics/link_quality.hpp"
 #include "metrics/run_metrics.hpp"
 #include "roads/network.hpp"

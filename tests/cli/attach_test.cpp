@@ -64,7 +64,7 @@ TEST_F(AttachTest, a_simulation_goes_on_under_a_policy_and_becomes_a_run_folder)
     EXPECT_GT(run.at("leases_issued"), 0);
     const Ended vehicles = clearway({"results", "out", "vehicles", "--csv"});
     EXPECT_THAT(vehicles.out, AllOf(HasSubstr("automated"), HasSubstr("human"), HasSubstr("emergency")));
-    EXPECT_FALSE(std::filesystem::exists(folder() / "out.order"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out.job"));
     EXPECT_EQ(clearway({"attach", place(sumo.port()), "--out", "out"}).code, 3) << "the folder exists";
 }
 

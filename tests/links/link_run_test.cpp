@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiment/link_order.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::links {
@@ -83,24 +82,6 @@ TEST_F(LinkRunFile, is_missed_by_name) {
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("kalman-0123.links"));
     }
-}
-
-TEST(LinkOrder, comes_back_from_its_file) {
-    const support::TemporaryFolder folder;
-    const experiment::LinkOrder order{
-        .scenario = "city",
-        .scenario_file = "a/scenario.toml",
-        .network_folder = "a/network",
-        .study_seed = 8101,
-        .replication = 3,
-        .work_folder = "work",
-        .failures = {"B10", "D3"},
-        .exits = {"known"},
-        .predictors = {{"kalman", "", {{"link_threshold", 0.25}}, "out.links"}}};
-    core::write_atomically(folder.path() / "order.json", to_json(order));
-    EXPECT_EQ(experiment::read_link_order(folder.path() / "order.json"), order);
-    core::write_atomically(folder.path() / "order.json", "{\"scenario\": 3}");
-    EXPECT_THROW(experiment::read_link_order(folder.path() / "order.json"), core::InputError);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/job.hpp"
 #include "results/store.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
@@ -44,9 +44,9 @@ class StudyFolder {
     results::Store store() const { return results::Store::open(folder_); }
     const std::filesystem::path& path() const { return folder_; }
 
-    experiment::UnitSpec unit(std::uint32_t replication,
-                              experiment::Engine engine = experiment::Engine::standard) const {
-        experiment::UnitSpec unit;
+    experiment::RunJob unit(std::uint32_t replication,
+                            experiment::Engine engine = experiment::Engine::standard) const {
+        experiment::RunJob unit;
         unit.scenario = config_.name;
         unit.scenario_file = store().scenario_folder(config_.name) / "scenario.toml";
         unit.network_folder = store().scenario_folder(config_.name);
@@ -60,7 +60,7 @@ class StudyFolder {
     }
 
     /// Writes the unit's file and tells where it is.
-    std::filesystem::path write(const experiment::UnitSpec& unit) const {
+    std::filesystem::path write(const experiment::RunJob& unit) const {
         const std::filesystem::path file = folder_ / ("unit-" + std::to_string(unit.replication) + "-" +
                                                       std::string(experiment::name(unit.engine)) + ".json");
         core::write_atomically(file, experiment::to_json(unit));

@@ -37,10 +37,10 @@ const ConditionSpec perfect = condition("perfect", "perfect", "none", {"disserta
 const ConditionSpec repaired = condition("repaired", "B10", "dead_reckoning", {"dissertation"});
 const ConditionSpec solo = condition("solo", "perfect", "none", {}, Engine::solo);
 
-core::Exit run_worker(const test::StudyFolder& folder, const experiment::UnitSpec& unit) {
+core::Exit run_worker(const test::StudyFolder& folder, const experiment::RunJob& unit) {
     const std::filesystem::path file = folder.write(unit);
     return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
-                      .arguments = {"--unit", file.string()},
+                      .arguments = {file.string()},
                       .environment = {},
                       .output = folder.path() / "worker.log"});
 }
@@ -321,12 +321,12 @@ TEST(Worker, EqualsARunInASumoThatWasStartedElsewhere) {
 }
 
 /// A run with a window, but for the window: the simulation in a child, over a connection, with all drawing.
-core::Exit show_without_window(const test::StudyFolder& folder, experiment::UnitSpec unit,
+core::Exit show_without_window(const test::StudyFolder& folder, experiment::RunJob unit,
                                const ConditionSpec& shown) {
     unit.conditions = {shown};
     unit.window = experiment::WindowSpec{.delay_s = 0.0, .settings_file = {}, .program = "sumo"};
     return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
-                      .arguments = {"--show", folder.write(unit).string()},
+                      .arguments = {folder.write(unit).string()},
                       .environment = {},
                       .output = folder.path() / "worker.log"});
 }
@@ -397,7 +397,7 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     const test::StudyFolder folder("city", {}, {repaired, baseline});
     const std::filesystem::path file = folder.write(folder.unit(0));
     const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
-                                            .arguments = {"--unit", file.string()},
+                                            .arguments = {file.string()},
                                             .environment = {},
                                             .output = folder.path() / "worker.log"});
     kill(child_of(worker.pid), SIGSEGV);
@@ -416,7 +416,7 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
 TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
     const test::StudyFolder folder("city", {}, {baseline});
     const experiment::RunKey key{"city", "baseline", 0};
-    experiment::UnitSpec unit = folder.unit(0);
+    experiment::RunJob unit = folder.unit(0);
     unit.limits.wall_s = 0.01;
     ASSERT_TRUE(run_worker(folder, unit).ok());
     EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::time_limit);

@@ -61,13 +61,17 @@ TEST(ProgramsTest, the_worker_explains_a_wrong_call_and_exits_with_2) {
           std::vector<std::string>{"city", "x"}}) {
         const Answer answer = call(path_of("clearway-run"), words);
         EXPECT_EQ(answer.exit.code, 2);
-        EXPECT_THAT(answer.text, HasSubstr("clearway-run --unit FILE"));
+        EXPECT_THAT(answer.text, HasSubstr("clearway-run JOB.json"));
     }
 }
 
-TEST(ProgramsTest, the_worker_exits_with_3_for_an_order_it_cannot_read) {
-    EXPECT_EQ(call(path_of("clearway-run"), {"--unit", "/nowhere/unit.json"}).exit.code, 3);
-    EXPECT_EQ(call(path_of("clearway-run"), {"--dataset", "/nowhere/order.json"}).exit.code, 3);
+TEST(ProgramsTest, the_worker_exits_with_3_for_a_job_it_cannot_read) {
+    EXPECT_EQ(call(path_of("clearway-run"), {"/nowhere/job.json"}).exit.code, 3);
+    const support::TemporaryFolder folder;
+    const Answer answer = call(path_of("clearway-run"), {folder.write("job.json", R"({"kind": "fly"})")});
+    EXPECT_EQ(answer.exit.code, 3);
+    EXPECT_THAT(answer.text,
+                AllOf(HasSubstr("\"fly\" is not known"), HasSubstr("run, dataset, links or attach")));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ inline FailureRecord failure(const experiment::RunKey& key) {
     result.message = "killed by signal 11 (Segmentation fault)";
     result.signal = 11;
     result.attempts = 3;
-    result.command = "clearway-run --unit '/out/units/a b.json'";
+    result.command = "clearway-run '/out/units/a b.json'";
     result.log_tail = "last \"words\"\n";
     return result;
 }

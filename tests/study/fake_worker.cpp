@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "experiment/job.hpp"
 #include "results/store.hpp"
 #include "results/synthetic.hpp"
 
@@ -36,7 +37,7 @@ void tell(const results::Store& store, const experiment::RunKey& key, results::F
     failure.key = key;
     failure.cause = cause;
     failure.message = message;
-    failure.command = "clearway-run --unit it";
+    failure.command = "clearway-run it";
     store.write(failure);
 }
 
@@ -70,7 +71,7 @@ void work(const results::Store& store, const experiment::RunKey& key) {
 
 int main(int, char** arguments) {
     try {
-        const experiment::UnitSpec unit = experiment::read_unit(arguments[2]);
+        const auto unit = std::get<experiment::RunJob>(experiment::read_job(arguments[1]));
         const results::Store store = results::Store::open(unit.output);
         for (const experiment::ConditionSpec& condition : unit.conditions)
             work(store, {unit.scenario, condition.name, unit.replication});

@@ -30,7 +30,7 @@ class RunFolder : public testing::Test {
 
 TEST_F(RunFolder, HoldsScenarioAndNetworkAsUnitsNameThem) {
     const results::Store store = prepare_folder(plan(), out_);
-    const experiment::UnitSpec unit = plan().units.front().unit;
+    const experiment::RunJob unit = plan().units.front().unit;
     const scenario::ScenarioConfig stored = scenario::load(unit.scenario_file.string());
     EXPECT_EQ(scenario::scenario_hash(stored), store.manifest().scenarios.front().configuration_hash);
     EXPECT_TRUE(std::filesystem::exists(scenario::open_network(stored, unit.network_folder).file));

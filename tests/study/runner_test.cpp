@@ -146,7 +146,7 @@ TEST_F(Study, TriesAgainWhatAWorkerTellsOfACrashButNotOfMemory) {
     const auto crash = store.read_failure({"alpha", "told_crash", 0});
     ASSERT_TRUE(crash);
     EXPECT_EQ(crash->attempts, 3);
-    EXPECT_EQ(crash->command, "clearway-run --unit it");
+    EXPECT_EQ(crash->command, "clearway-run it");
     EXPECT_THAT(crash->log_tail, testing::HasSubstr("run alpha/told_crash/0"));
     const auto third_log = core::read_file(store.log_file("alpha-00000-standard.3"));
     EXPECT_THAT(third_log, testing::Not(testing::HasSubstr("told_memory")));
@@ -160,8 +160,8 @@ TEST_F(Study, TellsHowToMakeACrashAgain) {
     ASSERT_TRUE(failure);
     const results::Store store = store_in("out");
     const auto unit = store.unit_file("alpha-00000-standard");
-    EXPECT_EQ(failure->command, options_.worker_program.string() + " --unit " + unit.string());
-    EXPECT_EQ(experiment::read_unit(unit).conditions.at(0).name, "crash");
+    EXPECT_EQ(failure->command, options_.worker_program.string() + " " + unit.string());
+    EXPECT_EQ(std::get<experiment::RunJob>(experiment::read_job(unit)).conditions.at(0).name, "crash");
     EXPECT_NE(std::system((failure->command + " > /dev/null").c_str()), 0);
 }
 

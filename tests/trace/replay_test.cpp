@@ -31,7 +31,7 @@ class RecordedRun {
     explicit RecordedRun(const ConditionSpec& condition,
                          experiment::StepRecording recording = experiment::StepRecording::on)
         : condition_(condition), folder_("intersection", {}, {condition}) {
-        experiment::UnitSpec unit = folder_.unit(3);
+        experiment::RunJob unit = folder_.unit(3);
         unit.recording = recording;
         loop::UnitRun run(unit, folder_.path() / "demand", folder_.path() / "work");
         results::RunTiming timing;

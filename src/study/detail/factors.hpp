@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/settings.hpp"
-#include "experiment/unit.hpp"
+#include "experiment/condition.hpp"
 
 namespace clearway::study::detail {
 

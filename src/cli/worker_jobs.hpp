@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "experiment/job.hpp"
+
+namespace clearway::cli {
+
+/// A job for one worker process and where its files are.
+struct WorkerJob {
+    std::string label;  ///< `merge replication 3`, for messages.
+    experiment::Job job;
+    std::filesystem::path file;  ///< Written before the worker starts.
+    std::filesystem::path log;   ///< Both streams of the worker.
+    std::filesystem::path work;  ///< Removed when the worker fails or is ended.
+};
+
+/// How the work ended.
+struct WorkerResult {
+    core::ExitCode exit_code = core::ExitCode::ok;
+    std::vector<std::string> lines;  ///< Logs of the workers that did not fail, in the order of the jobs.
+};
+
+/// Does the jobs with `processes` workers at one time (0: one per core), with progress on standard error. A
+/// worker that fails is reported there and the others go on; the first failure decides the exit code. SIGINT
+/// and SIGTERM end the workers: one that does not end within a few seconds is killed. `title` names what is
+/// counted. Throws core::EnvironmentError when no worker can be started.
+WorkerResult work_on(const std::vector<WorkerJob>& jobs, unsigned processes, const std::string& title);
+
+}  // namespace clearway::cli

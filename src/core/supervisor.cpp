@@ -1,0 +1,118 @@
+#include "core/supervisor.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <thread>
+
+namespace clearway::core {
+namespace {
+
+constexpr double look_period_s = 0.05;
+constexpr auto pause = std::chrono::milliseconds(10);
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::size_t process_count(std::size_t processes) {
+    return processes > 0 ? processes : std::max(1U, std::thread::hardware_concurrency());
+}
+
+EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits) {
+    if (seconds_since(child.started) > limits.wall_s) return EndedBy::time_limit;
+    const long most_kib = limits.memory_mib * 1024;
+    if (most_kib > 0 && resident_kib(child.pid).value_or(0) > most_kib) return EndedBy::memory_limit;
+    return EndedBy::itself;
+}
+
+Supervisor::Supervisor(SupervisorConfig config) : config_(config) {
+    config_.processes = process_count(config.processes);
+}
+
+Supervisor::~Supervisor() {
+    try {
+        end_all();
+    } catch (const std::exception&) {
+        // Nobody is left to tell; the children get SIGTERM when this process ends.
+    }
+}
+
+void Supervisor::run(TaskList& tasks, const InterruptionWatch& interruption) {
+    while (interruption.signal() == 0) {
+        start_what_fits(tasks);
+        if (running_.empty()) return;
+        for (TaskEnd end : collect()) {
+            // A signal from the terminal reaches children and parent alike.
+            if (interruption.signal() != 0 && end.exit.signal != 0) end.ended_by = EndedBy::interruption;
+            tasks.ended(end);
+        }
+        std::vector<std::size_t> ids;
+        for (const Running& running : running_)
+            ids.push_back(running.id);
+        tasks.tick(ids);
+        std::this_thread::sleep_for(pause);
+    }
+    for (const TaskEnd& end : end_all())
+        tasks.ended(end);
+}
+
+void Supervisor::start_what_fits(TaskList& tasks) {
+    while (running_.size() < config_.processes) {
+        const std::optional<Task> task = tasks.next();
+        if (!task) return;
+        running_.push_back({task->id, start(task->command), task->limits, EndedBy::itself, std::nullopt});
+    }
+}
+
+bool Supervisor::look_is_due() {
+    if (seconds_since(looked_) < look_period_s) return false;
+    looked_ = Clock::now();
+    return true;
+}
+
+void Supervisor::enforce_limits(Running& running, bool look_now) const {
+    if (running.terminated) {
+        if (seconds_since(*running.terminated) > config_.grace_s) ::kill(running.child.pid, SIGKILL);
+        return;
+    }
+    if (!look_now) return;
+    running.ended_by = limit_passed_by(running.child, running.limits);
+    if (running.ended_by == EndedBy::itself) return;
+    running.terminated = Clock::now();
+    ::kill(running.child.pid, SIGTERM);
+}
+
+std::vector<TaskEnd> Supervisor::collect() {
+    std::vector<TaskEnd> ended;
+    const bool look_now = look_is_due();
+    std::erase_if(running_, [&](Running& running) {
+        enforce_limits(running, look_now);
+        const std::optional<Exit> exit = poll(running.child);
+        if (exit) ended.push_back({running.id, *exit, running.ended_by});
+        return exit.has_value();
+    });
+    return ended;
+}
+
+std::vector<TaskEnd> Supervisor::end_all() {
+    for (Running& running : running_) {
+        if (running.terminated) continue;
+        running.terminated = Clock::now();
+        running.ended_by = EndedBy::interruption;
+        ::kill(running.child.pid, SIGTERM);
+    }
+    std::vector<TaskEnd> ended;
+    while (!running_.empty()) {
+        for (TaskEnd end : collect()) {
+            if (end.exit.ok()) end.ended_by = EndedBy::itself;  // It had done its work.
+            ended.push_back(end);
+        }
+        if (!running_.empty()) std::this_thread::sleep_for(pause);
+    }
+    return ended;
+}
+
+}  // namespace clearway::core

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "traffic/command.hpp"
+#include "traffic/departure.hpp"
+
+namespace clearway::experiment {
+
+/// SUMO options that a whole process shares; conditions of one process differ in everything else.
+enum class Engine : std::uint8_t {
+    standard,
+    sublane,  ///< --lateral-resolution.
+    solo,     ///< Each emergency vehicle alone on the road with every signal open.
+};
+
+/// `standard`, `sublane`, `solo`.
+std::string_view name(Engine engine);
+std::optional<Engine> engine_from(std::string_view word);
+
+/// `on`, `off`.
+std::string_view name(traffic::SafetyChecks checks);
+/// One of an enumeration of these two.
+template <class Switch>
+std::optional<Switch> switch_from(std::string_view word) {
+    if (word == "on") return Switch::on;
+    if (word == "off") return Switch::off;
+    return std::nullopt;
+}
+
+/// A named combination of failure, predictor and policies, and the settings that differ from their defaults.
+struct ConditionSpec {
+    std::string name;
+    std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
+    std::string predictor = "none";
+    std::vector<std::string> policies;  ///< In this order; empty: the car-following model alone.
+    Engine engine = Engine::standard;
+    traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
+    /// `preempt_signals.lead_s` -> `12`, as experiment/settings.hpp knows them.
+    core::Settings settings = {};
+    std::string model_file = {};  ///< Of a learned predictor; absolute; empty: the model in the program.
+    std::string model_hash = {};  ///< Of that file's content, so that a changed model is another condition.
+    traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
+
+    /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
+    bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
+
+    bool operator==(const ConditionSpec&) const = default;
+};
+
+}  // namespace clearway::experiment

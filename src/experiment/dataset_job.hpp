@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiment/simulation.hpp"
+
+namespace clearway::experiment {
+
+/// What a data set is for.
+enum class DatasetKind : std::uint8_t {
+    published,  ///< One snapshot as chapter 5.4 of the dissertation stores it: three CSV files.
+    samples,    ///< What predictors were given at many moments, with the answers: one file per failure model.
+    repair,     ///< The same for the improved net, `graphsage`.
+    pair_samples,  ///< The features of every candidate pair, for the logistic pair model; likewise.
+};
+constexpr std::array<std::pair<DatasetKind, const char*>, 4> spellings(DatasetKind) {
+    return {{{DatasetKind::published, "published"},
+             {DatasetKind::samples, "samples"},
+             {DatasetKind::repair, "repair"},
+             {DatasetKind::pair_samples, "pair_samples"}}};
+}
+
+/// Which pairs a published data set lists; the dissertation does not say.
+enum class ListedPairs : std::uint8_t {
+    true_links,  ///< Only pairs that are linked: every label is 1.
+    candidates,  ///< All allowed pairs within the candidate radius, linked or not.
+};
+constexpr std::array<std::pair<ListedPairs, const char*>, 2> spellings(ListedPairs) {
+    return {{{ListedPairs::true_links, "true_links"}, {ListedPairs::candidates, "candidates"}}};
+}
+
+/// A data set: one simulation without a policy, recorded.
+struct DatasetJob : Simulation {
+    std::filesystem::path output;
+    DatasetKind dataset = DatasetKind::published;
+    ListedPairs pairs = ListedPairs::candidates;
+    std::uint32_t feature_count = 5;
+    std::vector<std::string> failures;
+    double interval_s = 5.0;
+    std::string exits = "known";
+
+    static constexpr auto fields() {
+        using Self = DatasetJob;
+        return std::make_tuple(
+            core::Field{"output", "", &Self::output, 0, 0, "Folder of the data set", "given"},
+            core::Field{"dataset", "", &Self::dataset, 0, 0, "What is recorded", "given"},
+            core::Field{"pairs", "", &Self::pairs, 0, 0, "Of published: which pairs are listed",
+                        "the dissertation does not say"},
+            core::Field{"feature_count", "1", &Self::feature_count, 2, 5,
+                        "Of published: 2, position alone, or 5", "dissertation 5.4"},
+            core::Field{"failures", "", &Self::failures, 0, 0, "Of samples: presets of sensing", "given"},
+            core::Field{"interval_s", "s", &Self::interval_s, 0.1, 3600,
+                        "Of samples: simulation time between two of them",
+                        "assumed: neighbouring samples differ"},
+            core::Field{"exits", "", &Self::exits, 0, 0,
+                        "Of samples: whether it is known which vehicles left, `known` or `unknown`",
+                        "known"});
+    }
+    bool operator==(const DatasetJob&) const = default;
+};
+
+/// The file of the job's samples of one failure. `ending` tells what is in it; see prediction.
+std::filesystem::path sample_file(const DatasetJob& job, const std::string& failure, std::string_view ending);
+
+}  // namespace clearway::experiment

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "experiment/attach_job.hpp"
+#include "experiment/dataset_job.hpp"
+#include "experiment/link_job.hpp"
+#include "experiment/run_job.hpp"
+
+namespace clearway::experiment {
+
+/// What one worker process does: `clearway-run FILE`.
+using Job = std::variant<RunJob, DatasetJob, LinkJob, AttachJob>;
+
+/// JSON; the key `kind` (`run`, `dataset`, `links`, `attach`) tells the alternative.
+std::string to_json(const Job& job);
+
+/// Throws core::InputError with every problem: a key that is missing, unknown or of another type, a number
+/// out of its range.
+Job read_job(const std::filesystem::path& file);
+
+}  // namespace clearway::experiment

@@ -1,0 +1,58 @@
+#include "loop/condition_run.hpp"
+
+#include <utility>
+
+#include <sys/resource.h>
+
+#include "sensing/failure_config.hpp"
+
+namespace clearway::loop {
+namespace {
+
+long peak_kib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+}  // namespace
+
+metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
+                                   const experiment::ConditionSpec& condition, Stage stage) {
+    recorder.watch(std::move(stage.layout));
+    recorder.configure(metrics::RecorderConfig::of_latency(
+        core::Seconds(sensing::failure_from(condition.failure).latency_s)));
+    loop.begin(make_machinery(condition, stage.surroundings), stage.surroundings.loop);
+    loop.tell(stage.listener);
+    loop.run(stage.horizon);
+    return loop.finish();
+}
+
+experiment::Provenance own_provenance() {
+    experiment::Provenance provenance;
+    provenance.clearway_version = CLEARWAY_VERSION;
+    provenance.sumo_version = sumo::version();
+    return provenance;
+}
+
+results::RunTiming timing_of(const LoopTiming& spent, std::chrono::steady_clock::time_point started) {
+    results::RunTiming timing;
+    timing.simulator_s = spent.simulator_s;
+    timing.coupling_s = spent.coupling_s;
+    timing.peak_kib = peak_kib();
+    timing.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return timing;
+}
+
+results::RunRecord record_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
+                             experiment::Provenance provenance, metrics::RunSummary summary) {
+    provenance.trace_hash = summary.trace_hash;
+    return {.key = key,
+            .condition = condition,
+            .provenance = std::move(provenance),
+            .metrics = summary.metrics,
+            .vehicles = std::move(summary.vehicles),
+            .traffic = std::move(summary.traffic)};
+}
+
+}  // namespace clearway::loop

@@ -1,0 +1,103 @@
+#include "study/side_files.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "metrics/counts.hpp"
+#include "scenario/network.hpp"
+#include "scenario/picture.hpp"
+#include "scenario/prepare.hpp"
+
+namespace clearway::study {
+namespace {
+
+/// The edges with more lanes for cars than the dissertation's networks have, as read_facts expects them.
+std::string wide_edges_json(const roads::Network& network) {
+    core::Json rows = core::Json::array();
+    for (const scenario::WideEdge& edge : scenario::wide_edges(network)) {
+        rows.push_back({{"edge", edge.id}, {"street", edge.name}, {"car_lanes", edge.car_lanes}});
+    }
+    return rows.dump(2, ' ', false, core::Json::error_handler_t::replace) + "\n";
+}
+
+/// Street names of edges outside junctions, as read_facts expects them.
+std::string streets_json(const roads::Network& network) {
+    core::Json names = core::Json::object();
+    for (const roads::Edge& edge : network.edges()) {
+        if (!edge.internal && !edge.name.empty()) names[edge.id] = edge.name;
+    }
+    return names.dump(1, ' ', false, core::Json::error_handler_t::replace) + "\n";
+}
+
+/// Counted flows of a scenario, where it has them, as read_facts expects them. Throws core::InputError for
+/// edges that the network has not.
+void write_counts(const scenario::ScenarioConfig& config, const roads::Network& network,
+                  const std::filesystem::path& file) {
+    if (config.demand.counts.empty()) return;
+    const std::filesystem::path source = scenario::resolve(config, config.demand.counts);
+    std::vector<core::Problem> problems;
+    for (const metrics::EdgeCount& count : metrics::read_counts(source)) {
+        if (network.find_edge(count.edge)) continue;
+        problems.push_back({source.string(), fmt::format("the network has no edge {}", count.edge),
+                            "edges of the scenario's network", ""});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    core::write_atomically(file, core::read_file(source));
+}
+
+/// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
+/// destinations before any worker starts, its wide edges, its street names, and a picture for the report.
+void complete_scenario(const scenario::ScenarioConfig& config, const experiment::RunJob& unit,
+                       const std::filesystem::path& folder) {
+    const std::filesystem::path picture = folder / "network.svg";
+    if (std::filesystem::exists(picture)) return;
+    const scenario::BuiltNetwork built = scenario::open_network(config, unit.network_folder);
+    const std::filesystem::path demand = folder / "demand" / std::to_string(unit.replication);
+    core::make_folder(demand);
+    scenario::prepare(config, built, core::StudySeed{unit.study_seed}, core::Replication{unit.replication},
+                      demand);
+    const std::string title = config.title.empty() ? config.name : config.title;
+    core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
+    write_counts(config, built.network, folder / "counts.csv");
+    core::write_atomically(folder / "streets.json", streets_json(built.network));
+    core::write_atomically(picture, scenario::network_picture(built.network, title));
+}
+
+}  // namespace
+
+void complete_scenarios(const Plan& plan, const results::Store& store) {
+    std::vector<core::Problem> problems;
+    for (const scenario::ScenarioConfig& config : plan.scenarios) {
+        const auto planned = std::ranges::find_if(
+            plan.units, [&](const PlannedUnit& each) { return each.unit.scenario == config.name; });
+        if (planned == plan.units.end()) continue;
+        try {
+            complete_scenario(config, planned->unit, store.scenario_folder(config.name));
+        } catch (const core::InputError& error) {
+            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+void keep_command(const results::Store& store, const std::string& command) {
+    const std::filesystem::path file = store.folder() / "command.txt";
+    if (!std::filesystem::exists(file)) core::write_atomically(file, command + "\n");
+}
+
+void copy_trainings(const std::filesystem::path& source, const results::Store& store) {
+    for (const auto& training : std::filesystem::directory_iterator(source)) {
+        if (!std::filesystem::exists(training.path() / "losses.csv")) continue;
+        const std::filesystem::path target = store.folder() / "training" / training.path().filename();
+        core::make_folder(target);
+        for (const char* const name : {"losses.csv", "summary.json"}) {
+            const std::filesystem::path file = training.path() / name;
+            if (std::filesystem::exists(file)) core::write_atomically(target / name, core::read_file(file));
+        }
+    }
+}
+
+}  // namespace clearway::study
