@@ -35,7 +35,7 @@ std::optional<Switch> switch_from(std::string_view word) {
     return std::nullopt;
 }
 
-/// Whether every step of a run is kept in a file (results/recording.hpp). It changes no result.
+/// Whether every step of a run is kept in a file (trace/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };
 
 /// A named combination of failure, predictor and policy parts.
