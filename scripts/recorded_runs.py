@@ -14,7 +14,7 @@ def trajectories(usage, every_s, reach_m):
         sys.exit(usage)
     condition = pathlib.Path(sys.argv[1])
     study, scenario = condition.parent.parent, condition.parent.name
-    recordings = sorted((study / "recordings" / scenario / condition.name).glob("*.recording"))
+    recordings = sorted((study / "recordings" / scenario / condition.name).glob("*.h5"))
     if not recordings:
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {condition}: no recordings; make the runs with --record")
     with tempfile.TemporaryDirectory() as work:

@@ -38,7 +38,7 @@ constexpr std::array all_verbs = {
     Verb{"results", "Print any table of a run folder as CSV or JSON",
          "clearway results runs/reproduce vehicles --csv", configure_results},
     Verb{"replay", "Think a recorded run through again with another predictor, or export it as CSV",
-         "clearway replay runs/city/recordings/city/mine/00000.recording --predictor dead_reckoning",
+         "clearway replay runs/city/recordings/city/mine/00000.h5 --predictor dead_reckoning",
          configure_replay},
     Verb{"verify", "Make stored runs again and compare every number",
          "clearway verify runs/reproduce city/baseline/7", configure_verify},

@@ -324,7 +324,7 @@ Action configure_replay(CLI::App& app) {
     app.footer(app.get_footer() + "\n  clearway replay FILE --csv belief --from 60 --to 90 > belief.csv\n\n" +
                "Tables: " + joined(table_names()) + "\n\n" + open_loop);
     app.add_option("file", arguments->file,
-                   "A file recordings/SCENARIO/CONDITION/REPLICATION.recording of a run folder")
+                   "A file recordings/SCENARIO/CONDITION/REPLICATION.h5 of a run folder")
         ->required()
         ->option_text("FILE (required)");
     std::vector<CLI::Option*> thinking;

@@ -21,6 +21,8 @@ class AtomicFile {
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     void write(std::string_view bytes);
+    /// Where the bytes are until `commit`, for a library that writes a file by its name.
+    const std::filesystem::path& aside() const { return aside_; }
     /// Replaces an earlier file of the name. Nothing can be written afterwards.
     void commit();
 

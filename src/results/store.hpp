@@ -28,7 +28,7 @@ struct SetAside {
 ///                                        /vehicles.csv
 ///                                        /timing.json    differs from machine to machine
 ///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
-///     recordings/SCENARIO/CONDITION/REPLICATION.recording  every step of a run, where asked for
+///     recordings/SCENARIO/CONDITION/REPLICATION.h5  every step of a run, where asked for
 ///     damaged/SCENARIO/CONDITION/                        runs whose files did not fit their hash, kept
 ///     units/, logs/                                      orders for workers, and what they said
 ///     work/                                              SUMO's files of runs that did not end well

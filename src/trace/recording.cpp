@@ -1,54 +1,44 @@
 #include "trace/recording.hpp"
 
+#include <cerrno>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
-#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
-#include "trace/detail/block_file.hpp"
-#include "trace/detail/number_stream.hpp"
-#include "trace/detail/step_codec.hpp"
+#include "trace/detail/seal.hpp"
+#include "trace/detail/step_tables.hpp"
 
 namespace clearway::trace {
 namespace {
 
-using detail::NumberReader;
-using detail::NumberWriter;
+using detail::TableReader;
+using detail::TableWriter;
 
-/// Of what is inside the blocks: raised when a struct, its coding or what is foreseen changes.
-constexpr int recording_format = 2;
-/// A block is closed at the end of the step that makes it this long, bytes.
-constexpr std::size_t block_length = std::size_t{256} << 10U;
+constexpr const char* hash_name = "content_hash";
 
-std::string info_to_json(const RecordingInfo& info) {
+/// Attributes of the file itself; what has members of its own is a group with attributes, or JSON.
+core::Json to_json(const RecordingInfo& info) {
     core::Json object;
-    object["format"] = recording_format;
+    object["format"] = detail::recording_format;
     object["scenario"] = info.key.scenario;
     object["condition"] = info.key.condition;
     object["replication"] = info.key.replication;
     object["condition_spec"] = experiment::to_json(info.condition);
     core::write_fields(object["provenance"], info.provenance);
     core::write_fields(object["settings"], info.settings);
-    return core::to_text(object);
+    return object;
 }
 
-RecordingInfo info_from_json(const std::string& text, const std::string& where) {
-    const core::Json object = core::parse_object(text, where);
+RecordingInfo info_from(const core::Json& object, const std::string& where) {
     RecordingInfo info;
-    int format = 0;
     std::vector<core::Problem> problems;
     core::ObjectReader reader(object, where, problems);
-    reader.read("format", format);
-    if (problems.empty() && format != recording_format)
-        throw core::InputError(
-            {where, fmt::format("is a recording of content format {}", format),
-             fmt::format("{}", recording_format),
-             "Read it with the version of Clearway that wrote it, or record the run again"});
     using Type = core::Json::value_t;
     reader.read("scenario", info.key.scenario);
     reader.read("condition", info.key.condition);
@@ -63,113 +53,93 @@ RecordingInfo info_from_json(const std::string& text, const std::string& where) 
     return info;
 }
 
-/// The fields of each action, in both directions.
-template <class Stream>
-struct ActionFields {
-    Stream& stream;
+constexpr std::array info_groups = {"provenance", "settings"};
 
-    template <class Action>
-    void operator()(Action& action) const {
-        using Plain = std::remove_const_t<Action>;
-        if constexpr (std::is_same_v<Plain, traffic::DriveAt>) {
-            stream.real(action.speed.value);
-        } else if constexpr (std::is_same_v<Plain, traffic::ChangeLane>) {
-            stream.number(action.lane_number);
-        } else if constexpr (std::is_same_v<Plain, traffic::PullAside>) {
-            stream.choice(action.side, traffic::Side::right, 2);
-        } else if constexpr (std::is_same_v<Plain, traffic::HoldGreen>) {
-            links(action.links);
-            links(action.own_links);
-        } else if constexpr (std::is_same_v<Plain, traffic::FavourLinks>) {
-            links(action.links);
-        } else {
-            static_assert(std::is_empty_v<Plain>, "a new action must be coded here");
-        }
+void write_info(hid_t file, const RecordingInfo& info) {
+    core::Json object = to_json(info);
+    for (const char* const name : info_groups) {
+        const detail::Handle group = detail::create_group(file, name);
+        detail::write_attributes(group.get(), object[name]);
+        object.erase(name);
     }
+    detail::write_attributes(file, object);
+}
 
-    template <class Links>
-    void links(Links& numbers) const {
-        std::uint16_t expected = 0;
-        detail::list(stream, numbers, [&](auto& link) {
-            stream.number(link, expected);
-            expected = link;
-        });
+/// The attributes as `to_json` gave them.
+core::Json read_info(hid_t file, const std::string& where) {
+    core::Json object = detail::read_attributes(file);
+    for (const char* const name : info_groups) {
+        const detail::Handle group(H5Gopen2(file, name, H5P_DEFAULT), H5Gclose);
+        object[name] = detail::read_attributes(group.get());
     }
-};
-
-template <std::size_t... Kind>
-traffic::Action empty_action(std::size_t kind, std::index_sequence<Kind...>) {
-    traffic::Action action;
-    ((kind == Kind ? (void)action.emplace<Kind>() : void()), ...);
-    return action;
+    object["condition_spec"] = core::parse_object(object.at("condition_spec").get<std::string>(), where);
+    return object;
 }
 
-template <class Stream, class Action>
-void code_action(Stream& stream, Action& action) {
-    constexpr std::size_t kinds = std::variant_size_v<traffic::Action>;
-    std::size_t kind = action.index();
-    stream.choice(kind, 0, kinds);
-    if constexpr (Stream::reading) action = empty_action(kind, std::make_index_sequence<kinds>());
-    std::visit(ActionFields<Stream>{stream}, action);
+/// Hash of everything recorded, however it is chunked and compressed.
+template <class Tables>
+std::string hash_of(const RecordingInfo& info, Tables& steps) {
+    detail::RunningHash hash;
+    hash.add(core::to_text(to_json(info)));
+    for (const detail::ColumnFile* const column : steps.file.columns())
+        hash.add(column->path() + " " + column->digest() + "\n");
+    steps.names.add_to(hash);
+    return hash.digest();
 }
-
-template <class Stream, class Target>
-void code_target(Stream& stream, Target& target) {
-    bool is_signal = target.index() == 1;
-    stream.number(is_signal);
-    if constexpr (Stream::reading) {
-        if (is_signal) target.template emplace<core::SignalIndex>();
-    }
-    if (is_signal) {
-        stream.number(std::get<core::SignalIndex>(target), core::SignalIndex{0});
-    } else {
-        stream.key(std::get<core::VehicleKey>(target));
-    }
-}
-
-void code_text(NumberWriter& stream, const char* text) {
-    stream.text(text);
-}
-void code_text(NumberReader& stream, const char*& text) {
-    text = stream.text().c_str();
-}
-
-template <class Stream, class Leases>
-void code_leases(Stream& stream, Leases& leases, core::Seconds now) {
-    core::Seconds expected = now;
-    detail::list(stream, leases, [&](auto& lease) {
-        code_target(stream, lease.target);
-        code_action(stream, lease.action);
-        stream.real(lease.expiry.value, expected.value);
-        expected = lease.expiry;
-        stream.number(lease.priority);
-        code_text(stream, lease.policy);
-        code_text(stream, lease.reason);
-        stream.key(lease.beneficiary);
-    });
-}
-
-/// What both sides remember from step to step.
-struct Codecs {
-    detail::RosterCodec roster{detail::RosterCodec::Keys::registered};
-    detail::SnapshotCodec snapshot;
-    detail::ObservationCodec observation;
-    detail::BeliefCodec belief;
-};
 
 }  // namespace
 
 struct RecordingWriter::State {
-    explicit State(const std::filesystem::path& file) : blocks(file) {}
+    State(std::filesystem::path file, RecordingInfo recorded)
+        : path(std::move(file)), part(path), info(std::move(recorded)), tables(part.aside()), steps(tables) {
+        write_info(tables.id(), info);
+    }
 
-    detail::BlockWriter blocks;
-    NumberWriter stream;
-    Codecs codecs;
+    void write(const RecordedStep& step) {
+        steps.roster.code(*step.roster);
+        steps.snapshot.code(*step.snapshot, steps.known);
+        steps.events.code(*step.events);
+        if (step.observation != nullptr)
+            steps.observation.code(*step.observation, *step.snapshot, *step.roster, *step.observation->roster,
+                                   steps.known);
+        if (step.belief != nullptr) steps.belief.code(*step.belief, *step.observation, steps.known);
+        steps.leases.code(step.leases);
+        tables.end_step();
+    }
+
+    void finish() {
+        tables.finish();
+        steps.names.write(tables);
+        detail::write_attribute(tables.id(), hash_name, hash_of(info, steps));
+        tables.close();
+        part.write(detail::seal_of(part.aside()));
+        part.commit();
+    }
+
+    std::filesystem::path path;
+    core::AtomicFile part;
+    RecordingInfo info;
+    TableWriter tables;
+    detail::StepTables<TableWriter> steps;
 };
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, const RecordingInfo& info)
-    : state_(std::make_unique<State>(file)) {
-    state_->blocks.write(info_to_json(info));
+namespace {
+
+/// Does it; what HDF5 cannot write is the machine's fault.
+template <class Action>
+void writing(const std::filesystem::path& file, const Action& action) {
+    try {
+        action();
+    } catch (const detail::Hdf5Error& error) {
+        if (error.reason() != 0) throw core::write_error(file, error.reason());
+        throw core::EnvironmentError(fmt::format("{}: cannot write: {}", file.string(), error.what()));
+    }
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, const RecordingInfo& info) {
+    writing(file, [&] { state_ = std::make_unique<State>(file, info); });
 }
 RecordingWriter::~RecordingWriter() = default;
 
@@ -178,70 +148,81 @@ void RecordingWriter::write(const RecordedStep& step) {
         throw std::invalid_argument("a belief is recorded without its observation");
     if (step.observation != nullptr && step.observation->roster == nullptr)
         throw std::invalid_argument("an observation is recorded without a roster");
-    NumberWriter& stream = state_->stream;
-    Codecs& codecs = state_->codecs;
-    codecs.roster.code(stream, *step.roster);
-    codecs.snapshot.code(stream, *step.snapshot);
-    code_events(stream, *step.events, step.snapshot->time);
-    stream.number(step.observation != nullptr);
-    if (step.observation != nullptr)
-        codecs.observation.code(stream, *step.observation, *step.snapshot, *step.roster,
-                                *step.observation->roster);
-    stream.number(step.belief != nullptr);
-    if (step.belief != nullptr)
-        codecs.belief.code(stream, *step.belief, *step.observation, *step.snapshot, codecs.observation);
-    code_leases(stream, step.leases, step.snapshot->time);
-    if (stream.bytes().size() < block_length) return;
-    state_->blocks.write(stream.bytes());
-    stream.clear();
+    writing(state_->path, [&] { state_->write(step); });
 }
 
 void RecordingWriter::finish() {
-    if (!state_->stream.bytes().empty()) state_->blocks.write(state_->stream.bytes());
-    state_->blocks.finish();
+    writing(state_->path, [&] { state_->finish(); });
 }
 
 struct RecordingReader::State {
-    explicit State(const std::filesystem::path& file) : blocks(file) {}
+    explicit State(const std::filesystem::path& file) : path(file), tables(file), steps(tables) {
+        const core::Json object = read_info(tables.id(), path.string());
+        info = info_from(object, path.string());
+        hash = object.at(hash_name).get<std::string>();
+        steps.names.read(tables);
+    }
 
-    detail::BlockReader blocks;
+    RecordedStep read_step() {
+        tables.start_step();
+        RecordedStep step{&snapshot, &roster, &events, nullptr, nullptr, {}};
+        steps.roster.code(roster);
+        steps.snapshot.code(snapshot, steps.known);
+        steps.events.code(events);
+        if (steps.observation.is_there()) {
+            steps.observation.code(observation, snapshot, roster, own_roster, steps.known);
+            step.observation = &observation;
+        }
+        if (steps.belief.is_there()) {
+            if (step.observation == nullptr) throw std::runtime_error("a belief has no observation");
+            steps.belief.code(belief, observation, steps.known);
+            step.belief = &belief;
+        }
+        steps.leases.code(leases);
+        step.leases = leases;
+        return step;
+    }
+
+    void finish() {
+        tables.finish();
+        if (hash_of(info, steps) != hash) throw std::runtime_error("it does not fit its hash");
+        content_hash = hash;
+    }
+
+    std::filesystem::path path;
+    TableReader tables;
+    detail::StepTables<TableReader> steps;
     RecordingInfo info;
-    NumberReader stream;
-    Codecs codecs;
+    std::string hash, content_hash;
+    std::size_t steps_read = 0;
     truth::Snapshot snapshot;
     traffic::Roster roster, own_roster;
     truth::Events events;
     traffic::Observation observation;
     traffic::BelievedGraph belief;
     std::vector<traffic::Lease> leases;
-
-    RecordedStep read_step() {
-        RecordedStep step{&snapshot, &roster, &events, nullptr, nullptr, {}};
-        codecs.roster.code(stream, roster);
-        codecs.snapshot.code(stream, snapshot);
-        code_events(stream, events, snapshot.time);
-        bool is_there = false;
-        stream.number(is_there);
-        if (is_there) {
-            codecs.observation.code(stream, observation, snapshot, roster, own_roster);
-            step.observation = &observation;
-        }
-        stream.number(is_there);
-        if (is_there) {
-            if (step.observation == nullptr) throw std::runtime_error("a belief has no observation");
-            codecs.belief.code(stream, belief, observation, snapshot, codecs.observation);
-            step.belief = &belief;
-        }
-        code_leases(stream, leases, snapshot.time);
-        step.leases = leases;
-        return step;
-    }
 };
 
-RecordingReader::RecordingReader(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
-    const auto head = state_->blocks.next();
-    if (!head) throw core::InputError({file.string(), "is damaged: it holds nothing", "", ""});
-    state_->info = info_from_json(std::string(*head), file.string());
+namespace {
+
+/// Does it; what HDF5 or a table finds wrong is damage.
+template <class Action>
+auto reading(const std::filesystem::path& file, double time_s, const Action& action) {
+    try {
+        return action();
+    } catch (const core::Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw core::InputError({file.string(), fmt::format("is damaged after {} s: {}", time_s, error.what()),
+                                "", "Record the run again, or take the file from a backup"});
+    }
+}
+
+}  // namespace
+
+RecordingReader::RecordingReader(const std::filesystem::path& file) {
+    detail::check_seal(file);
+    state_ = reading(file, 0.0, [&] { return std::make_unique<State>(file); });
 }
 RecordingReader::~RecordingReader() = default;
 
@@ -251,30 +232,23 @@ const RecordingInfo& RecordingReader::info() const {
 
 std::optional<RecordedStep> RecordingReader::next() {
     State& state = *state_;
-    if (state.stream.at_end()) {
-        const auto block = state.blocks.next();
-        if (!block) return std::nullopt;
-        state.stream.open(*block);
-    }
-    try {
-        return state.read_step();
-    } catch (const core::Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw core::InputError(
-            {state.blocks.file().string(),
-             fmt::format("is damaged after {} s: {}", state.snapshot.time.value, error.what()), "",
-             "Record the run again"});
-    }
+    return reading(state.path, state.snapshot.time.value, [&]() -> std::optional<RecordedStep> {
+        if (state.steps_read < state.steps.snapshot.steps()) {
+            ++state.steps_read;
+            return state.read_step();
+        }
+        if (state.content_hash.empty()) state.finish();
+        return std::nullopt;
+    });
 }
 
 const std::string& RecordingReader::content_hash() const {
-    return state_->blocks.content_hash();
+    return state_->content_hash;
 }
 
 std::filesystem::path recording_file(const std::filesystem::path& run_folder, const experiment::RunKey& key) {
     return run_folder / "recordings" / key.scenario / key.condition /
-           fmt::format("{:05}.recording", key.replication);
+           fmt::format("{:05}.h5", key.replication);
 }
 
 }  // namespace clearway::trace

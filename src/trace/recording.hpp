@@ -64,10 +64,11 @@ struct RecordedStep {
     std::span<const traffic::Command> commands = {};  ///< What came of the leases in force; not recorded.
 };
 
-/// Writes a recording (docs/recording.md) step by step, in memory that does not grow with the length of the
-/// run beyond one entry a vehicle and route. Every bit of every member comes back. The file is there after
-/// `finish`, as a whole; without it nothing is left. Throws core::EnvironmentError; std::invalid_argument for
-/// a step that breaks the rules of RecordedStep, and for rows that are not ordered by key.
+/// Writes a recording (docs/reference/recording.md) step by step, in memory that does not grow with the
+/// length of the run beyond one entry a vehicle and route. Every bit of every member comes back. The file is
+/// there after `finish`, as a whole; without it nothing is left. Throws core::EnvironmentError;
+/// std::invalid_argument for a step that breaks the rules of RecordedStep, and for rows that are not ordered
+/// by key.
 class RecordingWriter {
   public:
     RecordingWriter(const std::filesystem::path& file, const RecordingInfo& info);
@@ -104,7 +105,7 @@ class RecordingReader {
     std::unique_ptr<State> state_;
 };
 
-/// Where the recording of a run lies in a run folder: `recordings/SCENARIO/CONDITION/REPLICATION.recording`.
+/// Where the recording of a run lies in a run folder: `recordings/SCENARIO/CONDITION/REPLICATION.h5`.
 std::filesystem::path recording_file(const std::filesystem::path& run_folder, const experiment::RunKey& key);
 
 }  // namespace clearway::trace

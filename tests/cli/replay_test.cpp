@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const std::string recording = "out/recordings/line/mine/00000.recording";
+const std::string recording = "out/recordings/line/mine/00000.h5";
 
 class ReplayTest : public UserTest {
   protected:
@@ -113,9 +113,9 @@ TEST_F(ReplayTest, the_failure_log_tells_who_was_dark_and_what_links_that_cost) 
 
 TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     ASSERT_EQ(run({"--record"}).code, 0);
-    const Ended none = clearway({"replay", "none.recording"});
+    const Ended none = clearway({"replay", "none.h5"});
     EXPECT_EQ(none.code, 3);
-    EXPECT_THAT(none.err, HasSubstr("none.recording"));
+    EXPECT_THAT(none.err, HasSubstr("none.h5"));
     const Ended name = clearway({"replay", recording, "--predictor", "dead_reckonin"});
     EXPECT_EQ(name.code, 3);
     EXPECT_THAT(name.err, HasSubstr("Did you mean `dead_reckoning`?"));
@@ -126,14 +126,12 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     EXPECT_EQ(clearway({"replay", recording, "--from", "9"}).code, 3);
     EXPECT_EQ(clearway({"replay", recording, "--csv", "belifs"}).code, 2);
     EXPECT_EQ(clearway({"replay", recording, "--csv", "belief", "--predictor", "none"}).code, 2);
-    std::filesystem::copy_file(folder() / recording, folder() / "moved.recording");
-    const Ended moved = clearway({"replay", "moved.recording"});
+    std::filesystem::copy_file(folder() / recording, folder() / "moved.h5");
+    const Ended moved = clearway({"replay", "moved.h5"});
     EXPECT_EQ(moved.code, 3);
     EXPECT_THAT(moved.err, HasSubstr("--network"));
     EXPECT_EQ(
-        clearway({"replay", "moved.recording", "--network", "out/scenarios/line/network/network.net.xml"})
-            .code,
-        0);
+        clearway({"replay", "moved.h5", "--network", "out/scenarios/line/network/network.net.xml"}).code, 0);
     const std::string network = "out/scenarios/line/network/network.net.xml";
     core::write_atomically(folder() / network, read(network) + "\n");
     const Ended other = clearway({"replay", recording});
@@ -142,7 +140,7 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     std::filesystem::resize_file(folder() / recording, 300);
     const Ended cut = clearway({"replay", recording, "--network", network});
     EXPECT_EQ(cut.code, 3);
-    EXPECT_THAT(cut.err, AllOf(HasSubstr("00000.recording"), HasSubstr("cut short")));
+    EXPECT_THAT(cut.err, AllOf(HasSubstr("00000.h5"), HasSubstr("cut short")));
 }
 
 TEST_F(ReplayTest, verify_finds_runs_the_same) {

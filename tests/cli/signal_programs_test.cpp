@@ -73,7 +73,7 @@ TEST_F(SignalProgramsTest, of_a_packed_file_are_known_to_the_run_and_to_its_repl
     write_scenario("tls.add.xml.gz");
     const Ended ended = run("out");
     ASSERT_EQ(ended.code, 0) << ended.err;
-    const Ended replayed = clearway({"replay", "out/recordings/crossings/mine/00000.recording"});
+    const Ended replayed = clearway({"replay", "out/recordings/crossings/mine/00000.h5"});
     EXPECT_EQ(replayed.code, 0) << replayed.out << replayed.err;
 }
 

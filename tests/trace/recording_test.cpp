@@ -4,11 +4,16 @@
 #include <csignal>
 
 #include <gmock/gmock.h>
+#include <hdf5.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "support/temporary_folder.hpp"
+#include "trace/detail/seal.hpp"
 #include "trace/difference.hpp"
 #include "trace/random_run.hpp"
 
@@ -157,17 +162,25 @@ TEST_F(Recording, SaysThatAFileIsMissingOrSomethingElse) {
 }
 
 TEST_F(Recording, RefusesAnotherVersion) {
-    const std::filesystem::path file = record("old", 3);
+    const std::filesystem::path file = record("later", 3);
     std::string bytes = core::read_file(file);
-    bytes[8] = 9;
+    bytes[bytes.find("format 3") + 7] = '9';
     core::write_atomically(file, bytes);
-    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 1")));
+    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 3")));
+    const std::string before_hdf5("CLEARWAY\1\0\0\0 blocks", 19);
+    EXPECT_THAT(problem_of(folder_.write("older", before_hdf5)),
+                testing::AllOf(HasSubstr("older format"), HasSubstr("record the run again")));
+}
+
+TEST_F(Recording, RefusesHdf5ThatItDidNotSeal) {
+    const std::string bytes = core::read_file(record("whole", 3));
+    EXPECT_THAT(problem_of(folder_.write("rewritten", bytes.substr(512))), HasSubstr("is not a recording"));
 }
 
 TEST_F(Recording, NoticesWhereverItIsCutShort) {
     const std::filesystem::path file = record("cut", 40);
     const std::string bytes = core::read_file(file);
-    for (std::size_t length = 12; length < bytes.size(); length += 97) {
+    for (std::size_t length = 40; length < bytes.size(); length += length < 600 ? 97 : 997) {
         core::write_atomically(file, std::string_view(bytes).substr(0, length));
         EXPECT_THAT(problem_of(file), HasSubstr("is cut short")) << length;
     }
@@ -178,12 +191,56 @@ TEST_F(Recording, NoticesWhereverItIsCutShort) {
 TEST_F(Recording, NoticesEveryFlippedBit) {
     const std::filesystem::path file = record("flipped", 20);
     const std::string bytes = core::read_file(file);
-    for (std::size_t at = 0; at < bytes.size(); at += 13) {
+    for (std::size_t at = 0; at < bytes.size(); at += at < 512 ? 3 : 509) {
         std::string damaged = bytes;
         damaged[at] = static_cast<char>(damaged[at] ^ (1 << (at % 8)));
         core::write_atomically(file, damaged);
         EXPECT_NE(problem_of(file), "") << at;
     }
+}
+
+TEST_F(Recording, NoticesWhatAnotherToolChangedAndSealed) {
+    const std::filesystem::path file = record("changed", 20);
+    {
+        const hid_t open = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        const hid_t set = H5Dopen2(open, "steps/time_s", H5P_DEFAULT);
+        std::vector<double> times(20);
+        ASSERT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()), 0);
+        times[7] += 1.0;
+        ASSERT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()), 0);
+        H5Dclose(set);
+        H5Fclose(open);
+    }
+    EXPECT_THAT(problem_of(file), HasSubstr("does not fit its hash"));
+    const std::string sealed = trace::detail::seal_of(file) + core::read_file(file).substr(512);
+    core::write_atomically(file, sealed);
+    EXPECT_THAT(problem_of(file),
+                testing::AllOf(HasSubstr("is damaged"), HasSubstr("does not fit its hash")));
+}
+
+TEST_F(Recording, OfAKilledProcessIsNone) {
+    const std::filesystem::path file = folder_.path() / "killed";
+    const pid_t child = fork();
+    if (child == 0) {
+        trace::RecordingWriter writer(file, RandomRun::info());
+        RandomRun run(1);
+        for (int step = 0; step < 300; ++step)
+            writer.write(run.next());
+        std::raise(SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_FALSE(std::filesystem::exists(file));
+    const std::filesystem::path part = file.string() + "." + std::to_string(child) + ".part";
+    ASSERT_TRUE(std::filesystem::exists(part));
+    EXPECT_THAT(problem_of(part), HasSubstr("is not a recording"));
+    core::remove_abandoned_parts(folder_.path());
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(Recording, OfTheSameRunIsTheSameFile) {
+    EXPECT_EQ(core::read_file(record("one", 60)), core::read_file(record("two", 60)));
 }
 
 TEST_F(Recording, RefusesStepsThatItCouldNotGiveBack) {
@@ -203,7 +260,7 @@ TEST_F(Recording, RefusesStepsThatItCouldNotGiveBack) {
 TEST_F(Recording, ThatDoesNotFitOnTheDiskLeavesNothing) {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
-    const rlimit tight{2000, before.rlim_max};
+    const rlimit tight{20'000, before.rlim_max};
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &tight);
     EXPECT_THROW(record("large", 400), core::EnvironmentError);

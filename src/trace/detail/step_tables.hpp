@@ -1,23 +1,20 @@
 #pragma once
 
-#include "trace/detail/belief_codec.hpp"
-#include "trace/detail/observation_codec.hpp"
-#include "trace/detail/roster_codec.hpp"
-#include "trace/detail/snapshot_codec.hpp"
+#include "trace/detail/belief_tables.hpp"
+#include "trace/detail/event_tables.hpp"
+#include "trace/detail/lease_tables.hpp"
+#include "trace/detail/observation_tables.hpp"
+#include "trace/detail/roster_tables.hpp"
+#include "trace/detail/snapshot_tables.hpp"
 
 namespace clearway::trace::detail {
 
-// One description of a recorded step for both ways: `Stream` is a NumberWriter, and the structs are const, or
-// a NumberReader that fills them. What a reader can foresee comes from the step before: a vehicle moves on
-// as it did, at the speed that it has now; a report says what the snapshot says; a belief says what was
-// reported. All of it is arithmetic that IEEE 754 defines to the bit; functions of the mathematical library
-// are not used, for their last bit differs between machines.
-
-/// Does not compile when one of the structs gets or loses a member: it must be coded below, and
-/// `recording_format` raised.
-inline void every_member_is_coded(const traffic::Lease& lease, const truth::Events& events,
-                                  const truth::Snapshot& snapshot, const traffic::Observation& observation,
-                                  const traffic::BelievedGraph& belief) {
+/// Does not compile when one of the structs gets or loses a member: it needs a column, and
+/// `recording_format` must be raised.
+inline void every_member_has_a_column(const traffic::Lease& lease, const truth::Events& events,
+                                      const truth::Snapshot& snapshot,
+                                      const traffic::Observation& observation,
+                                      const traffic::BelievedGraph& belief) {
     [[maybe_unused]] const auto& [l1, l2, l3, l4, l5, l6, l7] = lease;
     [[maybe_unused]] const auto& [g1, g2] = traffic::HoldGreen{};
     [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7] = events;
@@ -33,5 +30,21 @@ inline void every_member_is_coded(const traffic::Lease& lease, const truth::Even
     [[maybe_unused]] const auto& [n1, n2, n3] = traffic::BelievedLink{};
     [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12] = traffic::VehicleInfo{};
 }
+
+/// All tables of a recording.
+template <class File>
+struct StepTables {
+    explicit StepTables(File& tables) : file(tables) {}
+
+    File& file;
+    Names names;
+    KnownStates known;
+    SnapshotTables<File> snapshot{file, names};
+    EventTables<File> events{file, names};
+    RosterTables<File> roster{file, "", names};
+    ObservationTables<File> observation{file, names};
+    BeliefTables<File> belief{file, names};
+    LeaseTables<File> leases{file, names};
+};
 
 }  // namespace clearway::trace::detail

@@ -1,0 +1,176 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "trace/detail/enumerations.hpp"
+#include "trace/detail/tables.hpp"
+#include "traffic/lease.hpp"
+
+namespace clearway::trace::detail {
+
+/// Numbers with a blank between two.
+inline std::string number_list(const std::vector<std::uint16_t>& numbers) {
+    return fmt::format("{}", fmt::join(numbers, " "));
+}
+inline std::vector<std::uint16_t> numbers_from(const std::string& text) {
+    std::vector<std::uint16_t> numbers;
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at < end; ++at) {
+        const auto [next, error] = std::from_chars(at, end, numbers.emplace_back());
+        if (error != std::errc() || (next != end && *next != ' '))
+            throw std::runtime_error("links of a signal are no numbers");
+        at = next;
+    }
+    return numbers;
+}
+
+/// What a decision asked for.
+template <class File>
+class LeaseTables {
+  public:
+    LeaseTables(File& file, Names& names)
+        : names_(names), rows_(file, "leases", "What the decision of the step asked for") {}
+
+    template <class Leases>
+    void code(Leases& leases) {
+        list<File>(rows_, leases, [&](auto& lease) {
+            code_target(lease.target);
+            code_action(lease.action);
+            code_value(expiry_s_, lease.expiry);
+            code_priority(lease.priority);
+            names_.code_text(policy_, lease.policy);
+            names_.code_text(reason_, lease.reason);
+            names_.code(beneficiary_, lease.beneficiary);
+        });
+    }
+
+  private:
+    template <class Value>
+    using Column = ColumnOf<File, Value>;
+
+    /// All that any action has.
+    struct Members {
+        double speed_mps = 0.0;
+        std::uint32_t lane_number = 0;
+        traffic::Side side = traffic::Side::right;
+        std::string links, own_links;
+    };
+
+    template <class Target>
+    void code_target(Target& target) {
+        core::SignalIndex signal;
+        core::VehicleKey vehicle;
+        if constexpr (!File::reading) {
+            if (const auto* const index = std::get_if<core::SignalIndex>(&target)) {
+                if (!index->exists()) throw std::invalid_argument("a lease is for a signal that is none");
+                signal = *index;
+            } else {
+                vehicle = std::get<core::VehicleKey>(target);
+            }
+        }
+        code_value(signal_, signal);
+        names_.code(vehicle_, vehicle);
+        if constexpr (File::reading) {
+            if (signal.exists()) {
+                target = signal;
+            } else {
+                target = vehicle;
+            }
+        }
+    }
+
+    template <class Priority>
+    void code_priority(Priority& priority) {
+        std::int32_t number = priority;
+        priority_(number);
+        if constexpr (File::reading) priority = number;
+    }
+
+    template <class Action>
+    void code_action(Action& action) {
+        auto kind = static_cast<ActionKind>(action.index());
+        action_(kind);
+        Members members;
+        if constexpr (!File::reading) std::visit([&](const auto& one) { take(members, one); }, action);
+        speed_mps_(members.speed_mps);
+        lane_number_(members.lane_number);
+        side_(members.side);
+        names_.code_text(links_, members.links);
+        names_.code_text(own_links_, members.own_links);
+        if constexpr (File::reading) {
+            action = empty_action(kind);
+            std::visit([&](auto& one) { give(members, one); }, action);
+        }
+    }
+
+    template <class Action>
+    static void take(Members& members, const Action& action) {
+        using namespace traffic;
+        if constexpr (std::is_same_v<Action, DriveAt>) {
+            members.speed_mps = action.speed.value;
+        } else if constexpr (std::is_same_v<Action, ChangeLane>) {
+            members.lane_number = action.lane_number;
+        } else if constexpr (std::is_same_v<Action, PullAside>) {
+            members.side = action.side;
+        } else if constexpr (std::is_same_v<Action, HoldGreen>) {
+            members.links = number_list(action.links);
+            members.own_links = number_list(action.own_links);
+        } else if constexpr (std::is_same_v<Action, FavourLinks>) {
+            members.links = number_list(action.links);
+        } else {
+            static_assert(std::is_empty_v<Action>, "a new action must be coded here");
+        }
+    }
+
+    template <class Action>
+    static void give(const Members& members, Action& action) {
+        using namespace traffic;
+        if constexpr (std::is_same_v<Action, DriveAt>) {
+            action.speed.value = members.speed_mps;
+        } else if constexpr (std::is_same_v<Action, ChangeLane>) {
+            action.lane_number = members.lane_number;
+        } else if constexpr (std::is_same_v<Action, PullAside>) {
+            action.side = members.side;
+        } else if constexpr (std::is_same_v<Action, HoldGreen>) {
+            action.links = numbers_from(members.links);
+            action.own_links = numbers_from(members.own_links);
+        } else if constexpr (std::is_same_v<Action, FavourLinks>) {
+            action.links = numbers_from(members.links);
+        } else {
+            static_assert(std::is_empty_v<Action>, "a new action must be coded here");
+        }
+    }
+
+    Names& names_;
+    typename File::Rows rows_;
+    Column<std::uint32_t> vehicle_{rows_,
+                                   {"vehicle", "", "Row in /vehicles: who is asked; 4294967295: a signal"}};
+    Column<std::uint32_t> signal_{
+        rows_, {"signal", "", "Index in the network: which signal is asked; 4294967295: a vehicle"}};
+    Column<ActionKind> action_{rows_, {"action", "", "What is asked"}, action_names};
+    Column<double> speed_mps_{rows_, {"speed_mps", "m/s", "Of drive_at"}};
+    Column<std::uint32_t> lane_number_{rows_, {"lane_number", "1", "Of change_lane; 0: the outermost"}};
+    Column<traffic::Side> side_{rows_, {"side", "", "Of pull_aside"}, side_names};
+    Column<std::uint32_t> links_{rows_,
+                                 {"links", "", "Row in /texts: links of a signal, with blanks between them"}};
+    Column<std::uint32_t> own_links_{
+        rows_, {"own_links", "", "Row in /texts: those that the beneficiary may take itself"}};
+    Column<double> expiry_s_{rows_, {"expiry_s", "s", "Simulation time at which the lease ends"}};
+    Column<std::int32_t> priority_{rows_, {"priority", "1", "The higher wins"}};
+    Column<std::uint32_t> policy_{rows_, {"policy", "", "Row in /texts: the part that asked"}};
+    Column<std::uint32_t> reason_{rows_, {"reason", "", "Row in /texts"}};
+    Column<std::uint32_t> beneficiary_{
+        rows_,
+        {"beneficiary", "", "Row in /vehicles: the emergency vehicle that it serves; 4294967295: none"}};
+};
+
+}  // namespace clearway::trace::detail

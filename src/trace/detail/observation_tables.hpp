@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trace/detail/roster_tables.hpp"
+#include "trace/detail/snapshot_tables.hpp"
+
+namespace clearway::trace::detail {
+
+/// What the sensors reported.
+template <class File>
+class ObservationTables {
+  public:
+    ObservationTables(File& file, Names& names)
+        : names_(names),
+          rows_(file, "observation", "What the sensors reported: a row where a report or decision was due"),
+          vehicles_(
+              file, "observation/vehicles",
+              "The last that is known of each vehicle, ordered by key; then what emergency vehicles know "
+              "of themselves"),
+          detections_(file, "observation/detections", "Dark vehicles that a neighbour detected"),
+          signals_(file, "observation/signals", "What signals were seen to show, where not as in /signals",
+                   names),
+          roster_(file, "observation/", names) {}
+
+    /// Whether the step has one.
+    bool is_there() {
+        std::size_t count = 0;
+        rows_.count(count);
+        return count == 1;
+    }
+    /// `roster` is the true one, `own_roster` that of the sensor.
+    template <class Observation, class Roster>
+    void code(Observation& now, const truth::Snapshot& snapshot, Roster& roster, Roster& own_roster,
+              KnownStates& known) {
+        std::size_t one = 1;
+        rows_.count(one);
+        code_value(time_s_, now.time);
+        code_value(report_time_s_, now.report_time);
+        is_report_(now.is_report);
+        exits_known_(now.exits_known);
+        bool is_own = now.roster != &roster;
+        has_roster_(is_own);
+        if constexpr (File::reading) now.roster = is_own ? &own_roster : &roster;
+        if (is_own) roster_.code(own_roster);
+        code_vehicles(now, known);
+        list<File>(detections_, now.detected_links, [&](auto& link) {
+            names_.code(from_, link.from);
+            names_.code(to_, link.to);
+            range_m_(link.range_m);
+            range_sigma_m_(link.range_sigma_m);
+        });
+        bool has_signals = now.signals.state != snapshot.signals.state;
+        has_signals_(has_signals);
+        if (has_signals) {
+            signals_.code(now.signals);
+        } else if constexpr (File::reading) {
+            now.signals = snapshot.signals;
+        }
+    }
+
+  private:
+    template <class Value>
+    using Column = ColumnOf<File, Value>;
+
+    template <class Observation>
+    void code_vehicles(Observation& now, KnownStates& known) {
+        std::size_t all = now.vehicles.size() + now.own_states.size();
+        vehicles_.count(all);
+        auto own = static_cast<std::uint32_t>(now.own_states.size());
+        own_states_(own);
+        if constexpr (File::reading) {
+            if (own > all) throw std::runtime_error("there are more own states than rows");
+            now.vehicles.resize(all - own);
+            now.own_states.resize(own);
+        }
+        code_reports(now.vehicles, known, [&](std::uint32_t vehicle, std::int64_t row, const auto& state) {
+            known.remember_report(vehicle, row, state);
+        });
+        code_reports(now.own_states, known, [](std::uint32_t, std::int64_t, const auto&) {});
+    }
+
+    template <class Reports, class Remember>
+    void code_reports(Reports& reports, const KnownStates& known, const Remember& remember) {
+        core::VehicleKey before;
+        for (auto& report : reports) {
+            const std::uint32_t vehicle = names_.code(vehicle_, report.key);
+            if (&report != &reports.front()) require_order<File>(before, report.key);
+            before = report.key;
+            vehicle_class_(report.vehicle_class);
+            freshness_(report.freshness);
+            age_s_(report.age_s);
+            position_sigma_m_(report.position_sigma_m);
+            remember(vehicle, state_.code(report.state, vehicle, known), report.state);
+        }
+    }
+
+    Names& names_;
+    typename File::Rows rows_, vehicles_, detections_;
+    Column<double> time_s_{rows_, {"time_s", "s", "Reports up to this time"}};
+    Column<double> report_time_s_{rows_, {"report_time_s", "s", "Time of the latest report round"}};
+    Column<bool> is_report_{rows_, {"is_report", "", "A report round took place in this step"}};
+    Column<bool> exits_known_{rows_, {"exits_known", "", "Vehicles that left the network are absent"}};
+    Column<bool> has_roster_{rows_, {"has_roster", "", "The sensor keeps a roster of its own"}};
+    Column<std::uint32_t> own_states_{
+        rows_, {"own_states", "1", "How many of the vehicles, the last, are emergency vehicles' own states"}};
+    Column<bool> has_signals_{rows_, {"has_signals", "", "Signals are not seen as /signals says"}};
+    Column<std::uint32_t> vehicle_{vehicles_, vehicle_column};
+    Column<traffic::VehicleClass> vehicle_class_{vehicles_, class_column, class_names};
+    Column<traffic::Freshness> freshness_{
+        vehicles_, {"freshness", "", "stale: its newest report was lost"}, freshness_names};
+    Column<float> age_s_{vehicles_, {"age_s", "s", "Time since the state was measured"}};
+    Column<float> position_sigma_m_{vehicles_, {"position_sigma_m", "m", "Stated error of the sensor"}};
+    StateColumns<File> state_{vehicles_};
+    Column<std::uint32_t> from_{detections_, {"from", "", "Row in /vehicles: who detects"}};
+    Column<std::uint32_t> to_{detections_, {"to", "", "Row in /vehicles: who is detected"}};
+    Column<float> range_m_{detections_, {"range_m", "m", "Measured distance; negative: not measured"}};
+    Column<float> range_sigma_m_{detections_, {"range_sigma_m", "m", "Error of the distance"}};
+    SignalTable<File> signals_;
+    RosterTables<File> roster_;
+};
+
+}  // namespace clearway::trace::detail
