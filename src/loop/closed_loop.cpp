@@ -11,10 +11,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Half a millisecond, the resolution of SUMO's clock: times are sums of steps and carry rounding errors
-/// below it.
-constexpr double time_tolerance_s = 0.0005;
-
 }  // namespace
 
 ClosedLoop::ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
@@ -24,7 +20,8 @@ ClosedLoop::ClosedLoop(sumo::Session& session, Machinery machinery, const LoopCo
 }
 
 void ClosedLoop::run(core::Seconds horizon) {
-    while (session_.expected_vehicles() > 0 && session_.time().value < horizon.value - time_tolerance_s) {
+    while (session_.expected_vehicles() > 0 &&
+           session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
     }
     commands_.clear();

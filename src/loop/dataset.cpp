@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "loop/detail/work_folder.hpp"
+#include "core/temporary_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "samples/recorders.hpp"
 #include "trace/listeners.hpp"
@@ -112,8 +112,8 @@ void record_pair_samples(const experiment::DatasetOrder& order, UnitRun& run, co
 core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     const experiment::DatasetOrder order = experiment::read_dataset_order(order_file);
     core::make_folder(order.output);
-    const detail::WorkFolder work(order.output /
-                                  fmt::format("work-{}-{}", order.scenario, order.replication));
+    const core::TemporaryFolder work(order.output /
+                                     fmt::format("work-{}-{}", order.scenario, order.replication));
     experiment::UnitSpec unit;
     unit.scenario = order.scenario;
     unit.scenario_file = order.scenario_file;

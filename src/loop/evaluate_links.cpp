@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/temporary_folder.hpp"
 #include "experiment/link_order.hpp"
 #include "links/link_evaluation.hpp"
-#include "loop/detail/work_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -83,7 +83,7 @@ void write_results(const experiment::LinkOrder& order, const std::string& config
 
 core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
     const experiment::LinkOrder order = experiment::read_link_order(order_file);
-    const detail::WorkFolder work(order.work_folder);
+    const core::TemporaryFolder work(order.work_folder);
     experiment::UnitSpec unit;
     unit.scenario = order.scenario;
     unit.scenario_file = order.scenario_file;
