@@ -17,6 +17,7 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
+#include "core/temporary_folder.hpp"
 #include "results/record_difference.hpp"
 #include "results/store.hpp"
 #include "study/runner.hpp"
@@ -63,29 +64,6 @@ const char* text_of(Verdict verdict) {
     }
     return "";
 }
-
-/// A new folder that goes when this object does.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "clearway-verify-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr)
-            throw core::EnvironmentError(
-                fmt::format("{}: cannot make a folder there. Set TMPDIR to a folder that can be written",
-                            std::filesystem::temp_directory_path().string()));
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// Another version may rightly give other numbers: nothing would be learned from comparing.
 void require_same_versions(const results::Manifest& manifest) {
@@ -327,7 +305,7 @@ core::ExitCode verify_runs(const Arguments& arguments) {
                                 "a new or empty folder", "A run must be made elsewhere to be compared"});
     const std::vector<experiment::RunKey> keys = chosen_runs(stored, arguments);
     require_same_versions(stored.manifest());
-    std::optional<TemporaryFolder> temporary;
+    std::optional<core::TemporaryFolder> temporary;
     if (arguments.out.empty()) temporary.emplace();
     const std::filesystem::path out = temporary ? temporary->path() : std::filesystem::path(arguments.out);
     const study::Plan plan = plan_of(stored, keys, out);

@@ -12,4 +12,47 @@ std::string csv_text(std::string_view text) {
     return quoted + '"';
 }
 
+bool CsvReader::next() {
+    cells_.clear();
+    unquoted_.clear();
+    if (at_ >= text_.size()) return false;
+    while (read_cell()) {
+    }
+    return true;
+}
+
+bool CsvReader::read_cell() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n') {
+        if (text_[at_] == '"') return read_quoted_cell(start);
+        ++at_;
+    }
+    cells_.push_back(text_.substr(start, at_ - start));
+    return pass_separator();
+}
+
+bool CsvReader::read_quoted_cell(std::size_t start) {
+    std::string& cell = unquoted_.emplace_back();
+    bool quoted = false;
+    for (at_ = start; at_ < text_.size(); ++at_) {
+        const char letter = text_[at_];
+        if (!quoted && (letter == ',' || letter == '\n')) break;
+        if (letter != '"') {
+            cell += letter;
+        } else if (quoted && at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
+            cell += text_[++at_];
+        } else {
+            quoted = !quoted;
+        }
+    }
+    if (quoted) throw std::runtime_error("a quote does not end");
+    cells_.emplace_back(cell);
+    return pass_separator();
+}
+
+bool CsvReader::pass_separator() {
+    if (at_ >= text_.size()) return false;
+    return text_[at_++] == ',';
+}
+
 }  // namespace clearway::core

@@ -1,11 +1,93 @@
 #pragma once
 
+#include <charconv>
+#include <deque>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/json.hpp"
 
 namespace clearway::core {
 
 /// Text as a cell of a CSV file (RFC 4180): quoted only where it must be.
 std::string csv_text(std::string_view text);
+
+/// Shortest decimal text that reads back as the same number.
+template <class Value>
+std::string csv_cell(const Value& value) {
+    if constexpr (OptionalValue<Value>::value) {
+        return value ? csv_cell(*value) : std::string();
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        return fmt::format("{}", value);
+    } else {
+        return csv_text(value);
+    }
+}
+
+/// `,name` for every member of a field table.
+template <class Struct>
+void append_header(std::string& line) {
+    for_each_field<Struct>([&](const auto& field) { line += fmt::format(",{}", field.name); });
+}
+
+/// `,value` for every member of a field table; nothing after the comma for an empty optional.
+template <class Struct>
+void append_cells(std::string& line, const Struct& source) {
+    for_each_field<Struct>([&](const auto& field) { line += "," + csv_cell(source.*field.member); });
+}
+
+/// As many commas as `append_cells` would write.
+template <class Struct>
+void append_empty_cells(std::string& line) {
+    for_each_field<Struct>([&](const auto&) { line += ","; });
+}
+
+/// Takes a CSV text apart, row by row, copying nothing but quoted cells: reading runs is most of what a
+/// report of many takes. The text outlives the reader.
+class CsvReader {
+  public:
+    explicit CsvReader(std::string_view text) : text_(text) {}
+
+    /// Goes to the next row; false at the end. Throws std::runtime_error for a quote that does not end.
+    bool next();
+    /// The cells of the row, valid until the next one; at least one.
+    const std::vector<std::string_view>& cells() const { return cells_; }
+
+  private:
+    /// These answer whether the row goes on.
+    bool read_cell();
+    bool read_quoted_cell(std::size_t start);
+    bool pass_separator();
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::vector<std::string_view> cells_;
+    std::deque<std::string> unquoted_;  ///< What `cells_` refers to where quotes were taken off.
+};
+
+/// The opposite of `csv_cell`. Throws std::runtime_error for text that is no such value.
+template <class Value>
+void read_cell(std::string_view cell, Value& target) {
+    if constexpr (OptionalValue<Value>::value) {
+        if (cell.empty()) {
+            target = std::nullopt;
+        } else {
+            target.emplace();
+            read_cell(cell, *target);
+        }
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), target);
+        if (error != std::errc() || end != cell.data() + cell.size())
+            throw std::runtime_error(fmt::format("\"{}\" is not a number", cell));
+    } else {
+        target = cell;
+    }
+}
 
 }  // namespace clearway::core

@@ -30,6 +30,10 @@ using Metres = Quantity<struct MetresTag>;
 using Seconds = Quantity<struct SecondsTag>;
 using MetresPerSecond = Quantity<struct MetresPerSecondTag>;
 
+/// Two times that differ by less are one moment, s. SUMO's clock counts milliseconds; times are sums of steps
+/// and carry rounding errors, which stay far below half of one.
+inline constexpr double clock_tolerance_s = 0.0005;
+
 constexpr MetresPerSecond from_kmh(double kilometres_per_hour) {
     return MetresPerSecond(kilometres_per_hour / 3.6);
 }

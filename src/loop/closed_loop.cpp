@@ -14,10 +14,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Half a millisecond, the resolution of SUMO's clock: times are sums of steps and carry rounding errors
-/// below it.
-constexpr double time_tolerance_s = 0.0005;
-
 }  // namespace
 
 void ClosedLoop::begin(Machinery machinery, const LoopConfig& config) {
@@ -32,7 +28,8 @@ void ClosedLoop::warm_up(core::Seconds end, core::Seconds step_length) {
 }
 
 void ClosedLoop::run(core::Seconds horizon) {
-    while (session_.expected_vehicles() > 0 && session_.time().value < horizon.value - time_tolerance_s)
+    while (session_.expected_vehicles() > 0 &&
+           session_.time().value < horizon.value - core::clock_tolerance_s)
         step();
 }
 

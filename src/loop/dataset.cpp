@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "loop/detail/work_folder.hpp"
+#include "core/temporary_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "samples/recorders.hpp"
 #include "trace/listeners.hpp"
@@ -110,7 +110,7 @@ void record_pair_samples(const experiment::DatasetJob& job, UnitRun& run, const 
 
 core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     core::make_folder(job.output);
-    const detail::WorkFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
+    const core::TemporaryFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
     UnitRun run(job, work.path());
     graph::LinkRules rules;
     rules.radius_m = LoopConfig{}.link_radius_m;

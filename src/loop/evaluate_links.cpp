@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/temporary_folder.hpp"
 #include "links/link_evaluation.hpp"
-#include "loop/detail/work_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -81,7 +81,7 @@ void write_results(const experiment::LinkJob& job, const std::string& configurat
 }  // namespace
 
 core::ExitCode evaluate_links(const experiment::LinkJob& job) {
-    const detail::WorkFolder work(job.work_folder);
+    const core::TemporaryFolder work(job.work_folder);
     UnitRun run(job, work.path());
     graph::LinkRules rules;
     rules.radius_m = experiment::LoopConfig{}.link_radius_m;

@@ -38,11 +38,11 @@ class DemandReader {
   private:
     void take_parameter(std::string_view key, std::string_view value) {
         if (key == traffic::class_parameter) {
-            const auto vehicle_class = traffic::vehicle_class_from(value);
+            const auto vehicle_class = core::value_from<traffic::VehicleClass>(value);
             if (!vehicle_class) throw std::invalid_argument(fmt::format("{}: unknown class", value));
             type_->vehicle_class = *vehicle_class;
         } else if (key == traffic::kind_parameter) {
-            const auto kind = traffic::vehicle_kind_from(value);
+            const auto kind = core::value_from<traffic::VehicleKind>(value);
             if (!kind) throw std::invalid_argument(fmt::format("{}: unknown kind", value));
             type_->kind = *kind;
         }

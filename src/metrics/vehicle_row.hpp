@@ -10,6 +10,7 @@
 
 #include "core/fields.hpp"
 #include "core/ids.hpp"
+#include "core/spellings.hpp"
 #include "traffic/vehicle.hpp"
 
 namespace clearway::metrics {
@@ -22,13 +23,14 @@ enum class VehicleOutcome : std::uint8_t {
     not_inserted,    ///< Never found room to depart.
     removed,         ///< Gone without arriving.
 };
-inline constexpr std::array vehicle_outcomes = {VehicleOutcome::arrived, VehicleOutcome::running_at_end,
-                                                VehicleOutcome::teleported, VehicleOutcome::not_inserted,
-                                                VehicleOutcome::removed};
-
-/// `arrived`, `running_at_end`, ...
-std::string_view name(VehicleOutcome outcome);
-std::optional<VehicleOutcome> vehicle_outcome_from(std::string_view word);
+constexpr core::Spellings<VehicleOutcome, 5> spellings(VehicleOutcome) {
+    return {{{VehicleOutcome::arrived, "arrived"},
+             {VehicleOutcome::running_at_end, "running_at_end"},
+             {VehicleOutcome::teleported, "teleported"},
+             {VehicleOutcome::not_inserted, "not_inserted"},
+             {VehicleOutcome::removed, "removed"}}};
+}
+using core::name;
 
 /// One vehicle of a run, from SUMO's tripinfo. Times of a vehicle that did not arrive are those up to its
 /// last moment on the road, so lower bounds; a vehicle that was not inserted has none.

@@ -6,14 +6,6 @@
 #include "sensing/failure_config.hpp"
 
 namespace clearway::pipeline {
-namespace {
-
-/// Half a millisecond, the resolution of SUMO's clock: times are sums of steps and carry rounding errors
-/// below it.
-constexpr double time_tolerance_s = 0.0005;
-
-}  // namespace
-
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : period_s_(context.policy_period_s) {
     graph::LinkRules rules;
@@ -35,12 +27,13 @@ void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Rost
 }
 
 bool DecisionChain::decision_is_due() const {
-    return observation_.time.value + time_tolerance_s >= static_cast<double>(decisions_) * period_s_;
+    return observation_.time.value + core::clock_tolerance_s >= static_cast<double>(decisions_) * period_s_;
 }
 
 void DecisionChain::decide() {
-    decisions_ =
-        static_cast<std::uint64_t>(std::floor((observation_.time.value + time_tolerance_s) / period_s_)) + 1;
+    decisions_ = static_cast<std::uint64_t>(
+                     std::floor((observation_.time.value + core::clock_tolerance_s) / period_s_)) +
+                 1;
     predictor_->predict(observation_, belief_);
     for (const auto& policy : policies_) {
         policy->act(belief_, leases_);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 #include "experiment/condition.hpp"
 #include "experiment/run_key.hpp"
 #include "metrics/run_metrics.hpp"
@@ -61,10 +62,19 @@ enum class FailureCause : std::uint8_t {
     bad_input,   ///< The scenario does not work out; never tried again.
     other,
 };
-std::string_view name(FailureCause cause);
-std::optional<FailureCause> failure_cause_from(std::string_view word);
+constexpr core::Spellings<FailureCause, 6> spellings(FailureCause) {
+    return {{{FailureCause::simulator, "simulator"},
+             {FailureCause::signal, "signal"},
+             {FailureCause::time_limit, "time_limit"},
+             {FailureCause::memory, "memory"},
+             {FailureCause::bad_input, "bad_input"},
+             {FailureCause::other, "other"}}};
+}
+using core::name;
 /// Whether another attempt could end differently: signals and time limits.
-bool worth_retrying(FailureCause cause);
+constexpr bool worth_retrying(FailureCause cause) {
+    return cause == FailureCause::signal || cause == FailureCause::time_limit;
+}
 
 /// A run that ended without a record.
 struct FailureRecord {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 
 namespace clearway::results {
 namespace {

@@ -1,69 +1,45 @@
 #include "results/table_reader.hpp"
 
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sqlite3.h>
 
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "results/detail/sqlite.hpp"
 
 namespace clearway::results {
 namespace {
 
-struct CloseDatabase {
-    void operator()(sqlite3* database) const { sqlite3_close(database); }
-};
-struct FinishStatement {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-};
+using detail::Database;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+    throw core::InputError({file.string(), what, "a database that this version wrote",
+                            "Remove it; `clearway report` on the folder writes it again from its runs"});
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
+    refuse(file, code == SQLITE_CANTOPEN ? "cannot be read" : reason);
+}
+
+std::string text_at(sqlite3_stmt* row, int column) {
+    const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+    return {text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
+}
 
 /// `results.sqlite` of a run folder, read only and of this version.
-class Database {
-  public:
-    explicit Database(const Store& store) : file_(store.folder() / "results.sqlite") {
-        sqlite3* opened = nullptr;
-        const int code = sqlite3_open_v2(file_.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
-        handle_.reset(opened);
-        if (code != SQLITE_OK) refuse("cannot be read");
-        std::string format;
-        for_each_row("SELECT value FROM study WHERE key = 'format'",
-                     [&](sqlite3_stmt* row) { format = text_at(row, 0); });
-        if (format != fmt::format("{}", store.manifest().format))
-            refuse(
-                fmt::format("is of another version: format \"{}\", not {}", format, store.manifest().format));
-    }
-
-    /// Calls `visit` with the statement at each row.
-    template <class Visit>
-    void for_each_row(const std::string& sql, Visit&& visit) const {
-        sqlite3_stmt* prepared = nullptr;
-        const int code = sqlite3_prepare_v2(handle_.get(), sql.c_str(), -1, &prepared, nullptr);
-        const std::unique_ptr<sqlite3_stmt, FinishStatement> statement(prepared);
-        if (code != SQLITE_OK) refuse(sqlite3_errmsg(handle_.get()));
-        int step = SQLITE_ROW;
-        while ((step = sqlite3_step(prepared)) == SQLITE_ROW)
-            visit(prepared);
-        if (step != SQLITE_DONE) refuse(sqlite3_errmsg(handle_.get()));
-    }
-
-    static std::string text_at(sqlite3_stmt* row, int column) {
-        const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-        return {text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
-    }
-
-  private:
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw core::InputError({file_.string(), what, "a database that this version wrote",
-                                "Remove it; `clearway report` on the folder writes it again from its runs"});
-    }
-
-    std::filesystem::path file_;
-    std::unique_ptr<sqlite3, CloseDatabase> handle_;
-};
+Database open_database(const Store& store) {
+    Database database(store.folder() / "results.sqlite", SQLITE_OPEN_READONLY, fail);
+    std::string format;
+    database.for_each_row("SELECT value FROM study WHERE key = 'format'",
+                          [&](sqlite3_stmt* row) { format = text_at(row, 0); });
+    if (format != fmt::format("{}", store.manifest().format))
+        refuse(database.file(),
+               fmt::format("is of another version: format \"{}\", not {}", format, store.manifest().format));
+    return database;
+}
 
 std::uint64_t count_of(const Database& database, const std::string& sql) {
     std::uint64_t count = 0;
@@ -75,7 +51,7 @@ std::uint64_t count_of(const Database& database, const std::string& sql) {
 std::vector<std::string> names_in(const Database& database) {
     std::vector<std::string> names;
     database.for_each_row("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name",
-                          [&](sqlite3_stmt* row) { names.push_back(Database::text_at(row, 0)); });
+                          [&](sqlite3_stmt* row) { names.push_back(text_at(row, 0)); });
     return names;
 }
 
@@ -90,7 +66,7 @@ std::string csv_cell_at(sqlite3_stmt* row, int column) {
         case SQLITE_FLOAT:
             return fmt::format("{}", sqlite3_column_double(row, column));
         default:
-            return core::csv_text(Database::text_at(row, column));
+            return core::csv_text(text_at(row, column));
     }
 }
 
@@ -103,7 +79,7 @@ core::Json json_at(sqlite3_stmt* row, int column) {
         case SQLITE_FLOAT:
             return sqlite3_column_double(row, column);
         default:
-            return Database::text_at(row, column);
+            return text_at(row, column);
     }
 }
 
@@ -139,7 +115,7 @@ void print_json(const Database& database, const std::string& table, std::ostream
 
 bool tables_are_current(const Store& store) {
     if (!std::filesystem::exists(store.folder() / "results.sqlite")) return false;
-    const Database database(store);
+    const Database database = open_database(store);
     std::uint64_t complete = 0;
     std::uint64_t failed = 0;
     for (const experiment::RunKey& key : store.manifest().runs()) {
@@ -154,11 +130,11 @@ bool tables_are_current(const Store& store) {
 }
 
 std::vector<std::string> table_names(const Store& store) {
-    return names_in(Database(store));
+    return names_in(open_database(store));
 }
 
 void print_table(const Store& store, const std::string& table, TableFormat format, std::ostream& out) {
-    const Database database(store);
+    const Database database = open_database(store);
     const std::vector<std::string> known = names_in(database);
     if (std::ranges::find(known, table) == known.end()) {
         throw core::InputError({"table",

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/table_writer.hpp"

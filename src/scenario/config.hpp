@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 #include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
 #include "traffic/siren.hpp"
@@ -36,36 +37,28 @@ enum class TripEnds { connected, reachable };
 enum class DemandKind { flows, trips, measured };
 
 /// Spelling of each enumerator in files and on the command line.
-template <class Enum>
-using Spelling = std::pair<Enum, const char*>;
-constexpr auto spellings(IdmPreset) {
-    return std::array{Spelling<IdmPreset>{IdmPreset::sumo, "sumo"},
-                      Spelling<IdmPreset>{IdmPreset::treiber, "treiber"}};
+constexpr core::Spellings<IdmPreset, 2> spellings(IdmPreset) {
+    return {{{IdmPreset::sumo, "sumo"}, {IdmPreset::treiber, "treiber"}}};
 }
-constexpr auto spellings(Restriction) {
-    return std::array{Spelling<Restriction>{Restriction::none, "none"},
-                      Spelling<Restriction>{Restriction::largest_car_component, "largest_car_component"}};
+constexpr core::Spellings<Restriction, 2> spellings(Restriction) {
+    return {{{Restriction::none, "none"}, {Restriction::largest_car_component, "largest_car_component"}}};
 }
-constexpr auto spellings(TripEnds) {
-    return std::array{Spelling<TripEnds>{TripEnds::connected, "connected"},
-                      Spelling<TripEnds>{TripEnds::reachable, "reachable"}};
+constexpr core::Spellings<TripEnds, 2> spellings(TripEnds) {
+    return {{{TripEnds::connected, "connected"}, {TripEnds::reachable, "reachable"}}};
 }
-constexpr auto spellings(Access) {
-    return std::array{Spelling<Access>{Access::own, "own"},
-                      Spelling<Access>{Access::unrestricted, "unrestricted"}};
+constexpr core::Spellings<Access, 2> spellings(Access) {
+    return {{{Access::own, "own"}, {Access::unrestricted, "unrestricted"}}};
 }
-constexpr auto spellings(CarFollowing) {
-    return std::array{Spelling<CarFollowing>{CarFollowing::own, "own"},
-                      Spelling<CarFollowing>{CarFollowing::idm, "idm"}};
+constexpr core::Spellings<CarFollowing, 2> spellings(CarFollowing) {
+    return {{{CarFollowing::own, "own"}, {CarFollowing::idm, "idm"}}};
 }
-constexpr auto spellings(Crossings) {
-    return std::array{Spelling<Crossings>{Crossings::signals, "signals"},
-                      Spelling<Crossings>{Crossings::all, "all"}};
+constexpr core::Spellings<Crossings, 2> spellings(Crossings) {
+    return {{{Crossings::signals, "signals"}, {Crossings::all, "all"}}};
 }
-constexpr auto spellings(SiteKind) {
-    return std::array{Spelling<SiteKind>{SiteKind::hospital, "hospital"},
-                      Spelling<SiteKind>{SiteKind::ambulance_station, "ambulance_station"},
-                      Spelling<SiteKind>{SiteKind::fire_station, "fire_station"}};
+constexpr core::Spellings<SiteKind, 3> spellings(SiteKind) {
+    return {{{SiteKind::hospital, "hospital"},
+             {SiteKind::ambulance_station, "ambulance_station"},
+             {SiteKind::fire_station, "fire_station"}}};
 }
 
 /// Table `[network]`: plain XML files for netconvert, or a network file to import. Paths are relative to the

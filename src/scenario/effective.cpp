@@ -20,7 +20,7 @@ std::string value_text(const Member& value) {
     if constexpr (std::is_same_v<Member, std::string>) {
         return detail::quoted(value);
     } else if constexpr (std::is_enum_v<Member>) {
-        return detail::quoted(detail::spelling(value));
+        return detail::quoted(std::string(core::name(value)));
     } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
         return fmt::format("{}", *value);
     } else {

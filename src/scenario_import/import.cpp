@@ -12,17 +12,19 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "core/temporary_folder.hpp"
 #include "roads/crossings.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/picture.hpp"
-#include "scenario_import/detail/configuration.hpp"
 #include "scenario_import/detail/context.hpp"
-#include "scenario_import/detail/driving_side.hpp"
-#include "scenario_import/detail/map.hpp"
 #include "scenario_import/detail/source.hpp"
-#include "scenario_import/detail/sumo_demand.hpp"
 #include "scenario_import/detail/survey.hpp"
 #include "scenario_import/detail/synthetic_demand.hpp"
+#include "scenario_import/osm/driving_side.hpp"
+#include "scenario_import/osm/map.hpp"
+#include "scenario_import/osm/sites.hpp"
+#include "scenario_import/sumo/configuration.hpp"
+#include "scenario_import/sumo/demand.hpp"
 
 namespace clearway::scenario_import {
 
@@ -39,24 +41,6 @@ struct Sources {
     std::vector<std::filesystem::path> maps;
     std::optional<std::filesystem::path> network;
     SumoFiles demand;
-};
-
-/// A folder beside the scenario's that is removed at the end, whatever happens.
-class AsideFolder {
-  public:
-    explicit AsideFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-        std::filesystem::remove_all(folder_);
-    }
-    ~AsideFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    AsideFolder(const AsideFolder&) = delete;
-    AsideFolder& operator=(const AsideFolder&) = delete;
-    const std::filesystem::path& path() const { return folder_; }
-
-  private:
-    std::filesystem::path folder_;
 };
 
 void check_folder(const std::filesystem::path& folder) {
@@ -304,8 +288,10 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     const std::filesystem::path folder = std::filesystem::absolute(request.folder).lexically_normal();
     check_folder(folder);
     core::make_folder(folder.parent_path());
-    const AsideFolder aside(folder.parent_path() /
-                            fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid()));
+    const std::filesystem::path beside =
+        folder.parent_path() / fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid());
+    std::filesystem::remove_all(beside);
+    const core::TemporaryFolder aside(beside);
     ImportRequest settled = request;
     settled.folder = folder;
     Import import{settled, on_progress, aside.path() / "scenario", aside.path() / "work"};

@@ -130,15 +130,10 @@ std::optional<std::string> set(double& value, std::string_view text) {
 }
 template <class Enum>
 std::optional<std::string> set(Enum& value, std::string_view text) {
-    std::string allowed;
-    for (const auto& [enumerator, spelling] : spellings(Enum{})) {
-        if (text == spelling) {
-            value = enumerator;
-            return std::nullopt;
-        }
-        allowed += (allowed.empty() ? "" : ", ") + std::string(spelling);
-    }
-    return allowed;
+    const auto known = core::value_from<Enum>(text);
+    if (!known) return core::spelling_list<Enum>();
+    value = *known;
+    return std::nullopt;
 }
 
 core::Problem unknown(std::string_view what, std::string_view name, const std::vector<std::string>& known) {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::sensing {
 
@@ -22,16 +23,16 @@ enum class Occlusion { ignored, considered };
 enum class DarkCommands { received, lost };
 
 /// Spelling of each enumerator in files and on the command line.
-constexpr std::array<std::pair<Detection, const char*>, 2> spellings(Detection) {
+constexpr core::Spellings<Detection, 2> spellings(Detection) {
     return {{{Detection::presence, "presence"}, {Detection::range, "range"}}};
 }
-constexpr std::array<std::pair<Exits, const char*>, 2> spellings(Exits) {
+constexpr core::Spellings<Exits, 2> spellings(Exits) {
     return {{{Exits::known, "known"}, {Exits::unknown, "unknown"}}};
 }
-constexpr std::array<std::pair<Occlusion, const char*>, 2> spellings(Occlusion) {
+constexpr core::Spellings<Occlusion, 2> spellings(Occlusion) {
     return {{{Occlusion::ignored, "ignored"}, {Occlusion::considered, "considered"}}};
 }
-constexpr std::array<std::pair<DarkCommands, const char*>, 2> spellings(DarkCommands) {
+constexpr core::Spellings<DarkCommands, 2> spellings(DarkCommands) {
     return {{{DarkCommands::received, "received"}, {DarkCommands::lost, "lost"}}};
 }
 

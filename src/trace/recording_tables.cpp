@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 
 namespace clearway::trace {
 namespace {

@@ -1,47 +1,10 @@
 #include "traffic/vehicle.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "core/random.hpp"
 
 namespace clearway::traffic {
-namespace {
-
-constexpr std::array<std::string_view, 3> class_names = {"human", "automated", "emergency"};
-constexpr std::array<std::string_view, 3> class_short_names = {"HV", "AV", "EV"};
-constexpr std::array<std::string_view, 8> kind_names = {"car",       "van",         "truck",      "bus",
-                                                        "ambulance", "fire_engine", "police_car", "other"};
-
-template <class Enum, std::size_t N>
-std::optional<Enum> find_name(const std::array<std::string_view, N>& names, std::string_view name) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) return std::nullopt;
-    return static_cast<Enum>(found - names.begin());
-}
-
-}  // namespace
-
-std::string_view name(VehicleClass vehicle_class) {
-    return class_names[static_cast<std::size_t>(vehicle_class)];
-}
-
-std::string_view short_name(VehicleClass vehicle_class) {
-    return class_short_names[static_cast<std::size_t>(vehicle_class)];
-}
-
-std::string_view name(VehicleKind kind) {
-    return kind_names[static_cast<std::size_t>(kind)];
-}
-
-std::optional<VehicleClass> vehicle_class_from(std::string_view name) {
-    return find_name<VehicleClass>(class_names, name);
-}
-
-std::optional<VehicleKind> vehicle_kind_from(std::string_view name) {
-    return find_name<VehicleKind>(kind_names, name);
-}
-
 void Roster::add(VehicleInfo vehicle) {
     const auto [entry, is_new] =
         row_of_.try_emplace(vehicle.key, static_cast<std::uint32_t>(vehicles_.size()));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::traffic {
 
@@ -20,13 +21,22 @@ inline constexpr std::array vehicle_classes = {VehicleClass::human, VehicleClass
 /// What a vehicle is, hence its size and dynamics.
 enum class VehicleKind : std::uint8_t { car, van, truck, bus, ambulance, fire_engine, police_car, other };
 
-/// `human`, `automated`, `emergency`.
-std::string_view name(VehicleClass vehicle_class);
-/// `HV`, `AV`, `EV`, as the dissertation and tables write it.
-std::string_view short_name(VehicleClass vehicle_class);
-std::string_view name(VehicleKind kind);
-std::optional<VehicleClass> vehicle_class_from(std::string_view name);
-std::optional<VehicleKind> vehicle_kind_from(std::string_view name);
+constexpr core::Spellings<VehicleClass, 3> spellings(VehicleClass) {
+    return {{{VehicleClass::human, "human"},
+             {VehicleClass::automated, "automated"},
+             {VehicleClass::emergency, "emergency"}}};
+}
+constexpr core::Spellings<VehicleKind, 8> spellings(VehicleKind) {
+    return {{{VehicleKind::car, "car"},
+             {VehicleKind::van, "van"},
+             {VehicleKind::truck, "truck"},
+             {VehicleKind::bus, "bus"},
+             {VehicleKind::ambulance, "ambulance"},
+             {VehicleKind::fire_engine, "fire_engine"},
+             {VehicleKind::police_car, "police_car"},
+             {VehicleKind::other, "other"}}};
+}
+using core::name;
 
 /// What is constant about a vehicle during a run, as its registration would tell.
 struct VehicleInfo {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 #include "metrics/link_quality.hpp"
 #include "samples/repair_sample.hpp"
 #include "training/seeds.hpp"
@@ -80,7 +81,7 @@ struct RepairConfig {
     /// Whether the program can run the net.
     bool is_whole() const;
 };
-constexpr std::array<std::pair<MessageEdges, const char*>, 2> spellings(MessageEdges) {
+constexpr core::Spellings<MessageEdges, 2> spellings(MessageEdges) {
     return {{{MessageEdges::believed, "believed"}, {MessageEdges::observed, "observed"}}};
 }
 

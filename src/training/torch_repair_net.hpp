@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 #include "prediction/repair_net.hpp"
 #include "training/repair_batch.hpp"
 #include "training/torch_net.hpp"
@@ -19,7 +20,7 @@ enum class Aggregation : std::uint8_t {
     gcn,    ///< Kipf and Welling 2017: sum over sources, by the roots of both degrees; blind to edges.
     gat,    ///< Brody et al. 2022 (GATv2), one head; edges speak in the attention alone.
 };
-constexpr std::array<std::pair<Aggregation, const char*>, 4> spellings(Aggregation) {
+constexpr core::Spellings<Aggregation, 4> spellings(Aggregation) {
     return {{{Aggregation::gated, "gated"},
              {Aggregation::mean, "mean"},
              {Aggregation::gcn, "gcn"},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "core/temporary_folder.hpp"
 #include "experiment/job.hpp"
 #include "results/store.hpp"
 #include "scenario/config.hpp"
@@ -17,9 +18,7 @@ class StudyFolder {
   public:
     StudyFolder(const std::string& scenario, const scenario::Options& options,
                 std::vector<experiment::ConditionSpec> conditions)
-        : folder_(make_temporary()),
-          config_(scenario::load(scenario, options)),
-          conditions_(std::move(conditions)) {
+        : config_(scenario::load(scenario, options)), conditions_(std::move(conditions)) {
         results::Manifest manifest;
         manifest.study = "test";
         manifest.clearway_version = "test";
@@ -32,17 +31,14 @@ class StudyFolder {
                                       .configuration = scenario::to_toml(config_),
                                       .configuration_hash = scenario::scenario_hash(config_),
                                       .attribution = {}});
-        const results::Store store = results::Store::create(folder_, manifest);
+        const results::Store store = results::Store::create(folder_.path(), manifest);
         const std::filesystem::path home = store.scenario_folder(config_.name);
         scenario::store(config_, home);
         scenario::build_network(config_, home);
     }
-    ~StudyFolder() { std::filesystem::remove_all(folder_); }
-    StudyFolder(const StudyFolder&) = delete;
-    StudyFolder& operator=(const StudyFolder&) = delete;
 
-    results::Store store() const { return results::Store::open(folder_); }
-    const std::filesystem::path& path() const { return folder_; }
+    results::Store store() const { return results::Store::open(folder_.path()); }
+    const std::filesystem::path& path() const { return folder_.path(); }
 
     experiment::RunJob unit(std::uint32_t replication,
                             experiment::Engine engine = experiment::Engine::standard) const {
@@ -52,7 +48,7 @@ class StudyFolder {
         unit.network_folder = store().scenario_folder(config_.name);
         unit.replication = replication;
         unit.engine = engine;
-        unit.output = folder_;
+        unit.output = folder_.path();
         for (const experiment::ConditionSpec& condition : conditions_) {
             if (condition.engine == engine) unit.conditions.push_back(condition);
         }
@@ -61,20 +57,15 @@ class StudyFolder {
 
     /// Writes the unit's file and tells where it is.
     std::filesystem::path write(const experiment::RunJob& unit) const {
-        const std::filesystem::path file = folder_ / ("unit-" + std::to_string(unit.replication) + "-" +
-                                                      std::string(experiment::name(unit.engine)) + ".json");
+        const std::filesystem::path file =
+            folder_.path() / ("unit-" + std::to_string(unit.replication) + "-" +
+                              std::string(experiment::name(unit.engine)) + ".json");
         core::write_atomically(file, experiment::to_json(unit));
         return file;
     }
 
   private:
-    static std::filesystem::path make_temporary() {
-        std::string folder = (std::filesystem::temp_directory_path() / "clearway-loop-XXXXXX").string();
-        if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        return folder;
-    }
-
-    std::filesystem::path folder_;
+    core::TemporaryFolder folder_;
     scenario::ScenarioConfig config_;
     std::vector<experiment::ConditionSpec> conditions_;
 };

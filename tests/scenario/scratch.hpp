@@ -2,12 +2,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace clearway::scenario {
 
@@ -17,17 +17,12 @@ class ScratchTest : public ::testing::Test {
     void SetUp() override {
         setenv("SUMO_HOME", "/usr/share/sumo", 0);
         setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);
-        std::string pattern = (std::filesystem::temp_directory_path() / "scenario_test.XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-        return folder_ / name;
+        return folder_.write(name, text);
     }
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
 
     /// The problems that `action` reports; fails when it reports none.
     template <class Action>
@@ -42,7 +37,7 @@ class ScratchTest : public ::testing::Test {
     }
 
   private:
-    std::filesystem::path folder_;
+    support::TemporaryFolder folder_;
 };
 
 /// A straight road of two edges, one lane each, and a side road that nothing leads to.

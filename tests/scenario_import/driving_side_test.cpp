@@ -1,5 +1,5 @@
 // On which side traffic drives in a map: by its tags, else by the country.
-#include "scenario_import/detail/driving_side.hpp"
+#include "scenario_import/osm/driving_side.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,8 +6,8 @@
 #include "roads/geography.hpp"
 #include "roads/network.hpp"
 #include "scenario/prepare.hpp"
-#include "scenario_import/detail/driving_side.hpp"
-#include "scenario_import/detail/map_contents.hpp"
+#include "scenario_import/osm/driving_side.hpp"
+#include "scenario_import/osm/map_contents.hpp"
 #include "town.hpp"
 
 namespace clearway::scenario_import {

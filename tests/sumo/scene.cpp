@@ -40,21 +40,8 @@ std::string edge(const std::string& id, const std::string& from, const std::stri
 
 }  // namespace
 
-Scene::Scene() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              fmt::format("clearway-{}-{}-{}", test->test_suite_name(), test->name(), ::getpid());
-    std::filesystem::create_directories(folder_);
-}
-
-Scene::~Scene() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
 std::filesystem::path Scene::write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    return folder_.write(name, text);
 }
 
 std::filesystem::path Scene::straight_road() const {
@@ -63,8 +50,8 @@ std::filesystem::path Scene::straight_road() const {
                               R"(<node id="e" x="1000" y="0"/></nodes>)");
     const auto edges =
         write("road.edg.xml", "<edges>" + edge("in", "w", "m") + edge("out", "m", "e") + "</edges>");
-    netconvert(nodes, edges, folder_ / "road.net.xml");
-    return folder_ / "road.net.xml";
+    netconvert(nodes, edges, folder() / "road.net.xml");
+    return folder() / "road.net.xml";
 }
 
 std::filesystem::path Scene::crossing() const {
@@ -77,8 +64,8 @@ std::filesystem::path Scene::crossing() const {
         edges += edge(arm + "_in", arm, "c") + edge(arm + "_out", "c", arm);
     }
     netconvert(nodes, write("crossing.edg.xml", "<edges>" + edges + "</edges>"),
-               folder_ / "crossing.net.xml");
-    return folder_ / "crossing.net.xml";
+               folder() / "crossing.net.xml");
+    return folder() / "crossing.net.xml";
 }
 
 std::filesystem::path Scene::types() const {
@@ -101,7 +88,7 @@ sumo::SessionConfig Scene::config(const std::filesystem::path& network, const st
     config.network = network;
     config.additional_files = {types()};
     config.route_files = {routes(vehicles)};
-    config.folder = folder_ / "run";
+    config.folder = folder() / "run";
     config.names = read_names(network);
     return config;
 }

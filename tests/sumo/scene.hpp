@@ -6,18 +6,14 @@
 
 #include "core/ids.hpp"
 #include "sumo/session.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace clearway::test {
 
 /// A folder of its own for the running test, empty at first and removed with the object.
 class Scene {
   public:
-    Scene();
-    ~Scene();
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
-
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
     /// Writes a text file and gives its path.
     std::filesystem::path write(const std::string& name, const std::string& text) const;
 
@@ -34,7 +30,7 @@ class Scene {
     sumo::SessionConfig config(const std::filesystem::path& network, const std::string& vehicles) const;
 
   private:
-    std::filesystem::path folder_;
+    support::TemporaryFolder folder_;
 };
 
 /// The names in a network file, in the order of the file.

@@ -58,7 +58,6 @@ class LeaseQueue {
     std::list<HeldLease> held_;
 };
 
-/// Expiries are compared with this tolerance, because step times are sums of decimal fractions.
-inline constexpr double time_tolerance_s = 1e-6;
+inline constexpr double time_tolerance_s = core::clock_tolerance_s;
 
 }  // namespace clearway::actuation::detail

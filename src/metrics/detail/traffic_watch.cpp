@@ -17,7 +17,6 @@ constexpr double first_offset_s = -60.0;
 constexpr double last_offset_s = 240.0;
 constexpr double place_period_s = 1.0;
 constexpr double place_tolerance_m = 2.0;  // half a car: not to be seen in a figure of some km
-constexpr double clock_tolerance_s = 0.0005;
 
 std::size_t column_of(VehicleClass vehicle_class) {
     return vehicle_class == VehicleClass::automated ? 1 : 0;
@@ -118,7 +117,7 @@ void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, const std::ve
 void TrafficWatch::sample_halted(double time_s) {
     if (samples_.empty()) first_sample_s_ = time_s;
     const double due_s = first_sample_s_ + static_cast<double>(samples_.size()) * sample_period_s;
-    if (time_s + clock_tolerance_s >= due_s) samples_.push_back(halted_);
+    if (time_s + core::clock_tolerance_s >= due_s) samples_.push_back(halted_);
 }
 
 void TrafficWatch::follow(const truth::Snapshot& snapshot) {
@@ -141,7 +140,8 @@ void TrafficWatch::follow(const truth::Snapshot& snapshot, std::size_t row, cons
     double distance_m = route.edge_start_m[edge] + static_cast<double>(snapshot.lane_position_m[row]);
     if (inside) distance_m += route.edge_length_m[edge];
     if (!journey.places.empty()) distance_m = std::max(distance_m, journey.places.back().distance_m);
-    if (journey.places.empty() || now_s + clock_tolerance_s >= journey.places.back().time_s + place_period_s)
+    if (journey.places.empty() ||
+        now_s + core::clock_tolerance_s >= journey.places.back().time_s + place_period_s)
         journey.places.push_back({now_s, distance_m});
     journey.shown.resize(route.signals.size(), '-');
     for (std::uint32_t number = 0; number < route.signals.size(); ++number) {

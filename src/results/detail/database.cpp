@@ -5,53 +5,22 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "results/detail/sqlite.hpp"
 
 namespace clearway::results::detail {
 namespace {
 
-struct CloseDatabase {
-    void operator()(sqlite3* database) const { sqlite3_close(database); }
-};
-struct FinishStatement {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-};
-using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
-
-/// An SQLite file that is being written.
-class Database {
-  public:
-    explicit Database(const std::filesystem::path& file) : file_(file) {
-        sqlite3* opened = nullptr;
-        const int code = sqlite3_open(file.c_str(), &opened);
-        handle_.reset(opened);
-        check(code);
-    }
-    void execute(const std::string& sql) {
-        check(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr));
-    }
-    Statement prepare(const std::string& sql) {
-        sqlite3_stmt* statement = nullptr;
-        check(sqlite3_prepare_v2(handle_.get(), sql.c_str(), -1, &statement, nullptr));
-        return Statement(statement);
-    }
-    void check(int code) {
-        if (code == SQLITE_OK || code == SQLITE_DONE) return;
-        throw core::EnvironmentError(fmt::format(
-            "{}: {}{}", file_.string(), handle_ ? sqlite3_errmsg(handle_.get()) : "no memory",
-            code == SQLITE_FULL ? ". Free some space there and give the same command again" : ""));
-    }
-
-  private:
-    std::filesystem::path file_;
-    std::unique_ptr<sqlite3, CloseDatabase> handle_;
-};
+[[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
+    throw core::EnvironmentError(
+        fmt::format("{}: {}{}", file.string(), reason,
+                    code == SQLITE_FULL ? ". Free some space there and give the same command again" : ""));
+}
 
 /// Fills one row after the other; values go to the columns in their order.
 class Inserter {
@@ -159,7 +128,7 @@ void create_tables(Database& database) {
 /// An empty database in which a study begins.
 Database begin_database(const std::filesystem::path& file, const Manifest& manifest) {
     std::filesystem::remove(file);
-    Database database(file);
+    Database database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, fail);
     // A damaged part is thrown away whole, so it needs no journal; the file is flushed once, at the end.
     database.execute("PRAGMA journal_mode = OFF");
     database.execute("BEGIN");

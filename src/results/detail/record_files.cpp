@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
@@ -46,9 +46,9 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
         core::read_cell(cells[column++], row.*field.member);
     });
     if (column != cells.size()) throw std::runtime_error("is too long");
-    const auto vehicle_class = traffic::vehicle_class_from(cells[1]);
-    const auto kind = traffic::vehicle_kind_from(cells[2]);
-    const auto outcome = metrics::vehicle_outcome_from(cells[3]);
+    const auto vehicle_class = core::value_from<traffic::VehicleClass>(cells[1]);
+    const auto kind = core::value_from<traffic::VehicleKind>(cells[2]);
+    const auto outcome = core::value_from<metrics::VehicleOutcome>(cells[3]);
     if (!vehicle_class || !kind || !outcome)
         throw std::runtime_error("has an unknown class, kind or outcome");
     row.id = cells[0];
@@ -175,7 +175,7 @@ FailureRecord failure_from_json(const std::string& text, const std::string& wher
     std::vector<core::Problem> problems;
     core::ObjectReader reader(object, where, problems);
     read_key(reader, failure.key);
-    reader.read_name("cause", failure.cause, failure_cause_from);
+    reader.read_name("cause", failure.cause, core::value_from<FailureCause>);
     reader.read("message", failure.message);
     reader.read("exit_code", failure.exit_code);
     reader.read("signal", failure.signal);

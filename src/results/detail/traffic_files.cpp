@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/csv_table.hpp"
+#include "core/csv.hpp"
 
 namespace clearway::results::detail {
 namespace {
@@ -25,7 +25,7 @@ std::string words_of(const JourneyRow& row) {
 using Cells = std::vector<std::string_view>;
 
 std::size_t read_words(const Cells& cells, ApproachRow& row) {
-    const auto vehicle_class = traffic::vehicle_class_from(cells.at(1));
+    const auto vehicle_class = core::value_from<traffic::VehicleClass>(cells.at(1));
     if (!vehicle_class) throw std::runtime_error(fmt::format("\"{}\" is no class", cells[1]));
     row.edge = cells[0];
     row.vehicle_class = *vehicle_class;

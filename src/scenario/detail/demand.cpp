@@ -51,7 +51,7 @@ VehicleKind pick_kind(const DemandContext& context, const std::string& id, const
     std::vector<VehicleKind> values;
     core::for_each_field<Kinds>([&](const auto& field) {
         weights.push_back(kinds.*field.member);
-        values.push_back(*traffic::vehicle_kind_from(field.name));
+        values.push_back(*core::value_from<traffic::VehicleKind>(field.name));
     });
     const double uniform =
         context.random.uniform(Purpose::vehicle_class, core::vehicle_key(id).value, ClassDraw::kind);
@@ -243,8 +243,8 @@ void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
             route_between(context, fmt::format("emergency_trip[{}]", row), trip.from, trip.to, problems);
         if (!route) continue;
         demand.emergency.push_back(plan_emergency(context, fmt::format("emergency.trip.{}", row),
-                                                  *traffic::vehicle_kind_from(trip.kind), trip.depart_s,
-                                                  *route));
+                                                  *core::value_from<traffic::VehicleKind>(trip.kind),
+                                                  trip.depart_s, *route));
     }
     if (!problems.empty()) throw core::InputError(problems);
 }

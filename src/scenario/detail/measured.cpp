@@ -95,8 +95,9 @@ class MeasuredReader {
 
     void set_type(pugi::xml_node vehicle, const MeasuredType& type, VehicleClass vehicle_class) const {
         const std::string id =
-            measured_.own_types ? own_type_id(vehicle_class, type.id)
-                                : type_id(vehicle_class, *traffic::vehicle_kind_from(type.kind), type.access);
+            measured_.own_types
+                ? own_type_id(vehicle_class, type.id)
+                : type_id(vehicle_class, *core::value_from<traffic::VehicleKind>(type.kind), type.access);
         vehicle.attribute("type").set_value(id.c_str());
     }
 

@@ -43,7 +43,8 @@ void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_k
     if (!own && listed.kind == "other") return;
     const double limit_mps = core::from_kmh(limit_kmh).value;
     const double fastest_mps =
-        own ? own.as_double() : properties(*traffic::vehicle_kind_from(listed.kind)).maximum_speed_mps;
+        own ? own.as_double()
+            : properties(*core::value_from<traffic::VehicleKind>(listed.kind)).maximum_speed_mps;
     set(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
 }
 
@@ -61,7 +62,7 @@ void scale(pugi::xml_node type, const char* name, double factor, double standard
 /// What is neither car, van, truck nor bus keeps its grip: SUMO's standards for it stand in no file.
 void feel_road(pugi::xml_node type, const MeasuredType& listed, const RoadCondition& road) {
     if (listed.kind == "other") return;
-    const KindProperties& kind = properties(*traffic::vehicle_kind_from(listed.kind));
+    const KindProperties& kind = properties(*core::value_from<traffic::VehicleKind>(listed.kind));
     if (road.friction != 1.0) {
         scale(type, "accel", road.friction, kind.acceleration_mps2);
         scale(type, "decel", road.friction, kind.deceleration_mps2);

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::scenario::detail {
 
@@ -32,22 +33,6 @@ struct Reading {
 
 /// `12`, `0.5`; never in exponent form for the sizes met here.
 std::string number_text(double value);
-
-/// The spellings of an enumeration, `a, b or c`.
-template <class Enum>
-std::string spelling_list() {
-    std::string text;
-    for (const auto& [value, name] : spellings(Enum{}))
-        text += (text.empty() ? "" : ", ") + std::string(name);
-    return text;
-}
-
-template <class Enum>
-const char* spelling(Enum wanted) {
-    for (const auto& [value, name] : spellings(Enum{}))
-        if (value == wanted) return name;
-    return "";
-}
 
 /// One table of a strict TOML file. Every key that is asked for becomes a valid one; `finish` reports the
 /// others.
@@ -99,14 +84,12 @@ class TableReader {
     void enumerator(const toml::node& node, const std::string& key, Enum& target) {
         const auto word = node.value_exact<std::string>();
         if (!word) return wrong_type(node, key, "text");
-        for (const auto& [value, name] : spellings(Enum{})) {
-            if (*word == name) {
-                target = value;
-                return;
-            }
+        if (const auto value = core::value_from<Enum>(*word)) {
+            target = *value;
+        } else {
+            reading_.add(reading_.origins.at(full(key)), fmt::format("\"{}\" is not known", *word),
+                         core::spelling_list<Enum>());
         }
-        reading_.add(reading_.origins.at(full(key)), fmt::format("\"{}\" is not known", *word),
-                     spelling_list<Enum>());
     }
 
     const toml::table& table_;

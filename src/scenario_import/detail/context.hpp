@@ -2,21 +2,11 @@
 
 #include <filesystem>
 
-#include "roads/network.hpp"
-#include "scenario_import/detail/additional.hpp"
-#include "scenario_import/detail/demand_reader.hpp"
+#include "scenario_import/detail/left_out.hpp"
 #include "scenario_import/import.hpp"
+#include "scenario_import/sumo/additional.hpp"
 
 namespace clearway::scenario_import::detail {
-
-/// Departures that a scenario takes, times of the route files.
-struct Window {
-    double begin_s = 0.0;
-    double length_s = 0.0;
-
-    double end_s() const { return begin_s + length_s; }
-    bool holds(double depart_s) const { return depart_s >= begin_s && depart_s < end_s(); }
-};
 
 /// What the steps of one import share.
 struct Import {

@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "roads/network.hpp"
-#include "scenario_import/detail/demand_reader.hpp"
-#include "scenario_import/detail/map.hpp"
+#include "scenario/config.hpp"
 #include "scenario_import/import.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -17,11 +16,5 @@ double diagonal_m(const roads::Network& network);
 
 /// The edges on which trips may start and end. By `trips.ends`, not shorter than `trips.minimum_edge_m`.
 std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const scenario::Trips& trips);
-
-/// The sites of a map at the nearest edge on which such trips may start or end, within 300 m of its start,
-/// end or bends; others are left out and counted. One site for each edge and kind.
-std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
-                                                 const roads::Network& network, const scenario::Trips& trips,
-                                                 LeftOut& left_out);
 
 }  // namespace clearway::scenario_import::detail

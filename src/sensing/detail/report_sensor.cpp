@@ -10,9 +10,6 @@
 namespace clearway::sensing::detail {
 namespace {
 
-/// Slack for step times that are sums of decimals, s.
-constexpr double time_slack_s = 1e-6;
-
 /// Reaches from a front bumper beyond any vehicle's centre, m.
 constexpr double longest_vehicle_m = 30.0;
 
@@ -44,7 +41,7 @@ void ReportSensor::observe(const truth::Snapshot& snapshot, const traffic::Roste
 
 bool ReportSensor::round_is_due(double time_s) {
     const auto number =
-        static_cast<ReportNumber>(std::floor(time_s / config_.report_interval_s + time_slack_s));
+        static_cast<ReportNumber>(std::floor((time_s + core::clock_tolerance_s) / config_.report_interval_s));
     if (report_ && *report_ >= number) return false;
     report_ = number;
     return true;
@@ -123,7 +120,7 @@ void ReportSensor::detect_links(const truth::Snapshot& snapshot, Round& round) {
 bool ReportSensor::deliver(const traffic::Roster& roster, double time_s) {
     bool arrived = false;
     while (!on_their_way_.empty() &&
-           on_their_way_.front().measured_s + config_.latency_s <= time_s + time_slack_s) {
+           on_their_way_.front().measured_s + config_.latency_s <= time_s + core::clock_tolerance_s) {
         Round round = std::move(on_their_way_.front());
         on_their_way_.pop_front();
         for (const Report& report : round.reports) {

@@ -21,14 +21,14 @@ VehicleType TypeTable::read(const std::string& type) const {
     VehicleType result{.dynamics = sumo_.read_type(type)};
     std::vector<core::Problem> problems;
     const std::string class_name = sumo_.type_parameter(type, traffic::class_parameter);
-    if (const auto vehicle_class = traffic::vehicle_class_from(class_name))
+    if (const auto vehicle_class = core::value_from<traffic::VehicleClass>(class_name))
         result.vehicle_class = *vehicle_class;
     else if (!class_name.empty())
         report(problems, type, traffic::class_parameter, class_name, "human, automated, emergency");
     else if (sumo_.permission_class(type) == "emergency")
         result.vehicle_class = traffic::VehicleClass::emergency;
     const std::string kind_name = sumo_.type_parameter(type, traffic::kind_parameter);
-    if (const auto kind = traffic::vehicle_kind_from(kind_name))
+    if (const auto kind = core::value_from<traffic::VehicleKind>(kind_name))
         result.kind = *kind;
     else if (!kind_name.empty())
         report(problems, type, traffic::kind_parameter, kind_name,

@@ -1,0 +1,159 @@
+#include "scenario_import/osm/map.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "scenario_import/detail/source.hpp"
+#include "scenario_import/detail/tool.hpp"
+
+namespace clearway::scenario_import::detail {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& map, const std::string& what, const std::string& cure) {
+    throw core::InputError(core::Problem{map.string(), what, "an OpenStreetMap extract with roads", cure});
+}
+
+/// Runs osmium on maps. It goes by the ends of names, so it gets links whose names say what the files are.
+class Osmium {
+  public:
+    Osmium(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
+           const OnProgress& on_progress)
+        : maps_(maps), folder_(folder), on_progress_(on_progress) {
+        for (std::size_t row = 0; row < maps.size(); ++row) {
+            links_.push_back(folder / fmt::format("map-{}.{}", row, map_format(maps[row])));
+            std::filesystem::create_symlink(std::filesystem::absolute(maps[row]), links_.back());
+        }
+    }
+
+    const std::vector<std::filesystem::path>& links() const { return links_; }
+    std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+
+    /// Whether it works out; `complaint` tells why not.
+    bool works(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin() + 1, {"--overwrite", "--no-progress"});
+        return succeeds({"osmium", std::move(arguments), log(), "reading the map", "osmium-tool"},
+                        on_progress_);
+    }
+    std::string complaint() const { return detail::complaint(log()); }
+
+    /// Throws core::InputError, with the map that osmium names, when it does not work out.
+    void run(std::vector<std::string> arguments) const {
+        if (works(std::move(arguments))) return;
+        const std::size_t row = blamed();
+        std::string text = complaint();
+        const std::string link = links_[row].string();
+        for (std::size_t at = text.find(link); at != std::string::npos; at = text.find(link))
+            text.replace(at, link.size(), maps_[row].filename().string());
+        refuse(maps_[row], fmt::format("cannot be read as a map, osmium says:\n{}", text),
+               "it may be cut short: download it again");
+    }
+
+  private:
+    std::filesystem::path log() const { return folder_ / "osmium.log"; }
+
+    /// Of several maps, the first that osmium does not read: it says what is wrong, but not always where.
+    std::size_t blamed() const {
+        if (maps_.size() == 1) return 0;
+        for (std::size_t row = 0; row < maps_.size(); ++row)
+            if (!works({"cat", "-o", file("tried.osm.pbf").string(), links_[row].string()})) return row;
+        return 0;
+    }
+
+    const std::vector<std::filesystem::path>& maps_;
+    const std::filesystem::path& folder_;
+    const OnProgress& on_progress_;
+    std::vector<std::filesystem::path> links_;
+};
+
+std::filesystem::path merged(const Osmium& osmium) {
+    const std::filesystem::path whole = osmium.file("merged.osm.pbf");
+    const auto merge_of = [&](const std::vector<std::filesystem::path>& files) {
+        std::vector<std::string> arguments = {"merge", "-o", whole.string()};
+        for (const std::filesystem::path& file : files)
+            arguments.push_back(file.string());
+        return arguments;
+    };
+    if (osmium.works(merge_of(osmium.links()))) return whole;
+    if (osmium.complaint().find("out of order") == std::string::npos) {
+        osmium.run(merge_of(osmium.links()));
+        return whole;
+    }
+    // Overpass writes in the order of the query, often ways first.
+    std::vector<std::filesystem::path> sorted;
+    for (const std::filesystem::path& link : osmium.links()) {
+        sorted.push_back(osmium.file(fmt::format("sorted-{}.osm.pbf", sorted.size())));
+        osmium.run({"sort", "-s", "multipass", "-o", sorted.back().string(), link.string()});
+    }
+    osmium.run(merge_of(sorted));
+    return whole;
+}
+
+/// SUMO's types of roads, then those of towns in place of its 100 km/h on main roads.
+std::string type_files() {
+    const char* const set = std::getenv("SUMO_HOME");
+    const std::filesystem::path folder =
+        std::filesystem::path(set != nullptr && *set != '\0' ? set : "/usr/share/sumo") / "data" / "typemap";
+    std::string text;
+    for (const char* const name : {"osmNetconvert.typ.xml", "osmNetconvertUrbanDe.typ.xml"}) {
+        const std::filesystem::path file = folder / name;
+        if (!std::filesystem::exists(file))
+            throw core::EnvironmentError(fmt::format(
+                "no file {}. Set SUMO_HOME to SUMO's folder (Debian: /usr/share/sumo)", file.string()));
+        text += (text.empty() ? "" : ",") + file.string();
+    }
+    return text;
+}
+
+}  // namespace
+
+Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
+                      const OnProgress& on_progress) {
+    const Osmium osmium(maps, folder, on_progress);
+    const std::filesystem::path whole = maps.size() > 1 ? merged(osmium) : osmium.links().front();
+    Extract extract{osmium.file("extract.osm"), {}};
+    osmium.run({"tags-filter", "-o", extract.file.string(), whole.string(), "w/highway", "n/highway",
+                "r/type=restriction", "nwr/amenity=hospital,fire_station", "nwr/emergency=ambulance_station",
+                "nwr/driving_side"});
+    extract.contents = read_map(extract.file);
+    if (!extract.contents.is_sorted) {
+        const std::filesystem::path sorted = osmium.file("sorted.osm");
+        osmium.run({"sort", "-o", sorted.string(), extract.file.string()});
+        extract = {sorted, read_map(sorted)};
+    }
+    if (extract.contents.roads == 0) refuse(maps.front(), "is a map without roads", "choose another extract");
+    if (extract.contents.nodes == 0)
+        refuse(maps.front(), "has roads, but none of their nodes, which say where they run",
+               "ask Overpass for them too: end the query with  out body; >; out skel qt;");
+    return extract;
+}
+
+std::filesystem::path build_roads(const std::filesystem::path& map, const std::filesystem::path& extract,
+                                  RoadPlan plan, const std::filesystem::path& folder,
+                                  const OnProgress& on_progress) {
+    const std::filesystem::path network = folder / "network.net.xml";
+    const std::filesystem::path log = folder / "netconvert.log";
+    std::vector<std::string> arguments = {
+        "--osm-files", extract.string(), "--output-file", network.string(), "--type-files", type_files(),
+        // Nodes that only bend a road, and pieces below 5 m that a change of
+        // name or limit cuts off: vehicles are longer than these edges.
+        "--geometry.remove", "--geometry.remove.min-length", "5", "--junctions.join", "--roundabouts.guess",
+        "--ramps.guess", "--tls.guess-signals", "--tls.discard-simple", "--tls.join", "--tls.default-type",
+        "static", "--no-turnarounds.except-deadend", "--keep-edges.by-vclass", "passenger,bus",
+        "--remove-edges.isolated", "--output.street-names", "--junctions.corner-detail", "5",
+        "--xml-validation", "never", "--aggregate-warnings", "3"};
+    if (plan.side == DrivingSide::left) arguments.emplace_back("--lefthand");
+    if (plan.footways == Footways::build)
+        arguments.insert(arguments.end(), {"--osm.sidewalks", "--sidewalks.guess", "--crossings.guess"});
+    const Tool tool{"netconvert", std::move(arguments), log, "building the network", "sumo"};
+    if (succeeds(tool, on_progress)) return network;
+    const std::string reason = complaint(log);
+    if (reason.find("No edges loaded") != std::string::npos)
+        refuse(map, "has no road for cars", "choose an extract with roads for cars");
+    refuse(map, fmt::format("netconvert makes no network of it:\n{}", reason), "choose another extract");
+}
+
+}  // namespace clearway::scenario_import::detail

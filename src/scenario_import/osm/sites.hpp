@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
+#include "scenario_import/detail/left_out.hpp"
+#include "scenario_import/osm/map.hpp"
+
+namespace clearway::scenario_import::detail {
+
+/// The sites of a map at the nearest edge on which such trips may start or end, within 300 m of its start,
+/// end or bends; others are left out and counted. One site for each edge and kind.
+std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
+                                                 const roads::Network& network, const scenario::Trips& trips,
+                                                 LeftOut& left_out);
+
+}  // namespace clearway::scenario_import::detail

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "roads/network.hpp"
+#include "scenario_import/detail/context.hpp"
+#include "scenario_import/sumo/demand_reader.hpp"
+
+namespace clearway::scenario_import::detail {
+
+/// Files of SUMO with demand, and what goes with it.
+struct SumoFiles {
+    std::vector<std::filesystem::path> routes;
+    std::vector<std::filesystem::path> additional;
+    std::optional<double> begin_s;
+    std::optional<double> end_s;
+    double scale = 1.0;  ///< SUMO's option: how many of each vehicle and person there are.
+};
+
+/// Turns them into the measured demand of `config`: traffic.rou.xml (one vehicle each, sorted, times from the
+/// scenario's begin), types.add.xml, additional.add.xml and persons.rou.xml in the scenario's folder. The
+/// signal programs of `network_file` are shifted to that begin too. False, and nothing done, when the files
+/// name no vehicle. Throws core::InputError for demand that cannot be used, also when none of it can.
+bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Network& network,
+                     const std::filesystem::path& network_file, scenario::ScenarioConfig& config);
+
+}  // namespace clearway::scenario_import::detail

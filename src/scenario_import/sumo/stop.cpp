@@ -1,0 +1,75 @@
+#include "scenario_import/sumo/stop.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace clearway::scenario_import::detail {
+
+namespace {
+
+constexpr std::array kinds = {"busStop",         "trainStop",   "containerStop",
+                              "chargingStation", "parkingArea", "overheadWireSegment"};
+
+/// `first` of `first_0`.
+std::string edge_of_lane(const std::string& lane) {
+    return lane.substr(0, lane.rfind('_'));
+}
+
+bool waits(const Element& stop) {
+    constexpr std::array flags = {"triggered", "containerTriggered"};
+    constexpr std::array whom = {"expected", "expectedContainers", "join", "split"};
+    return std::ranges::any_of(
+               flags, [&](const char* name) { return stop.has(name) && !is_false(stop.text(name)); }) ||
+           std::ranges::any_of(whom, [&](const char* name) { return !stop.text(name).empty(); });
+}
+
+}  // namespace
+
+void delay_stop(Element& stop, double by_s) {
+    if (by_s == 0.0) return;
+    for (const char* const name : {"until", "arrival", "started", "ended"}) {
+        const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
+        if (at_s) stop.set(name, fmt::format("{:.2f}", *at_s + by_s));
+    }
+}
+
+void end_waiting(Element& vehicle, LeftOut& left_out) {
+    std::erase_if(vehicle.children, [&](Element& stop) {
+        if (stop.name != "stop" || !waits(stop)) return false;
+        const bool ends = stop.has("duration") || stop.has("until");
+        left_out.add(ends ? "stops' waiting for passengers, goods or vehicles, which last their duration"
+                          : "stops that wait for passengers, goods or vehicles and have no duration",
+                     vehicle.text("id"));
+        for (const char* const name : {"triggered", "containerTriggered", "expected", "expectedContainers",
+                                       "permitted", "join", "split"})
+            stop.remove(name);
+        return !ends;
+    });
+}
+
+StopEdges::StopEdges(const std::vector<Element>& additional) {
+    for (const Element& element : additional)
+        if (std::ranges::find(kinds, element.name) != kinds.end())
+            edges_[{element.name, element.text("id")}] = edge_of_lane(element.text("lane"));
+}
+
+std::string StopEdges::edge_of(const Element& stop) const {
+    if (stop.has("lane")) return edge_of_lane(stop.text("lane"));
+    if (stop.has("edge")) return stop.text("edge");
+    for (const char* const kind : kinds) {
+        const auto found = edges_.find({kind, stop.text(kind)});
+        if (found != edges_.end()) return found->second;
+    }
+    return {};
+}
+
+std::optional<std::string> StopEdges::unknown_place(const Element& stop) const {
+    for (const char* const kind : kinds)
+        if (!stop.text(kind).empty() && !edges_.contains({kind, stop.text(kind)}))
+            return fmt::format("{} \"{}\"", kind, stop.text(kind));
+    return std::nullopt;
+}
+
+}  // namespace clearway::scenario_import::detail
