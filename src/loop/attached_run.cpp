@@ -128,6 +128,7 @@ core::ExitCode run_attached(const std::filesystem::path& order_file) {
     metrics::RunEnd end{.tripinfo_files = {ground.trip_file},
                         .planned = {},
                         .time = session.time(),
+                        .horizon = std::max(session.time(), ground.end),
                         .leases = totals_of(loop.actuator())};
     session.close();
     end.planned = metrics::planned_in(ground.trip_file, session.roster());
@@ -148,7 +149,8 @@ core::ExitCode run_attached(const std::filesystem::path& order_file) {
                                 .trace_hash = summary.trace_hash},
                  .metrics = summary.metrics,
                  .vehicles = std::move(summary.vehicles),
-                 .traffic = std::move(summary.traffic)},
+                 .traffic = std::move(summary.traffic),
+                 .leases = std::move(summary.leases)},
                 timing);
     return core::ExitCode::ok;
 }

@@ -125,6 +125,7 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
         end.planned = metrics::read_planned(files, prepared_.emergency);
     }
     end.time = session_->time();
+    end.horizon = core::Seconds(prepared_.time.horizon_s);
     session_->close();
     end.tripinfo_files = {session_->trip_file()};
     metrics::RunSummary summary = recorder_.finish(end);
@@ -138,7 +139,8 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
             .provenance = provenance(summary.trace_hash),
             .metrics = summary.metrics,
             .vehicles = std::move(summary.vehicles),
-            .traffic = std::move(summary.traffic)};
+            .traffic = std::move(summary.traffic),
+            .leases = std::move(summary.leases)};
 }
 
 void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepListener& listener) {
