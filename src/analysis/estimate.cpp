@@ -53,6 +53,15 @@ std::optional<Estimate> estimate_mean(std::span<const double> values, double lev
     return estimate;
 }
 
+std::optional<Estimate> estimate_not_negative(std::span<const double> values, double level) {
+    auto estimate = estimate_mean(values, level);
+    if (!estimate || !estimate->interval || estimate->interval->low >= 0.0 || !(estimate->mean > 0.0))
+        return estimate;
+    const double stretch = std::exp(estimate->interval->half_width() / estimate->mean);
+    estimate->interval = Interval{estimate->mean / stretch, estimate->mean * stretch};
+    return estimate;
+}
+
 std::optional<Estimate> estimate_difference(std::span<const double> condition,
                                             std::span<const double> baseline, double level) {
     return estimate_mean(differences(condition, baseline), level);

@@ -32,6 +32,19 @@ struct Estimate {
 /// Mean and t interval: mean +- t(n - 1) s / sqrt(n). Nothing for an empty sample.
 std::optional<Estimate> estimate_mean(std::span<const double> values, double level = usual_level);
 
+/// Fewer values than this give no interval that is worth printing: at four a t interval is twice as wide as
+/// at ten, and skewed values make it miss one time in four.
+inline constexpr std::size_t fewest_for_interval = 5;
+
+/// Mean of values that are never negative (durations, shares), with an interval that does not reach below 0:
+/// the t interval where it stays above 0, else that of the logarithm of the mean, whose standard error is
+/// s / (sqrt(n) mean) by the delta method: mean x exp(-+ t(n - 1) s / (sqrt(n) mean)). Cutting the t interval
+/// at 0 keeps its coverage, which is too low just there, since values near a bound are skewed: of 20 values
+/// of which four in five are 0 it holds the true mean in 80 % of samples, this one in 91 %; of 10 of which
+/// every other is 0, 85 % against 93 % (tests/analysis/coverage_test.cpp). A BCa bootstrap of so few values
+/// is no better than t there. Nothing for an empty sample.
+std::optional<Estimate> estimate_not_negative(std::span<const double> values, double level = usual_level);
+
 /// Mean of `condition[i] - baseline[i]` with its t interval. The spans have one length.
 std::optional<Estimate> estimate_difference(std::span<const double> condition,
                                             std::span<const double> baseline, double level = usual_level);

@@ -1,11 +1,8 @@
 #include "analysis/headline.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
-
-#include "analysis/detail/pairing.hpp"
 
 namespace clearway::analysis {
 namespace {
@@ -19,13 +16,12 @@ bool is_baseline_of(const ConditionSpec& other, const ConditionSpec& condition) 
     return other.engine == condition.engine && !other.acts() && other.name != condition.name;
 }
 
-/// Travel time of the emergency vehicles of a run, against another run's where there is one.
+/// Restricted travel time of the emergency vehicles of a run, against another run's where there is one.
 std::optional<double> value_of(const results::RunRecord& run, const results::RunRecord* baseline) {
-    if (baseline == nullptr) return run.metrics.emergency_travel_time_s;
-    const std::array runs = {&run, baseline};
-    const auto common = detail::common_means(runs, &metrics::VehicleRow::travel_time_s);
-    if (!common) return std::nullopt;
-    return common->means[0] - common->means[1];
+    const std::optional<double>& time_s = run.metrics.emergency_restricted_travel_time_s;
+    if (baseline == nullptr || !time_s) return time_s;
+    const std::optional<double>& without_s = baseline->metrics.emergency_restricted_travel_time_s;
+    return without_s ? std::optional(*time_s - *without_s) : std::nullopt;
 }
 
 }  // namespace
@@ -58,6 +54,10 @@ bool Headline::read(std::uint32_t replication) {
     const auto run = store_.read(with);
     const auto baseline = baseline_.empty() ? std::nullopt : store_.read(without);
     if (const auto value = value_of(*run, baseline ? &*baseline : nullptr)) values_s_.push_back(*value);
+    if (!baseline) return true;
+    objections_.unchecked = run->condition.safety_checks == traffic::SafetyChecks::off;
+    objections_.emergency += emergency_outcomes(*run);
+    objections_.baseline_emergency += emergency_outcomes(*baseline);
     return true;
 }
 
@@ -83,8 +83,11 @@ std::string Headline::text() const {
     const std::string mean =
         baseline_.empty() ? fmt::format("{:.1f}", now->mean) : fmt::format("{:+.1f}", now->mean);
     std::string text = fmt::format("{} {}: EV travel time {} s", scenario_, condition_, mean);
-    if (now->interval) text += fmt::format(" [{:.1f}, {:.1f}]", now->interval->low, now->interval->high);
-    return text + fmt::format(", n {}", now->n);
+    if (now->interval && now->n >= fewest_for_interval)
+        text += fmt::format(" [{:.1f}, {:.1f}]", now->interval->low, now->interval->high);
+    text += fmt::format(", n {}", now->n);
+    if (objections_.on_emergency()) text += "; " + emergency_objections(objections_);
+    return text;
 }
 
 }  // namespace clearway::analysis

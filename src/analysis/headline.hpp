@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "analysis/estimate.hpp"
+#include "analysis/objections.hpp"
 #include "results/store.hpp"
 
 namespace clearway::analysis {
 
-/// The number that a study is run for, while it runs: EV travel time in the first condition that is compared
-/// with a baseline, less the baseline's, in the first scenario; the mean of the first condition where nothing
-/// is compared. Each pair of runs is read once.
+/// The number that a study is run for, while it runs: restricted mean EV travel time in the first condition
+/// that is compared with a baseline, less the baseline's, in the first scenario; the mean of the first
+/// condition where nothing is compared. Each pair of runs is read once.
 class Headline {
   public:
     explicit Headline(const results::Store& store);
@@ -26,7 +27,8 @@ class Headline {
     const std::string& condition() const { return condition_; }
     /// Empty where nothing is compared.
     const std::string& baseline() const { return baseline_; }
-    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`; empty before the first pair.
+    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`, then how many
+    /// emergency vehicles it lost if more than the baseline; empty before the first pair.
     std::string text() const;
 
   private:
@@ -40,6 +42,7 @@ class Headline {
     std::string baseline_;
     std::set<std::uint32_t> open_;  ///< Replications not read yet.
     std::vector<double> values_s_;
+    Objections objections_;  ///< As far as they follow from the runs one by one.
 };
 
 }  // namespace clearway::analysis

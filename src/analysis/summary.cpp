@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
 #include "analysis/detail/pairing.hpp"
 #include "core/error.hpp"
@@ -133,7 +134,7 @@ std::vector<double> present_in(const Values& values) {
 }
 
 std::optional<Estimate> mean_of(const std::vector<double>& present, MetricKind kind, double level) {
-    return kind == MetricKind::count ? estimate_count(present, level) : estimate_mean(present, level);
+    return kind == MetricKind::count ? estimate_count(present, level) : estimate_not_negative(present, level);
 }
 
 MetricSummary describe(const MetricInfo& metric, Values values, double level) {
@@ -170,49 +171,46 @@ TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
     return {pooled_quantile(clusters, 0.5, drawn), pooled_quantile(clusters, 0.95, drawn)};
 }
 
-void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
-    switch (vehicle.outcome) {
-        case metrics::VehicleOutcome::arrived:
-            ++counts.arrived;
-            break;
-        case metrics::VehicleOutcome::running_at_end:
-            ++counts.running_at_end;
-            break;
-        case metrics::VehicleOutcome::teleported:
-            ++counts.teleported;
-            break;
-        case metrics::VehicleOutcome::not_inserted:
-            ++counts.not_inserted;
-            break;
-        case metrics::VehicleOutcome::removed:
-            ++counts.removed;
-            break;
-    }
-}
-
-/// All but the emergency vehicles, from the metrics: their rows need not have been read.
-void count_others(const metrics::RunMetrics& all, const OutcomeCounts& emergency, OutcomeCounts& others) {
-    const auto rest = [](std::uint64_t whole, std::uint64_t part) { return whole - std::min(whole, part); };
-    const std::uint64_t teleported =
-        rest(all.vehicle_count, all.arrived + all.unfinished + all.not_inserted + all.removed);
-    others.arrived += rest(all.arrived, emergency.arrived);
-    others.running_at_end += rest(all.unfinished, emergency.running_at_end);
-    others.teleported += rest(teleported, emergency.teleported);
-    others.not_inserted += rest(all.not_inserted, emergency.not_inserted);
-    others.removed += rest(all.removed, emergency.removed);
-}
-
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         ++summary.complete_runs;
-        OutcomeCounts emergency;
-        for (const metrics::VehicleRow& vehicle : run->vehicles) {
-            if (vehicle.vehicle_class == traffic::VehicleClass::emergency) count(vehicle, emergency);
-        }
+        const OutcomeCounts emergency = emergency_outcomes(*run);
+        if (emergency.total() > 0 && !run->metrics.emergency_restricted_travel_time_s)
+            ++summary.runs_without_horizon;
         summary.emergency += emergency;
-        count_others(run->metrics, emergency, summary.others);
+        summary.others += other_outcomes(*run);
     }
+}
+
+void add_leases(const std::vector<metrics::LeaseRow>& more, std::vector<metrics::LeaseRow>& total) {
+    for (const metrics::LeaseRow& row : more) {
+        auto place = std::ranges::find_if(total, [&](const metrics::LeaseRow& known) {
+            return known.part == row.part && known.action == row.action;
+        });
+        if (place == total.end()) {
+            total.push_back(row);
+            continue;
+        }
+        core::for_each_field<metrics::LeaseRow>(
+            [&](const auto& field) { (*place).*field.member += row.*field.member; });
+        for (const auto& [reason, count] : row.refused)
+            place->refused[reason] += count;
+    }
+}
+
+std::optional<std::vector<metrics::LeaseRow>> leases_of(const Runs& runs) {
+    std::optional<std::vector<metrics::LeaseRow>> total;
+    for (const results::RunRecord* run : runs) {
+        if (run == nullptr || !run->leases) continue;
+        if (!total) total.emplace();
+        add_leases(*run->leases, *total);
+    }
+    if (total) {
+        std::ranges::sort(*total, {},
+                          [](const metrics::LeaseRow& row) { return std::tie(row.part, row.action); });
+    }
+    return total;
 }
 
 void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, ResampleCache& resamples,
@@ -222,11 +220,13 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
     std::vector<double> alone;
     for (std::size_t replication = 0; replication < condition.size(); ++replication) {
         const std::array runs = {condition[replication], baseline[replication], solo[replication]};
-        const auto common = detail::common_means(runs, &metrics::VehicleRow::travel_time_s);
-        if (!common) continue;
-        with.push_back(common->means[0]);
-        without.push_back(common->means[1]);
-        alone.push_back(common->means[2]);
+        const auto has_value = [](const results::RunRecord* run) {
+            return run != nullptr && run->metrics.emergency_restricted_travel_time_s;
+        };
+        if (!std::ranges::all_of(runs, has_value)) continue;
+        with.push_back(*runs[0]->metrics.emergency_restricted_travel_time_s);
+        without.push_back(*runs[1]->metrics.emergency_restricted_travel_time_s);
+        alone.push_back(*runs[2]->metrics.emergency_restricted_travel_time_s);
     }
     summary.gap_replications = with.size();
     summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
@@ -302,6 +302,8 @@ void compare_conditions(const Runs& runs, const Runs& baseline_runs, const Condi
         comparison.condition_values = pairs.condition;
         comparison.baseline_values = pairs.baseline;
     }
+    summary.objections =
+        objections_to(runs, baseline_runs, summary.condition.safety_checks, resamples.level());
     summary.approaches = approach_costs(runs, baseline_runs, resamples.level());
     summary.recovery = recovery_after(runs, baseline_runs, resamples.level());
 }
@@ -312,6 +314,7 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     summary.condition = condition;
     const Runs runs = index.runs(scenario, condition.name);
     count_outcomes(runs, summary);
+    summary.leases = leases_of(runs);
     summary.failed_runs = index.failures(scenario, condition.name);
     summary.missing_runs = runs.size() - summary.complete_runs - summary.failed_runs;
     summary.travel_time = tail_of(runs, resamples);

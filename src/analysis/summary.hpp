@@ -7,6 +7,7 @@
 
 #include "analysis/bootstrap.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/objections.hpp"
 #include "analysis/traffic.hpp"
 #include "results/store.hpp"
 
@@ -14,7 +15,7 @@ namespace clearway::analysis {
 
 /// What a metric's values are, which decides its interval.
 enum class MetricKind : std::uint8_t {
-    quantity,  ///< Durations, shares: t interval.
+    quantity,  ///< Durations, shares: `estimate_not_negative`.
     count,     ///< 0, 1, 2, ...: `estimate_count`, never below 0.
 };
 
@@ -39,9 +40,13 @@ std::vector<MetricInfo> all_metrics();
 /// Value of a metric by name; nothing where the run has none. Throws std::out_of_range for an unknown name.
 std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name);
 
+/// The metric that verdicts, headlines, curves and gates speak of: nobody is left out of it.
+inline constexpr const char* primary_metric = "emergency_restricted_travel_time_s";
+
 /// A condition against its baseline, in one metric, paired by replication. For metrics of emergency vehicles
-/// that are means over those that arrived (travel time, time loss), a replication's pair is the means over
-/// the vehicles that arrived in both conditions; the vehicles left out are counted.
+/// that are means over those that arrived (`emergency_travel_time_s`, `emergency_time_loss_s`), a
+/// replication's pair is the means over the vehicles that arrived in both conditions; the vehicles left out
+/// are counted.
 struct Comparison {
     std::size_t complete_pairs = 0;
     /// Replications that lack a value in at least one of the two conditions: failed, missing, nobody to
@@ -75,25 +80,6 @@ struct MetricSummary {
     std::optional<Comparison> comparison;  ///< Nothing for the baseline itself and for the solo condition.
 };
 
-/// Emergency vehicles of a condition over all complete runs, by how they ended.
-struct OutcomeCounts {
-    std::uint64_t arrived = 0;
-    std::uint64_t running_at_end = 0;
-    std::uint64_t teleported = 0;
-    std::uint64_t not_inserted = 0;
-    std::uint64_t removed = 0;
-
-    OutcomeCounts& operator+=(const OutcomeCounts& more) {
-        arrived += more.arrived;
-        running_at_end += more.running_at_end;
-        teleported += more.teleported;
-        not_inserted += more.not_inserted;
-        removed += more.removed;
-        return *this;
-    }
-    std::uint64_t total() const { return arrived + running_at_end + teleported + not_inserted + removed; }
-};
-
 /// Travel times of all emergency vehicles of a condition, those that did not arrive ranked last.
 struct TravelTimeTail {
     PooledQuantile median;
@@ -106,14 +92,21 @@ struct ConditionSummary {
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;
     std::size_t missing_runs = 0;
+    /// Complete runs with emergency vehicles but without a restricted travel time: an older version made them
+    /// and did not note the horizon.
+    std::size_t runs_without_horizon = 0;
     OutcomeCounts emergency;
     OutcomeCounts others;
+    Objections objections;  ///< Against the baseline; nothing for baselines and solo.
+    /// Leases over all complete runs, by part, then action. Nothing where no run has them by action.
+    std::optional<std::vector<metrics::LeaseRow>> leases;
     TravelTimeTail travel_time;
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
     std::optional<Recovery> recovery;      ///< Likewise.
-    std::optional<GapClosed> gap_closed;   ///< Nothing without a solo condition, and for baselines.
-    /// Replications behind `gap_closed`: at least one emergency vehicle arrived in all three conditions.
+    /// In `primary_metric`. Nothing without a solo condition, and for baselines.
+    std::optional<GapClosed> gap_closed;
+    /// Replications behind `gap_closed`.
     std::size_t gap_replications = 0;
 
     /// Throws std::out_of_range for an unknown name.

@@ -21,11 +21,16 @@ namespace {
 struct Arguments {
     std::string first;
     std::string second;
-    std::vector<std::string> metrics = {"emergency_travel_time_s", "others_time_loss_s", "collisions",
-                                        "teleports"};
+    std::vector<std::string> metrics;  ///< Empty: `usual_metrics`.
     std::vector<std::string> tolerances;
     Printing printing = Printing::text;
 };
+
+const std::vector<std::string>& usual_metrics() {
+    static const std::vector<std::string> names = {analysis::primary_metric, "emergency_travel_time_s",
+                                                   "others_time_loss_s", "collisions", "teleports"};
+    return names;
+}
 
 std::vector<std::string> metric_names() {
     std::vector<std::string> names;
@@ -34,10 +39,20 @@ std::vector<std::string> metric_names() {
     return names;
 }
 
-/// `1.5` of EV travel time, or `METRIC=1.5`.
-report::Tolerance tolerance_from(const std::string& word) {
+/// What a tolerance without a name gates: the metric that was asked for, else the primary one.
+std::string gated_metric(const std::vector<std::string>& chosen, const std::string& word) {
+    if (chosen.size() > 1)
+        throw core::InputError({"--tolerance", fmt::format("`{}` names none of the chosen metrics", word),
+                                joined(chosen),
+                                fmt::format("Say which: --tolerance {}={}", chosen[0], word)});
+    return chosen.empty() ? analysis::primary_metric : chosen[0];
+}
+
+/// `1.5` of the metric that was chosen, or `METRIC=1.5`.
+report::Tolerance tolerance_from(const std::string& word, const std::vector<std::string>& chosen) {
     const std::size_t equals = word.find('=');
-    report::Tolerance tolerance{"emergency_travel_time_s", 0.0};
+    report::Tolerance tolerance;
+
     if (equals != std::string::npos) tolerance.metric = word.substr(0, equals);
     const std::string value = equals == std::string::npos ? word : word.substr(equals + 1);
     char* end = nullptr;
@@ -45,14 +60,17 @@ report::Tolerance tolerance_from(const std::string& word) {
     if (value.empty() || *end != '\0' || !std::isfinite(tolerance.largest) || tolerance.largest < 0.0)
         throw core::InputError({"--tolerance", fmt::format("`{}` is no tolerance", word),
                                 "a number from 0 on, in the metric's unit, or METRIC=NUMBER", ""});
+    if (equals == std::string::npos) tolerance.metric = gated_metric(chosen, word);
     return tolerance;
 }
 
 /// All tolerances; the metrics of gates are shown too.
 std::vector<report::Tolerance> check(Arguments& arguments) {
     std::vector<report::Tolerance> tolerances;
+    const std::vector<std::string> chosen = arguments.metrics;
+    if (chosen.empty()) arguments.metrics = usual_metrics();
     for (const std::string& word : arguments.tolerances) {
-        tolerances.push_back(tolerance_from(word));
+        tolerances.push_back(tolerance_from(word, chosen));
         const std::string& metric = tolerances.back().metric;
         if (std::ranges::find(arguments.metrics, metric) == arguments.metrics.end())
             arguments.metrics.push_back(metric);
@@ -113,9 +131,11 @@ Action configure_compare(CLI::App& app) {
         ->option_text("DIR [none]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         ->allow_extra_args(false)
-        ->option_text(fmt::format("NAME [{}]", joined(arguments->metrics)));
-    app.add_option("--tolerance", arguments->tolerances,
-                   "Exit with 6 unless worse by at most this (95 %), in its unit; repeatable")
+        ->option_text(fmt::format("NAME [{}]", joined(usual_metrics())));
+    app.add_option(
+           "--tolerance", arguments->tolerances,
+           "Exit with 6 unless worse by at most this (95 %), in the unit of METRIC [the chosen one], or when "
+           "more emergency vehicles are lost; repeatable")
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER [none]");
     add_json_option(app, arguments->printing, "the comparison");

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/headline.hpp"
+#include "analysis/summary.hpp"
 #include "cli/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/progress.hpp"
@@ -87,7 +88,7 @@ Json json_of(const analysis::Headline& headline) {
     const auto estimate = headline.estimate();
     if (!estimate) return nullptr;
     const auto& interval = estimate->interval;
-    return {{"metric", "emergency_travel_time_s"},
+    return {{"metric", analysis::primary_metric},
             {"scenario", headline.scenario()},
             {"condition", headline.condition()},
             {"baseline", headline.baseline().empty() ? Json(nullptr) : Json(headline.baseline())},

@@ -125,8 +125,11 @@ core::ExitCode run_attached(experiment::AttachJob job) {
     const metrics::LeaseTotals leases =
         run_condition(loop, recorder, job.condition, stage_of(job, network, ground));
 
-    metrics::RunEnd end{
-        .tripinfo_files = {ground.trip_file}, .planned = {}, .time = session.time(), .leases = leases};
+    metrics::RunEnd end{.tripinfo_files = {ground.trip_file},
+                        .planned = {},
+                        .time = session.time(),
+                        .horizon = std::max(session.time(), ground.end),
+                        .leases = leases};
     session.close();
     end.planned = metrics::planned_in(ground.trip_file, session.roster());
     const results::ScenarioEntry& entry = store.manifest().scenarios.front();

@@ -52,7 +52,8 @@ results::RunRecord record_of(const experiment::RunKey& key, const experiment::Co
             .provenance = std::move(provenance),
             .metrics = summary.metrics,
             .vehicles = std::move(summary.vehicles),
-            .traffic = std::move(summary.traffic)};
+            .traffic = std::move(summary.traffic),
+            .leases = std::move(summary.leases)};
 }
 
 }  // namespace clearway::loop

@@ -59,6 +59,9 @@ metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
         totals.issued += counts.issued;
         totals.renewed += counts.renewed;
         totals.expired += counts.expired;
+        const std::size_t slash = part.find('/');
+        totals.rows.push_back({part.substr(0, slash), part.substr(slash + 1), counts.issued, counts.renewed,
+                               counts.acted, counts.expired, counts.refused});
         for (const auto& [reason, refused] : counts.refused) {
             totals.refused += refused;
         }

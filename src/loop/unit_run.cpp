@@ -115,6 +115,7 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
         end.planned = metrics::read_planned(files, prepared_.emergency);
     }
     end.time = session_->time();
+    end.horizon = core::Seconds(prepared_.time.horizon_s);
     session_->close();
     end.tripinfo_files = {session_->trip_file()};
     metrics::RunSummary summary = recorder_.finish(end);

@@ -15,6 +15,7 @@
 #include "metrics/detail/link_comparison.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
+#include "metrics/restricted_time.hpp"
 
 namespace clearway::metrics {
 namespace {
@@ -328,7 +329,10 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.vehicle_km = driven_km(summary.vehicles);
     count_outcomes(summary.vehicles, metrics);
     average(summary.vehicles, metrics);
+    metrics.emergency_restricted_travel_time_s =
+        emergency_restricted_mean_s(summary.vehicles, end.horizon.value);
     metrics.simulated_s = end.time.value;
+    summary.leases = end.leases.rows;
     metrics.leases_issued = end.leases.issued;
     metrics.leases_renewed = end.leases.renewed;
     metrics.leases_refused = end.leases.refused;

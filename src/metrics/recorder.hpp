@@ -54,6 +54,9 @@ struct RunEnd {
     std::vector<std::filesystem::path> tripinfo_files;
     std::vector<PlannedVehicle> planned;
     core::Seconds time;
+    /// How long a run may take at most: what an emergency vehicle counts with that did not arrive. It must
+    /// not depend on the condition.
+    core::Seconds horizon;
     LeaseTotals leases;
 };
 

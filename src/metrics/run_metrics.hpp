@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "metrics/lease_row.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
 
@@ -31,15 +32,18 @@ struct LeaseTotals {
     std::uint64_t renewed = 0;
     std::uint64_t refused = 0;
     std::uint64_t expired = 0;
+    std::vector<LeaseRow> rows = {};  ///< The same by part and action.
 
     bool operator==(const LeaseTotals&) const = default;
 };
 
-/// The numbers of one run. Means of travel time and time loss of emergency vehicles are over those that
-/// arrived; means of waiting time and depart delay, and the time loss of the others, are over all that were
-/// inserted, so vehicles still on the road count with what they lost so far. The counts beside the means tell
-/// how many were left out. Empty where there was nobody to average over.
+/// The numbers of one run. The restricted mean travel time is over all emergency vehicles of the demand. The
+/// other means of their travel time and time loss are over those that arrived; means of waiting time and
+/// depart delay, and the time loss of the others, are over all that were inserted, so vehicles still on the
+/// road count with what they lost so far. The counts beside the means tell how many were left out. Empty
+/// where there was nobody to average over.
 struct RunMetrics {
+    std::optional<double> emergency_restricted_travel_time_s;
     std::optional<double> emergency_travel_time_s;
     std::optional<double> emergency_time_loss_s;
     std::optional<double> emergency_waiting_time_s;
@@ -108,6 +112,9 @@ struct RunMetrics {
         using M = RunMetrics;
         using core::Field;
         return std::make_tuple(
+            Field{"emergency_restricted_travel_time_s", "s", &M::emergency_restricted_travel_time_s, 0.0, 1e9,
+                  "EV travel time, mean of all; one that did not arrive counts with the horizon",
+                  "tripinfo duration; Royston and Parmar 2013"},
             Field{"emergency_travel_time_s", "s", &M::emergency_travel_time_s, 0.0, 1e9,
                   "EV travel time, mean of those that arrived", "tripinfo duration"},
             Field{"emergency_time_loss_s", "s", &M::emergency_time_loss_s, 0.0, 1e9,
@@ -245,6 +252,7 @@ struct RunSummary {
     std::vector<VehicleRow> vehicles;  ///< By planned departure, then id.
     std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
     TrafficTables traffic;             ///< Empty unless the recorder watched.
+    std::vector<LeaseRow> leases;      ///< By part, then action; those that were used alone.
 };
 
 }  // namespace clearway::metrics

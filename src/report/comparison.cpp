@@ -47,7 +47,9 @@ std::string row_of(const ConditionSummary& condition, const Comparison& comparis
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
     const auto& difference = comparison.difference;
-    const std::string interval = difference && difference->interval
+    const bool few = comparison.complete_pairs < analysis::fewest_for_interval;
+    const std::string interval = few && difference ? "too few seeds"
+                                 : difference && difference->interval
                                      ? fmt::format("[{}, {}]", number(difference->interval->low, style),
                                                    number(difference->interval->high, style))
                                      : "(no interval)";
@@ -63,8 +65,9 @@ std::string row_of(const ConditionSummary& condition, const Comparison& comparis
                        difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
-                       optional_text(comparison.effect_size, style), p_text(comparison.holm_p),
-                       p_text(comparison.wilcoxon_p));
+                       few ? missing(Script::plain) : optional_text(comparison.effect_size, style),
+                       few ? missing(Script::plain) : p_text(comparison.holm_p),
+                       few ? missing(Script::plain) : p_text(comparison.wilcoxon_p));
 }
 
 Json number_or_null(const std::optional<double>& value) {
@@ -81,7 +84,9 @@ Json to_json(const Comparison& comparison) {
             {"incomplete_pairs", comparison.incomplete_pairs},
             {"vehicles_left_out", comparison.vehicles_left_out},
             {"difference", difference ? Json(difference->mean) : Json(nullptr)},
-            {"interval_95", bounds_of(difference ? difference->interval : std::nullopt)},
+            {"interval_95", bounds_of(difference && comparison.complete_pairs >= analysis::fewest_for_interval
+                                          ? difference->interval
+                                          : std::nullopt)},
             {"relative_1", comparison.relative ? Json(comparison.relative->mean) : Json(nullptr)},
             {"bca_95", bounds_of(comparison.bootstrap)},
             {"median", number_or_null(comparison.median)},
@@ -101,10 +106,44 @@ bool more_is_better(const std::string& metric) {
     return std::ranges::find(better, metric) != better.end();
 }
 
+namespace {
+
+/// No tolerance of a mean outweighs a lost emergency vehicle.
+void add_objections(const ScenarioSummary& scenario, const ConditionSummary& condition,
+                    std::vector<Shortfall>& found) {
+    const analysis::Objections& objections = condition.objections;
+    for (const auto& [whose, why] : {std::pair<const char*, std::string>{
+                                         "emergency vehicles", analysis::emergency_objections(objections)},
+                                     {"other vehicles", analysis::other_objections(objections)}}) {
+        if (!why.empty()) found.push_back({scenario.scenario, condition.condition.name, whose, why});
+    }
+}
+
+/// What stands before any table.
+std::string objections_text(const ScenarioSummary& scenario) {
+    std::string text;
+    for (const ConditionSummary& condition : scenario.conditions) {
+        for (const std::string& why : {analysis::emergency_objections(condition.objections),
+                                       analysis::other_objections(condition.objections)}) {
+            if (!why.empty())
+                text += fmt::format("{}: {}: {}.\n", printable(scenario.scenario),
+                                    printable(condition.condition.name), why);
+        }
+        if (condition.runs_without_horizon > 0)
+            text +=
+                fmt::format("{}: {}: {}\n", printable(scenario.scenario), printable(condition.condition.name),
+                            without_horizon_sentence(condition.runs_without_horizon));
+    }
+    return text.empty() ? text : text + "\n";
+}
+
+}  // namespace
+
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
                                   const std::vector<Tolerance>& tolerances) {
     std::vector<Shortfall> found;
     for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
+        if (!tolerances.empty()) add_objections(scenario, condition, found);
         for (const Tolerance& tolerance : tolerances) {
             const analysis::MetricSummary& metric = condition.metric(tolerance.metric);
             const auto& difference = metric.comparison->difference;
@@ -130,7 +169,9 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
     std::string text;
     auto out = std::back_inserter(text);
     bool any_unsafe = false;
+    bool any_few = false;
     for (const ScenarioSummary& scenario : summary.scenarios) {
+        text += objections_text(scenario);
         for (const std::string& name : metrics) {
             std::string rows;
             const analysis::MetricInfo* metric = nullptr;
@@ -138,7 +179,9 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 if (condition.baseline.empty()) continue;
                 metric = &condition.metric(name).metric;
                 any_unsafe = any_unsafe || is_unsafe(condition);
-                rows += row_of(condition, *condition.metric(name).comparison);
+                const Comparison& comparison = *condition.metric(name).comparison;
+                any_few = any_few || comparison.complete_pairs < analysis::fewest_for_interval;
+                rows += row_of(condition, comparison);
             }
             if (metric == nullptr) continue;
             fmt::format_to(out, "{}: {}{}\n{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n{:-<{}}\n{}\n",
@@ -147,6 +190,9 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                            "diff.", "95 % interval", "%", "d", "p Holm", "Wilcoxon", "", page_width, rows);
         }
     }
+    if (any_few)
+        text += fmt::format("too few seeds: fewer than {} complete pairs give no interval; see --seeds.\n",
+                            analysis::fewest_for_interval);
     if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
     return text;
 }
@@ -162,6 +208,8 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                                {"condition", condition.condition.name},
                                {"compared_with", condition.baseline},
                                {"safety_checks", experiment::name(condition.condition.safety_checks)},
+                               {"objections", analysis::emergency_objections(condition.objections)},
+                               {"objections_of_others", analysis::other_objections(condition.objections)},
                                {"metrics", std::move(values)}});
     });
     Json gates = Json::array();

@@ -17,16 +17,18 @@ struct Tolerance {
 struct Shortfall {
     std::string scenario;
     std::string condition;
-    std::string metric;
-    std::string why;  ///< `its interval reaches to +2.3 s`, `there is no interval`.
+    std::string metric;  ///< Or `emergency vehicles`, `other vehicles` for an objection.
+    std::string why;     ///< `its interval reaches to +2.3 s`, `there is no interval`.
 };
 
 /// Whether more of a metric is better: arrivals and right links. Of all others less is.
 bool more_is_better(const std::string& metric);
 
-/// Comparisons for which the 95 % interval of the difference does not show that the condition is worse by no
-/// more than the tolerance. One without an interval shows nothing and falls short; pairs that are all equal
-/// have one. Throws std::out_of_range for an unknown metric.
+/// Where there is a tolerance at all: every objection against a condition, for no tolerance of a mean
+/// outweighs a lost emergency vehicle (see analysis::Objections). Then comparisons for which the 95 %
+/// interval of the difference does not show that the condition is worse by no more than the tolerance. One
+/// without an interval shows nothing and falls short; pairs that are all equal have one. Throws
+/// std::out_of_range for an unknown metric.
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary, const std::vector<Tolerance>& tolerances);
 
 /// The paired table of each scenario and metric for a terminal of 110 columns.

@@ -35,12 +35,16 @@ std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& 
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
-/// `8.1 +- 0.9`: the mean and half the width of its interval.
+/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (to 2.1)` where the bound at 0 makes it
+/// lopsided.
 std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.mean) return missing(style.script);
     std::string text = number(*value.mean, style);
-    if (value.has_interval()) text += fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
-    return text;
+    if (!value.has_interval()) return text;
+    const double above = *value.high - *value.mean;
+    const bool is_lopsided = above > 1.001 * (*value.mean - *value.low) + 1e-9;
+    if (is_lopsided) return text + fmt::format(" (to {})", number(*value.high, style));
+    return text + fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
 }
 
 void append_published_table(const ScenarioFacts& scenario, std::string& text) {
@@ -73,11 +77,13 @@ std::string split_cell(const Estimate& value, NumberStyle style, double factor) 
     const std::string whole = estimate(value, style, factor);
     const std::size_t space = whole.find(' ');
     return fmt::format("{:>9}  {:<17}", whole.substr(0, space),
-                       space == std::string::npos ? "(no interval)" : whole.substr(space + 1));
+                       space != std::string::npos ? whole.substr(space + 1)
+                       : value.too_few()          ? "too few seeds"
+                                                  : "(no interval)");
 }
 
-const char* effect_word(Effect effect) {
-    switch (effect) {
+std::string effect_word(const ConditionFacts& condition, Measure measure) {
+    switch (effect_of(condition, measure)) {
         case Effect::better:
             return "better";
         case Effect::worse:
@@ -86,6 +92,11 @@ const char* effect_word(Effect effect) {
             return "not relevant";
         case Effect::none_shown:
             return "no effect shown";
+        case Effect::ruled_out: {
+            const std::string word = analysis::emergency_objection_word(condition.objections);
+            return word.empty() ? "others lost" : word;
+        }
+        case Effect::too_few:
         case Effect::undecided:
             break;
     }
@@ -103,7 +114,7 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
         if (condition.is_compared()) {
             line += split_cell(outcome.difference, {.decimals = decimals, .sign = Sign::always},
                                measure.printed_factor);
-            line += effect_word(effect_of(outcome, measure.better));
+            line += effect_word(condition, measure.measure);
         }
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
@@ -130,6 +141,10 @@ void append_wrapped(const std::string& paragraph, std::string& text) {
 
 void append_runs(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.runs_without_horizon > 0)
+            append_wrapped(fmt::format("{}: {}", label(condition),
+                                       without_horizon_sentence(condition.runs_without_horizon)),
+                           text);
         if (condition.failed.empty()) continue;
         append_wrapped(
             fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
@@ -156,23 +171,57 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
 /// Pairs and vehicles that the differences of EV travel time leave out.
 void append_censored(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;
+        const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;  // arrived only
         if (!paired || (paired->incomplete_pairs == 0 && paired->vehicles_left_out == 0)) continue;
-        append_wrapped(
-            fmt::format(
-                "Left out of differences of EV travel time: {}: {} of {} without an EV that arrived in "
-                "both conditions, and {} in the others that did not.",
-                label(condition), counted(paired->incomplete_pairs, "pair"),
-                paired->incomplete_pairs + paired->complete_pairs, counted(paired->vehicles_left_out, "EV")),
-            text);
+        append_wrapped(fmt::format("Left out of differences of EV travel time, arrived only: {}: {} of {} "
+                                   "without an EV that arrived in "
+                                   "both conditions, and {} in the others that did not.",
+                                   label(condition), counted(paired->incomplete_pairs, "pair"),
+                                   paired->incomplete_pairs + paired->complete_pairs,
+                                   counted(paired->vehicles_left_out, "EV")),
+                       text);
     }
+}
+
+std::uint64_t emergency_vehicles(const ScenarioFacts& scenario) {
+    std::uint64_t most = 0;
+    for (const ConditionFacts& condition : scenario.conditions)
+        most = std::max(most, condition.emergency.all());
+    return most;
+}
+
+/// What the policies asked for: a null result often follows from it.
+void append_leases(const ScenarioFacts& scenario, std::string& text) {
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.has_policy || condition.runs == 0) continue;
+        append_wrapped(
+            fmt::format("Actions: {}: {}.", label(condition), printable(lease_sentence(condition))), text);
+    }
+}
+
+void append_head(const ScenarioFacts& scenario, std::string& text) {
+    const std::uint64_t emergency = emergency_vehicles(scenario);
+    fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) a condition\n", "", page_width,
+                   printable(scenario.name), counted(scenario.replications, "replication"),
+                   counted(emergency, "emergency vehicle"));
+    const bool has_runs =
+        std::ranges::any_of(scenario.conditions, [](const auto& condition) { return condition.runs > 0; });
+    if (emergency == 0 && has_runs)
+        append_wrapped(
+            "The demand has no emergency vehicle (emergency = 0): rows about EVs are left out, and there is "
+            "nothing to judge a policy by. Set emergency to 1 or more.",
+            text);
+}
+
+bool is_about_emergency(const MeasureInfo& measure) {
+    return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
 }
 
 void append_scenario(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
     const auto table = published_table(scenario.name);
-    fmt::format_to(out, "{:=<{}}\n{}: {}\n", "", page_width, printable(scenario.name),
-                   counted(scenario.replications, "replication"));
+    append_head(scenario, text);
+    const bool has_emergency = emergency_vehicles(scenario) > 0;
     if (table) {
         fmt::format_to(out, "\n{}\n", table->caption);
         append_published_table(scenario, text);
@@ -180,9 +229,9 @@ void append_scenario(const ScenarioFacts& scenario, std::string& text) {
     fmt::format_to(out, "\n{:<{}}{:>9}  {:<17}{:>9}  {:<17}{}\n{:-<{}}\n", "Measure and condition",
                    label_width, "mean", "95 % interval", "diff.", "95 % interval", "effect", "", page_width);
     for (const MeasureInfo& measure : measures()) {
-        append_measure(scenario, measure, text);
+        if (has_emergency || !is_about_emergency(measure)) append_measure(scenario, measure, text);
     }
-    append_tails(scenario, text);
+    if (has_emergency) append_tails(scenario, text);
     text += '\n';
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
@@ -190,11 +239,22 @@ void append_scenario(const ScenarioFacts& scenario, std::string& text) {
             fmt::format("{}: {}", label(condition), printable(verdict(scenario, condition, Script::plain))),
             text);
     }
+    append_leases(scenario, text);
     append_censored(scenario, text);
     append_runs(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (!wide.empty()) append_wrapped(wide, text);
     text += '\n';
+}
+
+/// Empty where there are enough.
+std::string few_seeds_sentence(const StudyFacts& study) {
+    const bool few = std::ranges::any_of(study.scenarios, [](const ScenarioFacts& scenario) {
+        return scenario.replications < analysis::fewest_for_interval;
+    });
+    if (!few) return "";
+    return fmt::format("too few seeds: fewer than {} give no interval and no effect; see --seeds.",
+                       analysis::fewest_for_interval);
 }
 
 }  // namespace
@@ -209,8 +269,16 @@ std::string console_tables(const StudyFacts& study) {
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
     }
     text += safe_table(failure_table(study.failure_curves));
+    append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval. diff.: mean of the paired differences to the "
+        "here: mean and half width of its 95 % interval; (to x): its upper end where it is lopsided, for "
+        "none "
+        "reaches below 0. EV travel time, all, of which verdicts speak: an EV that did not arrive counts "
+        "with "
+        "the horizon. lost EVs, hit EVs, unchecked: more EVs than at the baseline did not arrive or "
+        "collided, "
+        "or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of the paired "
+        "differences to the "
         "baseline of the "
         "same replication; better or worse when its interval excludes 0; not relevant where an EV's time "
         "changes by less than what counts ("

@@ -6,20 +6,26 @@ const std::array<MeasureInfo, measure_count>& measures() {
     using M = Measure;
     static constexpr std::array<MeasureInfo, measure_count> table = {{
         {M::emergency_waiting_time, "emergency_waiting_time_s", "Emergency waiting time", "s",
-         "Time that an EV stands (below 0.1 m/s), mean over the EVs that entered.", Better::lower,
-         Relevance::least, 1.0},
+         "Time that an emergency vehicle (EV) stands (below 0.1 m/s), mean over the EVs that entered.",
+         Better::lower, Relevance::least, 1.0},
         {M::emergency_depart_delay, "emergency_depart_delay_s", "Depart delay, EV", "s",
          "Time that an EV waits for a gap to enter the network.", Better::lower, Relevance::least, 1.0},
         {M::waiting_time, "waiting_time_s", "Average waiting time", "s",
          "Time that a vehicle stands, mean over all that entered.", Better::lower, Relevance::any, 1.0},
-        {M::emergency_travel_time, "emergency_travel_time_s", "EV travel time", "s",
-         "From entering the network to arriving, mean over the EVs that arrived: the primary measure.",
+        {M::emergency_restricted_time, "emergency_restricted_travel_time_s", "EV travel time, all", "s",
+         "From entering the network to arriving, restricted mean over all EVs: one that did not arrive "
+         "(teleported, removed, not inserted, still on the road) counts with the horizon. The primary "
+         "measure, of which verdicts speak.",
          Better::lower, Relevance::least, 1.0},
-        {M::emergency_time_loss, "emergency_time_loss_s", "EV time loss", "s",
-         "Travel time beyond that at the desired speed.", Better::lower, Relevance::least, 1.0},
+        {M::emergency_travel_time, "emergency_travel_time_s", "EV travel time, arrived only", "s",
+         "The same, mean over the EVs that arrived: it hides those that were lost.", Better::lower,
+         Relevance::least, 1.0},
+        {M::emergency_time_loss, "emergency_time_loss_s", "EV time loss, arrived only", "s",
+         "Travel time beyond that at the desired speed, mean over the EVs that arrived.", Better::lower,
+         Relevance::least, 1.0},
         {M::gap_closed, "gap_closed", "Gap closed", "%",
-         "Share of the way from the baseline's EV travel time to that of an EV alone on the road with open "
-         "signals.",
+         "Share of the way from the baseline's EV travel time (all) to that of an EV alone on the road with "
+         "open signals.",
          Better::higher, Relevance::any, 100.0},
         {M::other_time_loss, "others_time_loss_s", "Time loss, others", "s",
          "Time loss of all vehicles that are no EVs: what the gain costs them.", Better::lower,

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/estimate.hpp"
+#include "analysis/objections.hpp"
+#include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
 
 namespace clearway::report {
@@ -17,6 +20,7 @@ enum class Measure : std::uint8_t {
     emergency_waiting_time,
     emergency_depart_delay,
     waiting_time,
+    emergency_restricted_time,
     emergency_travel_time,
     emergency_time_loss,
     gap_closed,
@@ -26,7 +30,7 @@ enum class Measure : std::uint8_t {
     teleports,
     unfinished,
 };
-inline constexpr std::size_t measure_count = 11;
+inline constexpr std::size_t measure_count = 12;
 
 /// What a difference means.
 enum class Better : std::uint8_t { lower, higher };
@@ -56,14 +60,16 @@ struct MeasureInfo {
 const std::array<MeasureInfo, measure_count>& measures();
 const MeasureInfo& info(Measure measure);
 
-/// A mean over replications with its 95 % interval. A single replication has no interval.
+/// A mean over replications with its 95 % interval. Fewer than `analysis::fewest_for_interval` replications
+/// have none.
 struct Estimate {
     std::optional<double> mean;
     std::optional<double> low;   ///< Exists together with `high`.
     std::optional<double> high;  ///< 95 %.
     std::uint64_t count = 0;     ///< Replications (of a difference: complete pairs) behind it.
 
-    bool has_interval() const { return low.has_value() && high.has_value(); }
+    bool too_few() const { return mean.has_value() && count < analysis::fewest_for_interval; }
+    bool has_interval() const { return low.has_value() && high.has_value() && !too_few(); }
 };
 
 /// What is known of a paired difference beside its mean and t interval.
@@ -118,13 +124,13 @@ struct SafetyFacts {
     std::optional<double> per_1000_km;  ///< Of counts: over all runs, by 1,000 vehicle-kilometres.
 };
 
-/// EV travel times of one replication, s: means over the EVs that arrived in both conditions.
+/// EV travel times of one replication, s: restricted means over all EVs.
 struct TravelTimePair {
     double baseline_s = 0.0;
     double condition_s = 0.0;
 };
 
-/// Half width of the interval of the EV travel time difference after so many replications.
+/// Half width of the interval of the difference in restricted mean EV travel time after so many replications.
 struct PrecisionPoint {
     std::uint64_t replications = 0;
     double half_width_s = 0.0;
@@ -136,6 +142,8 @@ struct Precision {
     double deviation_s = 0.0;            ///< Of the paired differences.
     std::uint64_t needed = 0;            ///< For a half width of the least relevant difference (FHWA's rule).
 };
+/// More replications than this are not asked for: who would need them should ask for a larger difference.
+inline constexpr std::uint64_t most_replications_asked = 200;
 inline constexpr std::size_t precision_points = 200;
 
 /// What a condition costs on one approach, s a run summed over vehicles that are no EVs, against the
@@ -218,7 +226,12 @@ struct ConditionFacts {
     /// and for EVs alone on the road, which are a floor and not a condition to judge.
     std::optional<std::size_t> baseline;
     bool safety_checks_off = false;
+    analysis::Objections objections;  ///< Against the baseline.
+    bool has_policy = false;
+    /// What its policy asked for, over all complete runs; nothing where the records do not tell.
+    std::optional<std::vector<metrics::LeaseRow>> leases;
     std::array<Outcome, measure_count> outcomes;
+    std::uint64_t runs_without_horizon = 0;  ///< See analysis::ConditionSummary.
     Endings emergency;
     Endings others;
     std::uint64_t runs = 0;          ///< Completed.

@@ -44,14 +44,22 @@ FailureText take_apart(std::string_view text) {
 }
 
 FailurePoint point_of(double dark_share, const analysis::ConditionSummary& condition) {
-    FailurePoint point{dark_share, std::nullopt, condition.metric("links_f1").estimate};
-    const auto& comparison = condition.metric("emergency_time_loss_s").comparison;
-    if (comparison) point.time_loss = comparison->difference;
+    FailurePoint point{dark_share, std::nullopt, condition.metric("links_f1").estimate, {}};
+    const auto& comparison = condition.metric(analysis::primary_metric).comparison;
+    if (comparison) point.travel_time = comparison->difference;
+    point.objections = condition.objections;
     return point;
 }
 
 bool shows_benefit(const FailurePoint& point) {
-    return point.time_loss && point.time_loss->interval && point.time_loss->interval->high < 0.0;
+    return !point.objections.on_emergency() && point.travel_time &&
+           point.travel_time->n >= analysis::fewest_for_interval && point.travel_time->interval &&
+           point.travel_time->interval->high < 0.0;
+}
+
+std::string benefit_word(const FailurePoint& point) {
+    if (point.objections.on_emergency()) return analysis::emergency_objection_word(point.objections);
+    return shows_benefit(point) ? "shown" : "not shown";
 }
 
 void finish(FailureLine& line) {
@@ -123,7 +131,7 @@ void add_perfect(const analysis::ScenarioSummary& scenario, FailureCurve& curve)
 std::string interval_text(const std::optional<analysis::Estimate>& estimate, NumberStyle style) {
     if (!estimate) return missing(style.script);
     std::string text = number(estimate->mean, style);
-    if (estimate->interval)
+    if (estimate->interval && estimate->n >= analysis::fewest_for_interval)
         text += fmt::format(" [{}, {}]", number(estimate->interval->low, style),
                             number(estimate->interval->high, style));
     return text;
@@ -153,15 +161,14 @@ std::string failure_table(const std::vector<FailureCurve>& curves) {
         fmt::format_to(out, "{:=<110}\nBenefit against failure: {}, policy {}{}{}\n\n", "", curve.scenario,
                        curve.policy, curve.failure.empty() ? "" : "; failure ", curve.failure);
         fmt::format_to(out, "{:<24}{:>10}  {:<32}{:<26}{}\n{:-<110}\n", "Repair", "dark",
-                       "EV time loss, diff., s", "link F1", "benefit", "");
+                       "EV travel time, diff., s", "link F1", "benefit", "");
         for (const FailureLine& line : curve.lines) {
             for (std::size_t at = 0; at < line.points.size(); ++at) {
                 const FailurePoint& point = line.points[at];
                 fmt::format_to(out, "{:<24}{:>8.0f} %  {:<32}{:<26}{}{}\n", at == 0 ? line.repair : "",
                                100.0 * point.dark_share,
-                               interval_text(point.time_loss, {.decimals = 1, .sign = Sign::always}),
-                               interval_text(point.link_f1, {.decimals = 3}),
-                               shows_benefit(point) ? "shown" : "not shown",
+                               interval_text(point.travel_time, {.decimals = 1, .sign = Sign::always}),
+                               interval_text(point.link_f1, {.decimals = 3}), benefit_word(point),
                                line.break_even == at ? " (break-even)" : "");
             }
         }

@@ -11,10 +11,12 @@ namespace clearway::report {
 /// What a repair makes of a share of time dark.
 struct FailurePoint {
     double dark_share = 0.0;
-    /// EV time loss of the condition less that of the baseline, s: below 0 is a benefit.
-    std::optional<analysis::Estimate> time_loss;
+    /// Restricted mean EV travel time of the condition less that of the baseline, s: below 0 is a benefit,
+    /// unless there are objections.
+    std::optional<analysis::Estimate> travel_time;
     /// F1 of the believed links end to end: links of vehicles that nobody ever saw count as missed.
     std::optional<analysis::Estimate> link_f1;
+    analysis::Objections objections;
 };
 
 /// One repair over the share of time dark.
@@ -22,7 +24,8 @@ struct FailureLine {
     std::string repair;
     std::vector<FailurePoint> points;  ///< By rising share, at least one.
     /// The point from which on no benefit is shown: the first whose interval of the difference reaches 0.
-    /// Nothing where each point shows a benefit; a point without an interval shows none.
+    /// Nothing where each point shows a benefit; a point without an interval, or with
+    /// objections on the side of EVs, shows none.
     std::optional<std::size_t> break_even;
 };
 

@@ -15,8 +15,8 @@ Json number_or_null(const std::optional<double>& value) {
 
 Json to_json(const Estimate& estimate, const char* count_name) {
     return {{"mean", number_or_null(estimate.mean)},
-            {"low_95", number_or_null(estimate.low)},
-            {"high_95", number_or_null(estimate.high)},
+            {"low_95", estimate.has_interval() ? Json(*estimate.low) : Json(nullptr)},
+            {"high_95", estimate.has_interval() ? Json(*estimate.high) : Json(nullptr)},
             {count_name, estimate.count}};
 }
 
@@ -30,6 +30,10 @@ const char* effect_name(Effect effect) {
             return "negligible";
         case Effect::none_shown:
             return "none_shown";
+        case Effect::ruled_out:
+            return "ruled_out";
+        case Effect::too_few:
+            return "too_few_seeds";
         case Effect::undecided:
             break;
     }
@@ -79,6 +83,30 @@ Json to_json(const std::vector<SafetyFacts>& safety) {
     return result;
 }
 
+Json to_json(const analysis::Objections& objections) {
+    return {{"emergency_vehicles", objections.emergency.total()},
+            {"emergency_lost", objections.emergency.lost()},
+            {"baseline_emergency_lost", objections.baseline_emergency.lost()},
+            {"more_emergency_collisions", objections.collisions.has_value()},
+            {"more_others_teleported", objections.teleported.has_value()},
+            {"more_others_not_inserted", objections.not_inserted.has_value()},
+            {"safety_checks_off", objections.unchecked}};
+}
+
+Json to_json(const std::vector<metrics::LeaseRow>& leases) {
+    Json rows = Json::array();
+    for (const metrics::LeaseRow& lease : leases) {
+        rows.push_back({{"part", lease.part},
+                        {"action", lease.action},
+                        {"issued", lease.issued},
+                        {"renewed", lease.renewed},
+                        {"acted", lease.acted},
+                        {"expired", lease.expired},
+                        {"refused", lease.refused}});
+    }
+    return rows;
+}
+
 Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     Json result = Json::object();
     for (const MeasureInfo& measure : measures()) {
@@ -86,7 +114,7 @@ Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition)
         Json entry = to_json(outcome.value, "replications");
         if (condition.is_compared()) {
             entry["difference"] = to_json(outcome.difference, "pairs");
-            entry["effect"] = effect_name(effect_of(outcome, measure.better));
+            entry["effect"] = effect_name(effect_of(condition, measure.measure));
             if (outcome.paired) entry["paired"] = to_json(*outcome.paired);
         }
         if (is_published(measure.measure)) {
@@ -119,10 +147,14 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"safety", to_json(condition.safety)},
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
+    if (condition.leases) result["leases"] = to_json(*condition.leases);
     if (condition.precision) {
-        result["precision"] = {{"deviation_s", condition.precision->deviation_s},
-                               {"replications_needed", condition.precision->needed}};
+        const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
+        result["precision"] = {
+            {"deviation_s", condition.precision->deviation_s},
+            {"replications_needed", open ? Json(condition.precision->needed) : Json(nullptr)}};
     }
+    if (condition.is_compared()) result["objections"] = to_json(condition.objections);
     if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain);
     return result;
 }
@@ -150,7 +182,8 @@ Json to_json(const FailureCurve& curve) {
         Json points = Json::array();
         for (const FailurePoint& point : line.points) {
             points.push_back({{"dark_share", point.dark_share},
-                              {"emergency_time_loss_difference_s", to_json(point.time_loss)},
+                              {"emergency_restricted_travel_time_difference_s", to_json(point.travel_time)},
+                              {"objections", analysis::emergency_objections(point.objections)},
                               {"link_f1", to_json(point.link_f1)}});
         }
         repairs.push_back({{"repair", line.repair},

@@ -149,7 +149,7 @@ std::optional<Precision> precision_of(const std::vector<TravelTimePair>& pairs, 
 
 void fill_pairs(const analysis::ConditionSummary& summary, double level, double least_relevant_s,
                 ConditionFacts& facts) {
-    const auto& comparison = summary.metric("emergency_travel_time_s").comparison;
+    const auto& comparison = summary.metric(analysis::primary_metric).comparison;
     if (!comparison) return;
     for (std::size_t pair = 0; pair < comparison->complete_pairs; ++pair)
         facts.travel_time_pairs.push_back(
@@ -201,6 +201,10 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
         condition.title = title_of(condition.name);
         condition.recipe = recipe_of(one.condition);
         condition.safety_checks_off = one.condition.safety_checks == traffic::SafetyChecks::off;
+        condition.objections = one.objections;
+        condition.runs_without_horizon = one.runs_without_horizon;
+        condition.has_policy = !one.condition.policies.empty();
+        condition.leases = one.leases;
         condition.emergency = endings_from(one.emergency);
         condition.others = endings_from(one.others);
         condition.runs = one.complete_runs;

@@ -60,6 +60,14 @@ std::string counted(std::uint64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string without_horizon_sentence(std::uint64_t runs) {
+    if (runs == 0) return {};
+    return fmt::format(
+        "{} that lost emergency vehicles (EV) {} of an older version, which did not note the horizon, so EV "
+        "travel time, all, is not known there. Make the study again in a new folder.",
+        counted(runs, "run"), runs == 1 ? "is" : "are");
+}
+
 std::string wide_edges_sentence(const ScenarioFacts& scenario) {
     if (!scenario.wide_edges) return {};
     if (scenario.wide_edges->empty()) return "No edge has three or more lanes for cars.";

@@ -49,6 +49,9 @@ std::string grouped(std::uint64_t count);
 /// `1 run`, `2 runs`.
 std::string counted(std::uint64_t count, std::string_view noun);
 
+/// What to do about runs of older versions that lost emergency vehicles; empty for no such run.
+std::string without_horizon_sentence(std::uint64_t runs);
+
 /// Edges of three or more lanes for cars, in a sentence without names; empty where the folder does not tell.
 std::string wide_edges_sentence(const ScenarioFacts& scenario);
 

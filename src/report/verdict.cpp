@@ -1,6 +1,9 @@
 #include "report/verdict.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,12 +37,21 @@ std::string relative_text(const ScenarioFacts& scenario, const ConditionFacts& c
     return fmt::format(", {} %", number(100.0 * *difference / *base, {0, script, Sign::always}));
 }
 
+constexpr Measure primary = Measure::emergency_restricted_time;
+
 std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const Outcome& outcome = condition.outcome(Measure::emergency_travel_time);
+    const Outcome& outcome = condition.outcome(primary);
     const Estimate& difference = outcome.difference;
-    const std::string amount = difference_text(scenario, condition, Measure::emergency_travel_time, script) +
-                               relative_text(scenario, condition, Measure::emergency_travel_time, script);
-    switch (effect_of(outcome, Better::lower)) {
+    const std::string amount = difference_text(scenario, condition, primary, script) +
+                               relative_text(scenario, condition, primary, script);
+    const Effect effect = effect_of(outcome, Better::lower);
+    if (condition.objections.on_emergency()) {
+        return fmt::format(
+            "{}{}: {}", analysis::emergency_objections(condition.objections),
+            effect == Effect::worse ? " and harmed" : "",
+            difference.mean ? "EV travel time " + amount : "no complete pair of runs to compare");
+    }
+    switch (effect) {
         case Effect::better:
             return fmt::format("helped: EV travel time {}", amount);
         case Effect::worse:
@@ -49,19 +61,49 @@ std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition,
                                number(outcome.least_relevant, {1, script}));
         case Effect::none_shown:
             return fmt::format("no effect shown: EV travel time {}", amount);
+        case Effect::too_few:
+            return fmt::format("no verdict: too few seeds, {} of at least {} (EV travel time {})",
+                               difference.count, analysis::fewest_for_interval, amount);
+        case Effect::ruled_out:
         case Effect::undecided:
             break;
     }
-    if (!difference.mean.has_value()) return "no verdict: no complete pair of runs";
-    return fmt::format("no verdict: one pair of runs has no interval (EV travel time {})", amount);
+    if (condition.emergency.all() == 0 && condition.runs > 0)
+        return "no verdict: the demand has no emergency vehicle";
+    if (!difference.mean) return "no verdict: no complete pair of runs";
+    return fmt::format("no verdict: no interval (EV travel time {})", amount);
+}
+
+const char* words_of(const std::string& action) {
+    static const std::map<std::string, const char*> words = {
+        {"drive_at", "asked a vehicle for a speed"},
+        {"change_lane", "asked a vehicle to change lanes"},
+        {"hold_lane", "asked a vehicle to keep its lane"},
+        {"pull_aside", "asked a vehicle to pull aside"},
+        {"stop_at_line", "asked a vehicle to stop at the line"},
+        {"hold_green", "asked a signal for green"},
+        {"favour_links", "gave time back at a signal"},
+        {"pass_red", "let the EV pass red"}};
+    const auto found = words.find(action);
+    return found == words.end() ? action.c_str() : found->second;
+}
+
+/// `no_room_beside 12, outranked 3`, the most frequent first.
+std::string reasons_of(const metrics::LeaseRow& row) {
+    std::vector<std::pair<std::string, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
+    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<std::string, std::uint64_t>::second);
+    std::vector<std::string> words;
+    for (const auto& [reason, count] : reasons)
+        words.push_back(fmt::format("{} {}", reason, grouped(count)));
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// What else changed beyond doubt; for the others also that nothing is shown.
 std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::string text;
     const auto add = [&](Measure measure, const char* better, const char* worse, const char* none) {
-        const Effect effect = effect_of(condition.outcome(measure), info(measure).better);
-        if (effect == Effect::undecided) return;
+        const Effect effect = effect_of(condition, measure);
+        if (effect == Effect::undecided || effect == Effect::too_few || effect == Effect::ruled_out) return;
         const char* const words = effect == Effect::better ? better : effect == Effect::worse ? worse : none;
         if (*words == '\0') return;
         text += fmt::format("; {} ({})", words, difference_text(scenario, condition, measure, script));
@@ -69,7 +111,7 @@ std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition
     add(Measure::other_time_loss, "the others lose less time", "the others lose more time",
         "no effect shown on the others' time loss");
     add(Measure::collisions, "fewer collisions", "more collisions", "");
-    add(Measure::teleports, "fewer teleports", "more teleports", "");
+    add(Measure::teleports, "fewer teleports", condition.objections.teleported ? "" : "more teleports", "");
     add(Measure::unfinished, "fewer unfinished vehicles", "more unfinished vehicles", "");
     return text;
 }
@@ -78,6 +120,7 @@ std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition
 
 Effect effect_of(const Outcome& outcome, Better better) {
     const Estimate& difference = outcome.difference;
+    if (difference.too_few()) return Effect::too_few;
     if (!difference.has_interval()) return Effect::undecided;
     const bool excludes_zero = *difference.high < 0.0 || *difference.low > 0.0;
     const double least = outcome.least_relevant;
@@ -87,9 +130,39 @@ Effect effect_of(const Outcome& outcome, Better better) {
     return (*difference.high < 0.0) == (better == Better::lower) ? Effect::better : Effect::worse;
 }
 
+Effect effect_of(const ConditionFacts& condition, Measure measure) {
+    const Effect effect = effect_of(condition.outcome(measure), info(measure).better);
+    if (effect == Effect::worse || effect == Effect::undecided) return effect;
+    const bool of_emergency = info(measure).relevance == Relevance::least || measure == Measure::gap_closed;
+    const bool of_others = measure == Measure::waiting_time || measure == Measure::other_time_loss ||
+                           measure == Measure::depart_delay;
+    const analysis::Objections& objections = condition.objections;
+    const bool ruled_out = objections.unchecked || (of_emergency && objections.on_emergency()) ||
+                           (of_others && objections.on_others());
+    return ruled_out ? Effect::ruled_out : effect;
+}
+
+std::string lease_sentence(const ConditionFacts& condition) {
+    if (!condition.has_policy) return "has no policy that could ask for anything";
+    if (!condition.leases) return "records of an older version hold totals only; run again for actions";
+    std::vector<std::string> found;
+    bool lane_changes = false;
+    for (const metrics::LeaseRow& row : *condition.leases) {
+        lane_changes = lane_changes || row.action == "change_lane";
+        std::string text = fmt::format("{}: {} {} times, {} carried out", row.part, words_of(row.action),
+                                       grouped(row.issued), grouped(row.acted));
+        if (row.refusals() > 0) text += fmt::format(", refused: {}", reasons_of(row));
+        found.push_back(std::move(text));
+    }
+    if (!lane_changes) found.insert(found.begin(), "asked 0 vehicles to change lanes");
+    return fmt::format("{}", fmt::join(found, "; "));
+}
+
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::string text = lead(scenario, condition, script);
-    if (condition.outcome(Measure::emergency_travel_time).difference.has_interval()) {
+    const std::string others = analysis::other_objections(condition.objections);
+    if (!others.empty()) text += "; " + others;
+    if (condition.outcome(Measure::emergency_restricted_time).difference.has_interval()) {
         text += costs(scenario, condition, script);
     }
     text += ".";
@@ -98,26 +171,46 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
     return text;
 }
 
+namespace {
+
+/// What a headline says of a condition; in the order in which it says it.
+std::size_t finding_of(const ConditionFacts& condition) {
+    const analysis::Objections& objections = condition.objections;
+    if (objections.loses_emergency()) return 0;
+    if (objections.collisions) return 1;
+    if (objections.unchecked) return 2;
+    return 3 + static_cast<std::size_t>(effect_of(condition, primary));
+}
+constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost",
+                                                       "more collisions with emergency vehicles",
+                                                       "safety checks off",
+                                                       "emergency vehicles faster",
+                                                       "slower",
+                                                       "no relevant effect",
+                                                       "no effect shown",
+                                                       "",
+                                                       "too few seeds",
+                                                       "no verdict"};
+
+}  // namespace
+
 std::string headline(const StudyFacts& study) {
     std::vector<std::string> parts;
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::size_t compared = 0;
-        std::array<std::size_t, 5> seen = {};
+        std::array<std::size_t, finding_words.size()> seen = {};
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared()) continue;
             ++compared;
-            const Outcome& outcome = condition.outcome(Measure::emergency_travel_time);
-            ++seen[static_cast<std::size_t>(effect_of(outcome, Better::lower))];
+            ++seen[finding_of(condition)];
         }
         if (compared == 0) continue;
-        constexpr std::array<const char*, 5> words = {"EVs faster", "slower", "no relevant effect",
-                                                      "no effect shown", "no verdict"};
         std::vector<std::string> findings;
-        for (std::size_t effect = 0; effect < seen.size(); ++effect) {
-            if (seen[effect] == 0) continue;
+        for (std::size_t finding = 0; finding < seen.size(); ++finding) {
+            if (seen[finding] == 0) continue;
             const std::string total =
                 findings.empty() ? fmt::format(" of {}", counted(compared, "condition")) : "";
-            findings.push_back(fmt::format("{} under {}{}", words[effect], seen[effect], total));
+            findings.push_back(fmt::format("{} under {}{}", finding_words[finding], seen[finding], total));
         }
         parts.push_back(fmt::format("{}: {}", scenario.name, fmt::join(findings, ", ")));
     }

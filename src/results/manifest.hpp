@@ -26,9 +26,9 @@ struct ScenarioEntry {
 
 /// How exact a study is to become, instead of a number of replications.
 struct PrecisionTarget {
-    std::string metric = "emergency_travel_time_s";  ///< Of metrics::RunMetrics.
-    double half_width = 0.0;                         ///< Of the 95 % interval, in the metric's unit; > 0.
-    std::uint32_t at_most = 0;                       ///< Replications.
+    std::string metric = "emergency_restricted_travel_time_s";  ///< Of metrics::RunMetrics.
+    double half_width = 0.0;    ///< Of the 95 % interval, in the metric's unit; > 0.
+    std::uint32_t at_most = 0;  ///< Replications.
 
     bool operator==(const PrecisionTarget&) const = default;
 };

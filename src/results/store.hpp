@@ -32,7 +32,7 @@ struct SetAside {
 ///     damaged/SCENARIO/CONDITION/                        runs whose files did not fit their hash, kept
 ///     units/, logs/                                      orders for workers, and what they said
 ///     work/                                              SUMO's files of runs that did not end well
-///     runs.csv, vehicles.csv, results.sqlite             all runs in one table each, written at the end
+///     runs.csv, vehicles.csv, leases.csv, results.sqlite all runs in one table each, written at the end
 ///
 /// Several processes may write different runs, or the same run, at one time: a run's folder is written aside,
 /// flushed to the disk and renamed without replacing, so it is there as a whole or not at all.
@@ -122,7 +122,7 @@ std::string runs_csv(const Results& results);
 /// All vehicles of all complete runs, one line a vehicle. Sorted; equal results give equal bytes.
 std::string vehicles_csv(const Results& results);
 
-/// Writes `runs.csv`, `vehicles.csv` and `results.sqlite` of a run folder from its runs.
+/// Writes `runs.csv`, `vehicles.csv`, `leases.csv` and `results.sqlite` of a run folder from its runs.
 void write_tables(const Store& store, const Results& results);
 
 }  // namespace clearway::results

@@ -6,8 +6,8 @@
 
 namespace clearway::results {
 
-/// Writes `runs.csv`, `vehicles.csv` and `results.sqlite` of a run folder run by run, so that no more than
-/// one need be in memory. Equal runs give equal bytes. Nothing is replaced before `finish`.
+/// Writes `runs.csv`, `vehicles.csv`, `leases.csv` and `results.sqlite` of a run folder run by run, so that
+/// no more than one need be in memory. Equal runs give equal bytes. Nothing is replaced before `finish`.
 class TableWriter {
   public:
     /// Throws core::EnvironmentError, as the other members do.

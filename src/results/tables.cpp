@@ -47,6 +47,24 @@ std::string vehicles_header() {
     return "scenario,condition,replication," + detail::vehicle_header();
 }
 
+/// `leases.csv`: a line for each action asked and carried out or not, and one for each reason of refusal.
+std::string leases_header() {
+    return "scenario,condition,replication,part,action,outcome,reason,leases";
+}
+
+void append_leases(const RunRecord& run, std::string& text) {
+    const std::string key = key_cells(run.key);
+    if (!run.leases) return;
+    for (const metrics::LeaseRow& lease : *run.leases) {
+        const std::string start = fmt::format("{},{},{}", key, csv_text(lease.part), csv_text(lease.action));
+        core::for_each_field<metrics::LeaseRow>([&](const auto& field) {
+            text += fmt::format("{},{},,{}\n", start, field.name, lease.*field.member);
+        });
+        for (const auto& [reason, count] : lease.refused)
+            text += fmt::format("{},refused,{},{}\n", start, csv_text(reason), count);
+    }
+}
+
 /// Gives every run of a study, in the manifest's order, to a writer of tables.
 template <class Writer>
 void write_all(const Results& results, Writer& writer) {
@@ -108,12 +126,15 @@ struct TableWriter::Files {
     explicit Files(const Store& store)
         : runs(store.runs_csv()),
           vehicles(store.vehicles_csv()),
+          leases(store.folder() / "leases.csv"),
           database(store.folder() / "results.sqlite", store.manifest()) {
         runs.write(runs_header() + "\n");
         vehicles.write(vehicles_header() + "\n");
+        leases.write(leases_header() + "\n");
     }
     core::AtomicFile runs;
     core::AtomicFile vehicles;
+    core::AtomicFile leases;
     detail::DatabaseWriter database;
 };
 
@@ -125,6 +146,9 @@ void TableWriter::add(const RunRecord& run) {
     std::string lines;
     append_vehicles(run, lines);
     files_->vehicles.write(lines);
+    lines.clear();
+    append_leases(run, lines);
+    files_->leases.write(lines);
     files_->database.add(run);
 }
 
@@ -141,6 +165,7 @@ void TableWriter::add_missing(const experiment::RunKey& key) {
 void TableWriter::finish() {
     files_->runs.commit();
     files_->vehicles.commit();
+    files_->leases.commit();
     files_->database.finish();
 }
 

@@ -56,7 +56,7 @@ enum class Extent : std::uint8_t {
 ///     step_length_s = 0.1
 ///
 ///     [precision]                                 # instead of replications
-///     metric = "emergency_travel_time_s"
+///     metric = "emergency_restricted_travel_time_s"
 ///     half_width = 2.0                            # of the 95 % interval, in the metric's unit
 ///     at_most = 200                               # replications
 ///

@@ -31,6 +31,7 @@ TEST_P(VehicleLeases, set_a_speed_once_and_release_it_once_at_expiry) {
     EXPECT_EQ(commands.size(), 2U);
     EXPECT_EQ(bench.actuator.active(), 0U);
     EXPECT_EQ(bench.counts("part/drive_at").expired, 1U);
+    EXPECT_EQ(bench.counts("part/drive_at").acted, 1U) << "once, however many steps it lasts";
 }
 
 TEST_P(VehicleLeases, renewed_in_time_are_not_released) {
@@ -59,6 +60,7 @@ TEST(VehicleLease, that_could_never_be_carried_out_is_refused_with_its_reason) {
     const auto& refused = bench.counts("part/drive_at").refused;
     EXPECT_EQ(refused.at("speed_not_finite"), 2U);
     EXPECT_EQ(refused.at("speed_negative"), 1U);
+    EXPECT_EQ(bench.counts("part/drive_at").acted, 0U);
     EXPECT_EQ(refused.at("expired_on_arrival"), 1U);
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("wrong_target"), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);

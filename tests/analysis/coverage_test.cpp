@@ -96,6 +96,57 @@ TEST(Coverage, OfTheIntervalOfA95thPercentileIsNominal) {
     }
 }
 
+struct BoundedCoverage {
+    double not_negative = 0.0;
+    double t = 0.0;
+    bool ever_below_zero = false;
+};
+
+/// Of the mean of values of which a share is 0 and the rest exponential with mean 1.
+BoundedCoverage coverage_near_zero(std::size_t n, double share_above) {
+    constexpr int samples = 4000;
+    BoundedCoverage coverage;
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+        std::vector<double> values(n);
+        for (std::size_t row = 0; row < n; ++row) {
+            const std::uint64_t subject = sample * 64 + row;
+            const bool above = draws.uniform(core::Purpose::demand, subject) < share_above;
+            values[row] = above ? -std::log(1.0 - draws.uniform(core::Purpose::driver, subject)) : 0.0;
+        }
+        const Interval interval = *estimate_not_negative(values)->interval;
+        coverage.ever_below_zero |= interval.low < 0.0;
+        coverage.not_negative += interval.contains(share_above) ? 1.0 / samples : 0.0;
+        coverage.t += estimate_mean(values)->interval->contains(share_above) ? 1.0 / samples : 0.0;
+    }
+    return coverage;
+}
+
+TEST(Coverage, OfTheIntervalThatKeepsAboveZeroIsBetterThanOfTAndNeverBelowZero) {
+    struct Case {
+        std::size_t n;
+        double share_above, least_held, least_gain;
+    };
+    for (const Case& one : {Case{5, 0.5, 0.88, 0.08}, Case{10, 0.5, 0.91, 0.05}, Case{20, 0.2, 0.89, 0.08},
+                            Case{30, 0.2, 0.90, 0.05}, Case{30, 1.0, 0.91, 0.0}}) {
+        const BoundedCoverage coverage = coverage_near_zero(one.n, one.share_above);
+        EXPECT_FALSE(coverage.ever_below_zero) << one.n;
+        EXPECT_GE(coverage.not_negative, one.least_held) << one.n << " " << one.share_above;
+        EXPECT_GE(coverage.not_negative - coverage.t, one.least_gain) << one.n << " " << one.share_above;
+    }
+}
+
+TEST(NotNegative, IsTheTIntervalWhereThatStaysAboveZeroAndTheLogarithmsElsewhere) {
+    const std::vector<double> far = {10.0, 11.0, 12.0, 9.0, 10.5};
+    EXPECT_EQ(estimate_not_negative(far)->interval->low, estimate_mean(far)->interval->low);
+    EXPECT_EQ(estimate_not_negative(far)->interval->high, estimate_mean(far)->interval->high);
+    // Mean 0.5, deviation sqrt(1.25): half width 2.776445 * 0.5 = 1.388, and exp(1.388 / 0.5) = 16.06.
+    const std::vector<double> near = {0.0, 0.0, 2.5, 0.0, 0.0};
+    EXPECT_NEAR(estimate_not_negative(near)->interval->low, 0.5 / 16.06, 1e-4);
+    EXPECT_NEAR(estimate_not_negative(near)->interval->high, 0.5 * 16.06, 0.01);
+    const std::vector<double> none(5, 0.0);
+    EXPECT_EQ(estimate_not_negative(none)->interval->high, 0.0);
+}
+
 /// A Poisson variable by inversion.
 double poisson(double mean, double uniform) {
     double probability = std::exp(-mean);

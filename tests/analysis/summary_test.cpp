@@ -34,6 +34,8 @@ class SmallStudy : public testing::Test {
                         results::synthetic::vehicle("e2", VehicleClass::emergency, second_s),
                         results::synthetic::vehicle("h1", VehicleClass::human, 90.0)};
         run.metrics.emergency_travel_time_s = 0.5 * (first_s + second_s);
+        run.metrics.emergency_restricted_travel_time_s = run.metrics.emergency_travel_time_s;
+        run.metrics.vehicle_count = run.metrics.arrived = 3;
         run.metrics.collisions = replication;
         results_.runs.push_back(run);
         return results_.runs.back();
@@ -49,8 +51,106 @@ class SmallStudy : public testing::Test {
     }
     ScenarioSummary scenario() const { return summarise(results_).scenarios.at(0); }
 
+    /// The slower EV of these runs teleports; they had 600 s.
+    void lose_the_second(const std::string& condition, std::uint32_t replications) {
+        for (RunRecord& run : results_.runs) {
+            if (run.key.condition != condition || run.key.replication >= replications) continue;
+            run.vehicles[1].outcome = VehicleOutcome::teleported;
+            const double first_s = *run.vehicles[0].travel_time_s;
+            run.metrics.emergency_travel_time_s = first_s;
+            run.metrics.emergency_restricted_travel_time_s = 0.5 * (first_s + 600.0);
+            run.metrics.arrived = 2;
+        }
+    }
+
     results::Results results_;
 };
+
+TEST_F(SmallStudy, DoesNotLetSurvivorsSpeakForLostEmergencyVehicles) {
+    add_all();
+    lose_the_second("treated", 3);
+    const ScenarioSummary summary = scenario();
+    const ConditionSummary& treated = *summary.find("treated");
+    EXPECT_LT(treated.metric("emergency_travel_time_s").comparison->difference->mean, 0.0);
+    EXPECT_GT(treated.metric(primary_metric).comparison->difference->mean, 0.0);
+    EXPECT_EQ(treated.metric(primary_metric).comparison->complete_pairs, 4U);
+    EXPECT_TRUE(treated.objections.on_emergency());
+    EXPECT_EQ(emergency_objections(treated.objections),
+              "lost 3 of 8 emergency vehicles (3 teleported; baseline 0)");
+    EXPECT_EQ(emergency_objection_word(treated.objections), "lost EVs");
+    EXPECT_FALSE(treated.objections.on_others()) << "they are counted apart";
+}
+
+TEST_F(SmallStudy, ClosesNoGapByLosingEmergencyVehicles) {
+    add_all();
+    lose_the_second("treated", 3);
+    const ScenarioSummary summary = scenario();
+    const ConditionSummary& treated = *summary.find("treated");
+    double with_s = 0.0;
+    double without_s = 0.0;
+    for (std::size_t run = 0; run < 4; ++run) {
+        with_s += *treated.metric(primary_metric).values[run];
+        without_s += *summary.find("baseline")->metric(primary_metric).values[run];
+    }
+    EXPECT_DOUBLE_EQ(treated.gap_closed->value, (without_s - with_s) / (without_s - 4.0 * 70.0));
+    EXPECT_LT(treated.gap_closed->value, 0.0);
+    EXPECT_EQ(treated.gap_replications, 4U);
+}
+
+TEST_F(SmallStudy, ObjectsOnlyToMoreLossesThanTheBaselineHas) {
+    add_all();
+    lose_the_second("treated", 2);
+    lose_the_second("baseline", 2);
+    EXPECT_FALSE(scenario().find("treated")->objections.on_emergency());
+    EXPECT_EQ(emergency_objections(scenario().find("treated")->objections), "");
+    lose_the_second("baseline", 3);
+    EXPECT_FALSE(scenario().find("treated")->objections.on_emergency()) << "fewer is no objection";
+}
+
+TEST_F(SmallStudy, ObjectsToConditionsWithoutSafetyChecks) {
+    results_.manifest.conditions[1].safety_checks = traffic::SafetyChecks::off;
+    add_all();
+    const Objections objections = scenario().find("treated")->objections;
+    EXPECT_TRUE(objections.on_emergency());
+    EXPECT_TRUE(objections.on_others());
+    EXPECT_EQ(emergency_objections(objections), "ran without safety checks");
+}
+
+TEST_F(SmallStudy, ObjectsToCollisionsAndLossesOfOthersBeyondTheirInterval) {
+    add_all();
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition != "treated") continue;
+        run.metrics.emergency_collisions = 6 + run.key.replication % 2;
+        run.metrics.vehicle_count = 23;
+        run.metrics.not_inserted = 20;
+    }
+    const Objections objections = scenario().find("treated")->objections;
+    ASSERT_TRUE(objections.collisions);
+    EXPECT_DOUBLE_EQ(objections.collisions->mean, 6.5);
+    EXPECT_EQ(emergency_objection_word(objections), "hit EVs");
+    EXPECT_TRUE(objections.not_inserted);
+    EXPECT_FALSE(objections.teleported);
+    EXPECT_THAT(other_objections(objections),
+                testing::StartsWith("more other vehicles not inserted (+20.0 a run ["));
+    for (RunRecord& run : results_.runs)
+        run.metrics.emergency_collisions = run.key.condition == "treated" && run.key.replication == 0 ? 1 : 0;
+    EXPECT_FALSE(scenario().find("treated")->objections.collisions) << "one may be chance";
+}
+
+TEST_F(SmallStudy, AddsLeasesUpByPartAndAction) {
+    add_all();
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition == "treated")
+            run.leases = {{"p", "change_lane", 2, 0, 1, 1, {{"outranked", 1}}},
+                          {"p", "hold_green", 1, 0, 1, 1, {}}};
+    }
+    const ScenarioSummary summary = scenario();
+    ASSERT_TRUE(summary.find("treated")->leases);
+    ASSERT_EQ(summary.find("treated")->leases->size(), 2U);
+    EXPECT_EQ(summary.find("treated")->leases->front().issued, 8U);
+    EXPECT_EQ(summary.find("treated")->leases->front().refused.at("outranked"), 4U);
+    EXPECT_FALSE(summary.find("baseline")->leases) << "records without them tell nothing";
+}
 
 TEST_F(SmallStudy, ComparesWithTheBaselineByReplication) {
     add_all();
@@ -106,6 +206,7 @@ TEST_F(SmallStudy, CountsPairsThatAFailureOrAStrandedVehicleBreaks) {
         run.vehicles[0].outcome = VehicleOutcome::teleported;
         run.vehicles[1].outcome = VehicleOutcome::not_inserted;
         run.metrics.emergency_travel_time_s.reset();
+        run.metrics.emergency_restricted_travel_time_s = 600.0;
     }
     const ScenarioSummary summary = scenario();
     const ConditionSummary& treated = *summary.find("treated");
@@ -117,7 +218,7 @@ TEST_F(SmallStudy, CountsPairsThatAFailureOrAStrandedVehicleBreaks) {
     EXPECT_EQ(treated.complete_runs, 3U);
     EXPECT_EQ(treated.metric("emergency_travel_time_s").estimate->n, 2U);
     EXPECT_EQ(treated.metric("collisions").comparison->complete_pairs, 3U);
-    EXPECT_EQ(treated.gap_replications, 2U);
+    EXPECT_EQ(treated.gap_replications, 3U) << "lost vehicles count with the horizon";
     EXPECT_EQ(treated.emergency.teleported, 1U);
 }
 

@@ -108,11 +108,18 @@ TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
     EXPECT_EQ(same.code, 0) << same.err;
     const auto tables = nlohmann::json::parse(same.out);
     ASSERT_EQ(tables.at("comparisons").size(), 2U);
-    EXPECT_EQ(tables["comparisons"][0]["metrics"]["emergency_travel_time_s"]["difference"], 0.0);
+    EXPECT_EQ(tables["comparisons"][0]["metrics"]["emergency_restricted_travel_time_s"]["difference"], 0.0);
     const Ended short_of =
         clearway({"compare", "one", "--metric", "simulated_s", "--tolerance", "collisions=0"});
     EXPECT_EQ(short_of.code, 6);
     EXPECT_THAT(short_of.err, HasSubstr("line/graph_simulation: collisions: its interval reaches to"));
+    const Ended chosen = clearway({"compare", "one", "--metric", "collisions", "--tolerance", "0", "--json"});
+    EXPECT_EQ(chosen.code, 6) << "the chosen metric is the one that is gated";
+    EXPECT_EQ(nlohmann::json::parse(chosen.out)["short_of_tolerance"][0]["metric"], "collisions");
+    const Ended unclear =
+        clearway({"compare", "one", "--metric", "collisions", "--metric", "teleports", "--tolerance", "0"});
+    EXPECT_EQ(unclear.code, 3);
+    EXPECT_THAT(unclear.err, HasSubstr("--tolerance collisions=0"));
     std::vector<std::string> other = two_conditions("three", 3);
     other.insert(other.end(), {"--seed", "7"});
     ASSERT_EQ(clearway(other).code, 0);

@@ -40,6 +40,7 @@ class RecorderAtTheEnd : public testing::Test {
             planned("h2", VehicleClass::human, 2.0),      planned("e1", VehicleClass::emergency, 60.0),
             planned("e2", VehicleClass::emergency, 60.0), planned("e3", VehicleClass::emergency, 70.0)};
         result.time = core::Seconds(100.0);
+        result.horizon = core::Seconds(300.0);
         return result;
     }
 
@@ -55,6 +56,7 @@ class RecorderAtTheEnd : public testing::Test {
 TEST_F(RecorderAtTheEnd, AveragesOverThoseThatArrivedOrWereInserted) {
     const RunMetrics metrics = Recorder().finish(end(all_trips_)).metrics;
     EXPECT_DOUBLE_EQ(*metrics.emergency_travel_time_s, 20.0);  // e1
+    EXPECT_DOUBLE_EQ(*metrics.emergency_restricted_travel_time_s, (20.0 + 300.0 + 300.0) / 3.0);
     EXPECT_DOUBLE_EQ(*metrics.emergency_time_loss_s, 5.0);     // e1
     EXPECT_DOUBLE_EQ(*metrics.emergency_waiting_time_s, 4.0);  // e1, e2
     EXPECT_DOUBLE_EQ(*metrics.emergency_depart_delay_s, 2.0);  // e1, e2

@@ -63,6 +63,39 @@ TEST(Shortfalls, IncludeWhatHasNoInterval) {
     EXPECT_THAT(found[0].why, HasSubstr("no interval"));
 }
 
+TEST(Shortfalls, IncludeLostEmergencyVehiclesHoweverGoodTheMeanOfTheRest) {
+    analysis::Summary summary = summary_with(-20.0);
+    analysis::Objections& objections = summary.scenarios[0].conditions[1].objections;
+    objections.emergency = {.arrived = 18, .running_at_end = 2};
+    objections.baseline_emergency = {.arrived = 20};
+    EXPECT_THAT(shortfalls(summary, {}), IsEmpty()) << "no gate was asked for";
+    const auto found = shortfalls(summary, {{"emergency_travel_time_s", 0.0}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].metric, "emergency vehicles");
+    EXPECT_EQ(found[0].why, "lost 2 of 20 emergency vehicles (2 still on the road at the end; baseline 0)");
+    EXPECT_THAT(comparison_text(summary, {"collisions"}),
+                testing::StartsWith("city: treated?[2J: lost 2 of 20"));
+}
+
+TEST(ComparisonText, SaysWhatToDoAboutRunsThatNameNoHorizon) {
+    analysis::Summary summary = summary_with(-3.25);
+    summary.scenarios[0].conditions[0].runs_without_horizon = 2;
+    EXPECT_THAT(
+        comparison_text(summary, {"collisions"}),
+        testing::StartsWith("city: baseline: 2 runs that lost emergency vehicles (EV) are of an older "
+                            "version"));
+}
+
+TEST(ComparisonText, SaysTooFewSeedsBelowFivePairs) {
+    analysis::Summary summary = summary_with(-3.25);
+    for (analysis::MetricSummary& metric : summary.scenarios[0].conditions[1].metrics)
+        metric.comparison->complete_pairs = 4;
+    const std::string text = comparison_text(summary, {"collisions"});
+    EXPECT_THAT(text, HasSubstr("too few seeds"));
+    EXPECT_THAT(text, Not(HasSubstr("[-4.25, -2.25]")));
+    EXPECT_THAT(text, Not(HasSubstr("<0.001")));
+}
+
 TEST(ComparisonText, ShowsPairsIntervalAndPValuesWithinATerminal) {
     const std::string text = comparison_text(summary_with(-3.25), {"emergency_travel_time_s", "collisions"});
     EXPECT_THAT(text, HasSubstr("18 of 20     -3.25  [-4.25, -2.25]"));

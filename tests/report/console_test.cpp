@@ -34,7 +34,7 @@ TEST(ConsoleTables, show_the_dissertations_table_with_its_numbers_beside_ours) {
 TEST(ConsoleTables, show_value_difference_intervals_and_effect_of_every_measure) {
     const std::string text = console_tables(tests::study({"city"}));
     EXPECT_THAT(text,
-                HasSubstr("EV travel time, s\n"
+                HasSubstr("EV travel time, all, s\n"
                           "  Baseline                                101.3  [96.9, 105.7]\n"
                           "  Graph made by simulation attributes      88.9  [84.5, 93.3]         -12.4  "
                           "[-15.5, -9.3]    better\n"));
@@ -56,7 +56,7 @@ TEST(ConsoleTables, fit_a_terminal_of_110_columns) {
 TEST(ConsoleTables, leave_out_the_published_table_where_there_is_none) {
     const std::string text = console_tables(tests::study({"bologna"}));
     EXPECT_THAT(text, Not(HasSubstr("TABLE")));
-    EXPECT_THAT(text, HasSubstr("EV travel time, s\n"));
+    EXPECT_THAT(text, HasSubstr("EV travel time, all, s\n"));
 }
 
 TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
@@ -79,8 +79,9 @@ TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
         }
     }
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, HasSubstr("(no interval)"));
-    EXPECT_THAT(text, HasSubstr("no verdict: one pair of runs has no interval"));
+    EXPECT_THAT(text, HasSubstr("too few seeds\n"));
+    EXPECT_THAT(text, HasSubstr("no verdict: too few seeds, 1 of at least 5"));
+    EXPECT_THAT(text, Not(HasSubstr("+- ")));
     EXPECT_THAT(text, Not(HasSubstr("nan")));
     EXPECT_THAT(text, Not(HasSubstr("better\n")));
 }
@@ -98,6 +99,48 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
     EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
+TEST(ConsoleTables, say_emergency_vehicle_before_they_say_ev) {
+    const std::string text = console_tables(tests::study({"city"}));
+    EXPECT_EQ(text.find("EV"), text.find("60 emergency vehicles (EV)") + 24);
+}
+
+TEST(ConsoleTables, warn_of_a_demand_without_emergency_vehicles) {
+    StudyFacts study = tests::study({"city"});
+    for (ConditionFacts& condition : study.scenarios[0].conditions) {
+        condition.emergency = {};
+        for (const MeasureInfo& measure : measures()) {
+            if (measure.relevance == Relevance::least) condition.outcome(measure.measure) = {};
+        }
+    }
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr("The demand has no emergency vehicle (emergency = 0)"));
+    EXPECT_THAT(text, HasSubstr("no verdict: the demand has no emergency vehicle"));
+    EXPECT_THAT(text, Not(HasSubstr("EV travel time, all, s\n")));
+    EXPECT_THAT(text, HasSubstr("Time loss, others, s\n"));
+}
+
+TEST(ConsoleTables, print_the_upper_end_of_an_interval_that_the_bound_at_zero_makes_lopsided) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios[0].conditions[0].outcome(Measure::emergency_depart_delay).value = {0.5, 0.03, 8.0, 20};
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr(" 0.50 (to 8.00)"));
+    EXPECT_THAT(text, HasSubstr("(to x)"));
+}
+
+TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_arrived) {
+    StudyFacts study = tests::study({"city"});
+    ConditionFacts& condition = study.scenarios[0].conditions[1];
+    condition.objections.emergency = {.arrived = 47, .teleported = 13};
+    condition.objections.baseline_emergency = {.arrived = 60};
+    condition.has_policy = true;
+    condition.leases.emplace();
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]    lost EVs\n"));
+    EXPECT_THAT(text, Not(HasSubstr("[-15.5, -9.3]    better\n")));
+    EXPECT_THAT(text, HasSubstr("Actions: Graph made by simulation attributes: asked 0 vehicles to change "
+                                "lanes.\n"));
+}
+
 TEST(ConsoleTables, let_no_name_steer_the_terminal) {
     StudyFacts study = tests::study({"\x1b[2Jcity"});
     EXPECT_THAT(console_tables(study), Not(HasSubstr("\x1b")));
@@ -112,6 +155,8 @@ TEST(JsonTables, hold_every_measure_with_its_unit_in_the_name) {
     EXPECT_EQ(simulation["compared_with"], "baseline");
     EXPECT_DOUBLE_EQ(simulation["measures"]["emergency_travel_time_s"]["difference"]["mean"], -12.4);
     EXPECT_EQ(simulation["measures"]["emergency_travel_time_s"]["effect"], "better");
+    EXPECT_EQ(simulation["measures"]["emergency_restricted_travel_time_s"]["effect"], "better");
+    EXPECT_EQ(simulation["objections"]["emergency_lost"], 0);
     EXPECT_DOUBLE_EQ(simulation["measures"]["emergency_waiting_time_s"]["published"], 5.5);
     EXPECT_FALSE(simulation["measures"]["emergency_travel_time_s"].contains("published"));
     EXPECT_TRUE(baseline["measures"]["gap_closed"]["mean"].is_null());

@@ -18,7 +18,7 @@ analysis::Estimate around(double mean, double half_width) {
     return {20, mean, 1.0, analysis::Interval{mean - half_width, mean + half_width}};
 }
 
-/// A condition whose EV time loss differs from the baseline's by `difference`, with links of quality `f1`.
+/// A condition whose EV travel time differs from the baseline's by `difference`, with links of quality `f1`.
 analysis::ConditionSummary condition(const std::string& failure, const std::string& predictor,
                                      const analysis::Estimate& difference, double f1,
                                      const std::string& part = "clear_lane") {
@@ -32,7 +32,7 @@ analysis::ConditionSummary condition(const std::string& failure, const std::stri
         analysis::MetricSummary metric;
         metric.metric = info;
         if (info.name == "links_f1") metric.estimate = around(f1, 0.01);
-        if (info.name == "emergency_time_loss_s") {
+        if (info.name == analysis::primary_metric) {
             metric.comparison.emplace();
             metric.comparison->difference = difference;
         }
@@ -73,10 +73,10 @@ TEST(FailureCurves, GroupConditionsByPolicyAndRepairInOrderOfTheShare) {
         shares.push_back(point.dark_share);
     }
     EXPECT_THAT(shares, ElementsAre(0.0, 0.5, 0.9));
-    EXPECT_EQ(curves[0].lines[0].points[1].time_loss->mean, -4.0);
+    EXPECT_EQ(curves[0].lines[0].points[1].travel_time->mean, -4.0);
     EXPECT_EQ(curves[0].lines[0].points[1].link_f1->mean, 0.8);
     EXPECT_EQ(curves[0].lines[2].points.size(), 3u) << "perfect stands at every share";
-    EXPECT_EQ(curves[0].lines[2].points[2].time_loss->mean, -10.0);
+    EXPECT_EQ(curves[0].lines[2].points[2].travel_time->mean, -10.0);
 }
 
 TEST(FailureCurves, BreakEvenWhereTheIntervalFirstReachesZero) {
@@ -93,6 +93,16 @@ TEST(FailureCurves, ShowNoBenefitWithoutAnInterval) {
     const auto curves = failure_curves(summary_of(
         {condition("dark_share=0", "none", single, 1.0), condition("dark_share=0.5", "none", single, 0.5)}));
     EXPECT_EQ(curves[0].lines[0].break_even, 0u);
+}
+
+TEST(FailureCurves, ShowNoBenefitWhereEmergencyVehiclesAreLost) {
+    analysis::ConditionSummary loses = condition("dark_share=0", "none", around(-9.0, 2.0), 1.0);
+    loses.objections.emergency = {.arrived = 7, .teleported = 13};
+    loses.objections.baseline_emergency = {.arrived = 20};
+    const auto curves =
+        failure_curves(summary_of({loses, condition("dark_share=0.5", "none", around(-9.0, 2.0), 0.5)}));
+    EXPECT_EQ(curves[0].lines[0].break_even, 0u);
+    EXPECT_THAT(failure_table(curves), HasSubstr("lost EVs (break-even)"));
 }
 
 TEST(FailureCurves, AreLeftOutBelowTwoShares) {
@@ -116,7 +126,8 @@ TEST(FailureCurves, StandInTheTableInJsonAndOnThePage) {
     const auto json = nlohmann::json::parse(json_tables(study));
     const auto& repairs = json.at("failure_curves").at(0).at("repairs");
     EXPECT_EQ(repairs.at(0).at("break_even_dark_share"), 0.9);
-    EXPECT_EQ(repairs.at(0).at("points").at(1).at("emergency_time_loss_difference_s").at("mean"), -4.0);
+    EXPECT_EQ(repairs.at(0).at("points").at(1).at("emergency_restricted_travel_time_difference_s").at("mean"),
+              -4.0);
     EXPECT_TRUE(repairs.at(2).at("break_even_dark_share").is_null());
     std::ostringstream page;
     write_html(study, page);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "metrics/restricted_time.hpp"
 #include "results/store.hpp"
 
 namespace clearway::report::tests {
@@ -126,6 +127,8 @@ class FrozenStudy {
             both ? 0.5 * (travel_time_s(key, 0) + travel_time_s(key, 1)) : travel_time_s(key, 0);
         metrics::RunMetrics& numbers = run.metrics;
         numbers.emergency_travel_time_s = mean_s;
+        numbers.emergency_restricted_travel_time_s =
+            metrics::emergency_restricted_mean_s(run.vehicles, 180.0);
         numbers.emergency_time_loss_s = mean_s - 55.0;
         numbers.emergency_waiting_time_s = 0.25 * (mean_s - 55.0);
         numbers.emergency_depart_delay_s = numbers.depart_delay_s = 0.125;
@@ -140,6 +143,10 @@ class FrozenStudy {
         numbers.collisions = key.condition == "hardly" ? key.replication % 2 : 0;
         numbers.leases_issued = condition.policies.empty() ? 0 : 40 + key.replication;
         numbers.leases_refused = condition.policies.empty() ? 0 : key.replication;
+        if (key.condition == "helps")
+            run.leases = {{"corridor", "change_lane", 30, 4, 21, 20, {{"no_room_beside", 9}}},
+                          {"corridor", "hold_green", 10, 90, 10, 10, {}}};
+        if (key.condition == "hardly") run.leases = {{"dissertation<i>", "hold_green", 40, 0, 40, 40, {}}};
         if (condition.engine != experiment::Engine::solo && key.scenario == "crossing")
             add_traffic(key, run.traffic);
         store_.write(run, {});

@@ -40,7 +40,7 @@ results::RunRecord run(const experiment::ConditionSpec& condition, std::uint32_t
                        vehicle("ev1", traffic::VehicleClass::emergency, travel_time_s),
                        vehicle("hv0", traffic::VehicleClass::human, 120.0)};
     metrics::RunMetrics& numbers = record.metrics;
-    numbers.emergency_travel_time_s = travel_time_s;
+    numbers.emergency_travel_time_s = numbers.emergency_restricted_travel_time_s = travel_time_s;
     numbers.emergency_time_loss_s = travel_time_s / 4.0;
     numbers.emergency_waiting_time_s = travel_time_s / 8.0;
     numbers.emergency_depart_delay_s = numbers.depart_delay_s = 0.0;
@@ -152,7 +152,10 @@ TEST_F(RunFolder, becomes_tables_and_a_page) {
     EXPECT_THAT(page, HasSubstr("SUMO aborted &lt;b&gt;"));
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, Not(HasSubstr("nan")));
-    EXPECT_THAT(console_tables(facts), HasSubstr("-21.0  [-23.5, -18.5]"));
+    const std::string tables = console_tables(facts);
+    EXPECT_THAT(tables, HasSubstr("ran without safety checks: EV travel time -21.0 s"));
+    EXPECT_THAT(tables, HasSubstr("too few seeds: fewer than 5"));
+    EXPECT_THAT(tables, Not(HasSubstr("[-23.5, -18.5]")));
 }
 
 TEST_F(RunFolder, does_not_take_in_a_picture_that_acts) {

@@ -24,6 +24,7 @@ inline ConditionFacts condition(const std::string& name, const std::string& titl
     facts.outcome(Measure::emergency_waiting_time).value = around(travel_time_s / 9.0, 1.1);
     facts.outcome(Measure::emergency_depart_delay).value = around(0.31, 0.12);
     facts.outcome(Measure::waiting_time).value = around(12.4, 2.2);
+    facts.outcome(Measure::emergency_restricted_time).value = around(travel_time_s, 4.4);
     facts.outcome(Measure::emergency_travel_time).value = around(travel_time_s, 4.4);
     facts.outcome(Measure::emergency_time_loss).value = around(travel_time_s / 4.0, 3.1);
     facts.outcome(Measure::other_time_loss).value = around(31.7, 2.6);
@@ -65,8 +66,8 @@ inline void add_pairs(ConditionFacts& facts, const Estimate& travel_time) {
             {static_cast<double>(offset), around(3.0 * std::exp(-std::pow((offset - 30) / 40.0, 2.0)), 0.8)});
     facts.recovered_after_s = 75.0;
     facts.events = {.leases_issued = 812, .leases_refused = 31, .leases_expired = 640};
-    for (const Measure measure :
-         {Measure::emergency_travel_time, Measure::other_time_loss, Measure::collisions})
+    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
+                                  Measure::other_time_loss, Measure::collisions})
         facts.outcome(measure).paired = PairedStatistics{.complete_pairs = 20,
                                                          .incomplete_pairs = 1,
                                                          .vehicles_left_out = 2,
@@ -84,6 +85,7 @@ inline void compare(ConditionFacts& facts, const Estimate& travel_time, const Es
     for (Outcome& outcome : facts.outcomes) {
         outcome.difference = around(0.0, 0.2);
     }
+    facts.outcome(Measure::emergency_restricted_time).difference = travel_time;
     facts.outcome(Measure::emergency_travel_time).difference = travel_time;
     facts.outcome(Measure::emergency_time_loss).difference = travel_time;
     facts.outcome(Measure::emergency_waiting_time).difference = around(-1.84, 0.9);

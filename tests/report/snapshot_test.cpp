@@ -58,7 +58,8 @@ TEST(Snapshot, shows_every_section_and_lets_no_name_out) {
     for (const char* const id : {"verdict", "tables", "differences", "travel-time", "cost", "journeys",
                                  "enough", "calibration", "outcomes", "reproduce"})
         EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\">"));
-    EXPECT_THAT(page, HasSubstr("no relevant effect</span>: EV travel time"));
+    EXPECT_THAT(page, HasSubstr("helped</span>: EV travel time"));
+    EXPECT_THAT(page, HasSubstr("ran without safety checks</span>: EV travel time"));
     EXPECT_THAT(page, HasSubstr("Long &amp; &lt;b&gt;Short&lt;/b&gt; Street (north_in)"));
     for (const char* const evil : {"<script", "<img", "<b>", "nan"})
         EXPECT_THAT(page, Not(HasSubstr(evil)));

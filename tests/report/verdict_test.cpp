@@ -38,8 +38,11 @@ TEST(Effect, counts_a_bound_of_zero_as_included) {
     EXPECT_EQ(effect_of(differing({0.0, 0.0, 0.0, 20}), Better::lower), Effect::none_shown);
 }
 
-TEST(Effect, of_a_single_pair_is_undecided) {
-    EXPECT_EQ(effect_of(differing({-50.0, std::nullopt, std::nullopt, 1}), Better::lower), Effect::undecided);
+TEST(Effect, of_fewer_than_five_pairs_is_not_told) {
+    EXPECT_EQ(effect_of(differing({-50.0, std::nullopt, std::nullopt, 1}), Better::lower), Effect::too_few);
+    EXPECT_EQ(effect_of(differing({-50.0, -51.0, -49.0, 4}), Better::lower), Effect::too_few);
+    EXPECT_EQ(effect_of(differing({-50.0, -51.0, -49.0, 5}), Better::lower), Effect::better);
+    EXPECT_EQ(effect_of(differing({}), Better::lower), Effect::undecided);
 }
 
 TEST(Verdict, says_helped_harmed_or_no_effect_shown) {
@@ -57,7 +60,7 @@ TEST(Verdict, says_helped_harmed_or_no_effect_shown) {
 
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
     ScenarioFacts scenario = tests::scenario("merge");
-    Outcome& outcome = scenario.conditions[1].outcome(Measure::emergency_travel_time);
+    Outcome& outcome = scenario.conditions[1].outcome(Measure::emergency_restricted_time);
     outcome.difference = tests::around(-0.2, 0.1);
     outcome.least_relevant = 1.0;
     EXPECT_THAT(
@@ -78,28 +81,106 @@ TEST(Verdict, says_that_safety_checks_were_off) {
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), HasSubstr("Safety checks"));
 }
 
+/// The measured case: seven survivors are hardly slower, thirteen of twenty teleport.
+ScenarioFacts survivors_only() {
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[4];
+    condition.objections.emergency = {.arrived = 7, .teleported = 13};
+    condition.objections.baseline_emergency = {.arrived = 20};
+    condition.outcome(Measure::emergency_restricted_time).difference = tests::around(500.0, 90.0);
+    condition.outcome(Measure::emergency_travel_time).difference = tests::around(1.7, 4.0);
+    return scenario;
+}
+
+TEST(Verdict, says_first_how_many_emergency_vehicles_were_lost) {
+    ScenarioFacts scenario = survivors_only();
+    ConditionFacts& condition = scenario.conditions[4];
+    EXPECT_THAT(
+        verdict(scenario, condition, Script::plain),
+        StartsWith("lost 13 of 20 emergency vehicles (13 teleported; baseline 0) and harmed: EV travel "
+                   "time +500.0 s [410.0, 590.0]"));
+    for (const double mean : {-30.0, 0.0, 0.2}) {
+        condition.outcome(Measure::emergency_restricted_time).difference = tests::around(mean, 0.5);
+        const std::string text = verdict(scenario, condition, Script::plain);
+        EXPECT_THAT(text, StartsWith("lost 13 of 20 emergency vehicles"));
+        for (const char* const claim : {"helped", "no effect shown: ", "no relevant effect"})
+            EXPECT_THAT(text, Not(HasSubstr(claim)));
+    }
+}
+
+TEST(Effect, of_a_condition_that_loses_emergency_vehicles_is_worse_or_ruled_out) {
+    const ScenarioFacts scenario = survivors_only();
+    const ConditionFacts& condition = scenario.conditions[4];
+    EXPECT_EQ(effect_of(condition, Measure::emergency_restricted_time), Effect::worse);
+    EXPECT_EQ(effect_of(condition, Measure::emergency_travel_time), Effect::ruled_out);
+    EXPECT_EQ(effect_of(condition, Measure::other_time_loss), Effect::none_shown);
+}
+
+TEST(Verdict, never_calls_a_condition_without_safety_checks_a_help) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    scenario.conditions[1].objections.unchecked = scenario.conditions[1].safety_checks_off = true;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain),
+                StartsWith("ran without safety checks: EV travel time -12.4 s"));
+    EXPECT_EQ(effect_of(scenario.conditions[1], Measure::emergency_travel_time), Effect::ruled_out);
+    EXPECT_EQ(effect_of(scenario.conditions[1], Measure::other_time_loss), Effect::ruled_out);
+}
+
+TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[1];
+    condition.outcome(Measure::other_time_loss).difference = tests::around(-9.0, 2.0);
+    EXPECT_THAT(verdict(scenario, condition, Script::plain), HasSubstr("the others lose less time"));
+    condition.objections.not_inserted = analysis::Estimate{20, 8.0, 1.0, analysis::Interval{6.0, 10.0}};
+    const std::string text = verdict(scenario, condition, Script::plain);
+    EXPECT_THAT(text, Not(HasSubstr("lose less time")));
+    EXPECT_THAT(text, HasSubstr("; more other vehicles not inserted (+8.0 a run [6.0, 10.0])"));
+}
+
+TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
+    ConditionFacts condition;
+    condition.has_policy = true;
+    condition.leases.emplace();
+    EXPECT_EQ(lease_sentence(condition), "asked 0 vehicles to change lanes");
+    condition.leases->push_back({"corridor", "change_lane", 1200, 5, 800, 900, {{"a", 1}, {"no_room", 400}}});
+    EXPECT_EQ(lease_sentence(condition),
+              "corridor: asked a vehicle to change lanes 1,200 times, 800 carried "
+              "out, refused: no_room 400, a 1");
+    condition.leases.reset();
+    EXPECT_THAT(lease_sentence(condition), HasSubstr("older version"));
+}
+
 TEST(Verdict, of_one_replication_claims_nothing) {
     ScenarioFacts scenario = tests::scenario("merge");
-    scenario.conditions[1].outcome(Measure::emergency_travel_time).difference = {-12.4, std::nullopt,
-                                                                                 std::nullopt, 1};
+    scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference = {-12.4, std::nullopt,
+                                                                                     std::nullopt, 1};
     EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain),
-              "no verdict: one pair of runs has no interval (EV travel time -12.4 s, -12 %).");
-    scenario.conditions[1].outcome(Measure::emergency_travel_time).difference = {};
+              "no verdict: too few seeds, 1 of at least 5 (EV travel time -12.4 s, -12 %).");
+    scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference = {};
     EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain),
               "no verdict: no complete pair of runs.");
 }
 
 TEST(Headline, counts_conditions_by_effect) {
-    EXPECT_EQ(headline(tests::study({"merge"})),
-              "merge: EVs faster under 2 of 4 conditions, slower under 1, no effect shown under 1.");
+    EXPECT_EQ(
+        headline(tests::study({"merge"})),
+        "merge: emergency vehicles faster under 2 of 4 conditions, slower under 1, no effect shown under 1.");
     EXPECT_EQ(headline(StudyFacts{}), "No condition was compared with a baseline.");
+}
+
+TEST(Headline, counts_lost_emergency_vehicles_first) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios[0] = survivors_only();
+    EXPECT_EQ(
+        headline(study),
+        "merge: emergency vehicles lost under 1 of 4 conditions, emergency vehicles faster under 2, slower "
+        "under 1.");
 }
 
 TEST(Headline, does_not_speak_of_gains_where_none_is_shown) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
         if (condition.is_compared()) {
-            condition.outcome(Measure::emergency_travel_time).difference = tests::around(-1.0, 3.0);
+            condition.outcome(Measure::emergency_restricted_time).difference = tests::around(-1.0, 3.0);
         }
     }
     EXPECT_EQ(headline(study), "merge: no effect shown under 4 of 4 conditions.");

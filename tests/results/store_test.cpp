@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "results/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -117,6 +118,28 @@ TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
         EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("run.json: hash"),
                                                  testing::HasSubstr("sets it aside")));
     }
+}
+
+/// Makes the record that of a version without restricted times.
+void take_restricted_time_out(const std::filesystem::path& file) {
+    nlohmann::ordered_json object = nlohmann::ordered_json::parse(core::read_file(file));
+    object["metrics"].erase("emergency_restricted_travel_time_s");
+    object.erase("hash");
+    object["hash"] = core::content_hash(core::to_text(object));
+    core::write_atomically(file, core::to_text(object));
+}
+
+TEST_F(StoreOfAStudy, ReadsRecordsOfVersionsWithoutRestrictedTimesAndInventsNone) {
+    store_.write(record(key, 50.5), {});
+    take_restricted_time_out(store_.run_folder(key) / "run.json");
+    EXPECT_EQ(store_.read(key)->metrics.emergency_restricted_travel_time_s, 50.5) << "all arrived";
+    EXPECT_FALSE(store_.read(key)->leases);
+    const experiment::RunKey other{"alpha", "treated", 0};
+    RunRecord lost = record(other);
+    lost.vehicles[0].outcome = metrics::VehicleOutcome::teleported;
+    store_.write(lost, {});
+    take_restricted_time_out(store_.run_folder(other) / "run.json");
+    EXPECT_FALSE(store_.read(other)->metrics.emergency_restricted_travel_time_s) << "no horizon is known";
 }
 
 TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {

@@ -63,6 +63,7 @@ inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50
     waiting.id = "h2";
     waiting.key = core::vehicle_key("h2");
     waiting.outcome = metrics::VehicleOutcome::not_inserted;
+    result.metrics.emergency_restricted_travel_time_s = travel_time_s;
     result.metrics.emergency_travel_time_s = travel_time_s;
     result.metrics.emergency_count = 1;
     result.metrics.emergency_arrived = 1;

@@ -49,7 +49,8 @@ class TableReader : public testing::Test {
 };
 
 TEST_F(TableReader, ListsTheTables) {
-    EXPECT_THAT(table_names(store), testing::IsSupersetOf({"failures", "runs", "study", "vehicles"}));
+    EXPECT_THAT(table_names(store),
+                testing::IsSupersetOf({"failures", "leases", "runs", "study", "vehicles"}));
 }
 
 TEST_F(TableReader, PrintsTextNumbersAndWhatIsNotAvailable) {
@@ -87,7 +88,7 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
 }
 
 TEST_F(TableReader, RefusesOtherVersionsOtherFilesAndUnknownTables) {
-    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("failures, runs, study, vehicles"));
+    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("failures, leases, runs, study, vehicles"));
     execute("UPDATE study SET value = '99' WHERE key = 'format'");
     EXPECT_THAT(error_of("runs"), HasSubstr("another version: format \"99\""));
     EXPECT_THROW(tables_are_current(store), core::InputError);

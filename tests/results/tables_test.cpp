@@ -41,10 +41,9 @@ TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
     EXPECT_EQ(results.missing.size(), 3U);
     const auto lines = lines_of(runs_csv(results));
     ASSERT_EQ(lines.size(), 9U);
-    EXPECT_THAT(lines[0],
-                testing::StartsWith(
-                    "scenario,condition,replication,outcome,cause,safety_checks,emergency_travel_time_s,"));
-    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,50.1,,"));
+    EXPECT_THAT(lines[0], testing::StartsWith("scenario,condition,replication,outcome,cause,safety_checks,"
+                                              "emergency_restricted_travel_time_s,emergency_travel_time_s,"));
+    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,50.1,50.1,,"));
     EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,"));
     EXPECT_THAT(lines[6], testing::StartsWith("beta,baseline,1,missing,,,"));
     for (const std::string& line : lines)
@@ -74,9 +73,26 @@ TEST(Tables, DoNotDependOnTheOrderInWhichRunsEnded) {
     fill(backward, {keys.rbegin(), keys.rend()});
     for (const Store* store : {&forward, &backward})
         write_tables(*store, read_results(*store));
-    for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
+    for (const char* file : {"runs.csv", "vehicles.csv", "leases.csv", "results.sqlite"})
         EXPECT_EQ(core::read_file(forward.folder() / file), core::read_file(backward.folder() / file))
             << file;
+}
+
+TEST(Tables, HaveALineForEveryOutcomeOfTheLeasesOfAnAction) {
+    const support::TemporaryFolder folder;
+    const Store store = Store::create(folder.path(), synthetic::manifest());
+    RunRecord run = synthetic::record({"alpha", "treated", 0});
+    run.leases.emplace().push_back({"listing_5_5", "change_lane", 5, 2, 1, 3, {{"no_room_beside", 4}}});
+    store.write(run, {});
+    EXPECT_EQ(store.read(run.key)->leases, run.leases);
+    write_tables(store, read_results(store));
+    EXPECT_EQ(core::read_file(folder.path() / "leases.csv"),
+              "scenario,condition,replication,part,action,outcome,reason,leases\n"
+              "alpha,treated,0,listing_5_5,change_lane,issued,,5\n"
+              "alpha,treated,0,listing_5_5,change_lane,renewed,,2\n"
+              "alpha,treated,0,listing_5_5,change_lane,acted,,1\n"
+              "alpha,treated,0,listing_5_5,change_lane,expired,,3\n"
+              "alpha,treated,0,listing_5_5,change_lane,refused,no_room_beside,4\n");
 }
 
 std::string query(const std::filesystem::path& file, const std::string& sql) {

@@ -31,7 +31,10 @@ void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
     if (same != held_.end()) {
         const bool same_kind = same->lease.action.index() == lease.action.index();
         ++(same_kind ? counts.renewed : counts.issued);
-        if (!same_kind) same->counted_refusals.clear();
+        if (!same_kind) {
+            same->counted_refusals.clear();
+            same->counted_act = false;
+        }
         same->edge = core::EdgeIndex::none();
         same->served = same->served && same_links(same->lease.action, lease.action);
         same->lease = lease;
@@ -59,6 +62,12 @@ void LeaseQueue::refuse(HeldLease& held, const char* reason, Ledger& ledger) {
     if (known != held.counted_refusals.end()) return;
     held.counted_refusals.push_back(reason);
     ++ledger.of(held.lease).refused[reason];
+}
+
+void LeaseQueue::act(HeldLease& held, Ledger& ledger) {
+    if (held.counted_act) return;
+    held.counted_act = true;
+    ++ledger.of(held.lease).acted;
 }
 
 void LeaseQueue::drop_all(const char* reason, Ledger& ledger) {

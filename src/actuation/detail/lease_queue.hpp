@@ -31,7 +31,8 @@ struct HeldLease {
     core::EdgeIndex edge;
     core::EdgeIndex granted_on;                 ///< A stop that was found feasible stays so on that edge.
     std::vector<const char*> counted_refusals;  ///< Each reason is counted once a lease.
-    bool served = false;                        ///< A hold that is being carried out, or on the way there.
+    bool counted_act = false;
+    bool served = false;  ///< A hold that is being carried out, or on the way there.
 };
 
 /// Leases in force for one target, of which only one kind of thing can be done at a time, best first: by
@@ -43,6 +44,8 @@ class LeaseQueue {
     void expire(core::Seconds now, Ledger& ledger);
     /// Counts a refusal, once for each lease and reason. The lease stays and is judged again.
     static void refuse(HeldLease& held, const char* reason, Ledger& ledger);
+    /// Counts that a lease is carried out, once for each lease.
+    static void act(HeldLease& held, Ledger& ledger);
     /// Counts a refusal and ends all leases.
     void drop_all(const char* reason, Ledger& ledger);
     /// Ends the best lease without counting a refusal: what it asked for is over.

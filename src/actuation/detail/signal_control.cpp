@@ -75,6 +75,7 @@ Links SignalControl::requested(Ledger& ledger) {
             LeaseQueue::refuse(*held, "outranked", ledger);
             continue;
         }
+        LeaseQueue::act(*held, ledger);
         links = both;
         own = both_own;
     }
@@ -160,6 +161,7 @@ void SignalControl::run_own_program(const SignalSurroundings& around, Ledger& le
     if (waits_for_gap(signal_.program[*next].state, around)) return;
     if (!knows_program(around)) return LeaseQueue::refuse(*favour, "unknown_program", ledger);
     commands.push_back(traffic::RestoreProgram{index_, next});
+    LeaseQueue::act(*favour, ledger);
     own_.disturb(around.now);
 }
 
@@ -175,7 +177,9 @@ SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
         if (program_known_)
             way.return_phase =
                 best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
-        if (!way.return_phase)
+        if (way.return_phase)
+            LeaseQueue::act(*favour, ledger);
+        else
             LeaseQueue::refuse(*favour, program_known_ ? "no_phase_serves" : "unknown_program", ledger);
     }
     way.target.assign(shown_.size(), 'r');

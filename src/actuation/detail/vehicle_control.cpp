@@ -97,10 +97,12 @@ VehicleSettings VehicleControl::judge(const VehicleSurroundings& around, const P
     judge_speed(around, place, settings, ledger);
     judge_lateral(around, place, settings, ledger);
     if (HeldLease* held = queues_[privilege].best()) {
-        if (place.info.vehicle_class == traffic::VehicleClass::emergency)
+        if (place.info.vehicle_class == traffic::VehicleClass::emergency) {
             settings.privilege = traffic::JunctionPrivilege::pass_red;
-        else
+            LeaseQueue::act(*held, ledger);
+        } else {
             LeaseQueue::refuse(*held, "not_an_emergency_vehicle", ledger);
+        }
     }
     if (around.safety_checks == traffic::SafetyChecks::off) {
         settings.freedom = traffic::LaneChangeFreedom::normal;
@@ -128,10 +130,10 @@ void VehicleControl::judge_speed(const VehicleSurroundings& around, const Place&
             LeaseQueue::refuse(*held, "above_allowed_speed", ledger);
         else
             settings.speed = std::min(drive->speed, *allowed);
-        return;
-    }
-    if (const auto stop = stop_speed(around, place, *held, ledger))
+    } else if (const auto stop = stop_speed(around, place, *held, ledger)) {
         settings.speed = std::min(*stop, *allowed);
+    }
+    if (settings.speed) LeaseQueue::act(*held, ledger);
 }
 
 /// Whether the edge that the lease meant lies behind. The first call ties the lease to the present edge.
@@ -168,6 +170,7 @@ void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Plac
     if (held == nullptr) return;
     if (std::holds_alternative<traffic::HoldLane>(held->lease.action)) {
         settings.freedom = traffic::LaneChangeFreedom::strategic_only;
+        LeaseQueue::act(*held, ledger);
     } else if (const auto* aside = std::get_if<traffic::PullAside>(&held->lease.action)) {
         if (around.lateral_model == traffic::LateralModel::lane) {
             LeaseQueue::refuse(*held, "needs_sublane_model", ledger);
@@ -176,11 +179,12 @@ void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Plac
         settings.freedom = traffic::LaneChangeFreedom::none;
         settings.alignment = aside->side == traffic::Side::right ? traffic::LateralAlignment::right
                                                                  : traffic::LateralAlignment::left;
+        LeaseQueue::act(*held, ledger);
+    } else if (has_left_edge(around, place, *held)) {
+        queues_[lateral].end_best(ledger);
     } else {
-        if (has_left_edge(around, place, *held))
-            queues_[lateral].end_best(ledger);
-        else
-            settings.lane = judge_lane(around, place, *held, ledger);
+        settings.lane = judge_lane(around, place, *held, ledger);
+        if (settings.lane) LeaseQueue::act(*held, ledger);
     }
 }
 

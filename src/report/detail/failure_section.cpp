@@ -32,7 +32,7 @@ void include(const analysis::Estimate& estimate, Range& range) {
 std::string drawing(const FailureCurve& curve, Member member, const std::string& label) {
     Range shares;
     Range values;
-    if (member == &FailurePoint::time_loss) values.include(0.0);
+    if (member == &FailurePoint::travel_time) values.include(0.0);
     for (const FailureLine& line : curve.lines) {
         for (const FailurePoint& point : line.points) {
             const double reach = line_offset * static_cast<double>(curve.lines.size()) / 2.0;
@@ -47,7 +47,7 @@ std::string drawing(const FailureCurve& curve, Member member, const std::string&
               {padded(values, 0.06), label, height - label_space, 26.0});
     plot.grid_x();
     plot.grid_y();
-    if (member == &FailurePoint::time_loss) plot.horizontal(0.0);
+    if (member == &FailurePoint::travel_time) plot.horizontal(0.0);
     for (std::size_t series = 0; series < curve.lines.size(); ++series) {
         const double offset = line_offset * (static_cast<double>(series) -
                                              (static_cast<double>(curve.lines.size()) - 1.0) / 2.0);
@@ -80,8 +80,8 @@ DataTable data_of(const FailureCurve& curve) {
         for (const FailurePoint& point : line.points) {
             table.rows.push_back(
                 {line.repair, number(percent * point.dark_share, {.decimals = 0, .script = Script::typeset}),
-                 cell(point.time_loss, {.decimals = 2, .script = Script::typeset, .sign = Sign::always}),
-                 point.time_loss ? grouped(point.time_loss->n) : missing(Script::typeset),
+                 cell(point.travel_time, {.decimals = 2, .script = Script::typeset, .sign = Sign::always}),
+                 point.travel_time ? grouped(point.travel_time->n) : missing(Script::typeset),
                  cell(point.link_f1, {.decimals = 3, .script = Script::typeset})});
         }
     }
@@ -94,7 +94,7 @@ std::string figure_of(const FailureCurve& curve) {
         entries.emplace_back(series, curve.lines[series].repair);
     }
     const std::string drawings =
-        drawing(curve, &FailurePoint::time_loss, "EV time loss, difference to the baseline, s") +
+        drawing(curve, &FailurePoint::travel_time, "EV travel time, difference to the baseline, s") +
         drawing(curve, &FailurePoint::link_f1, "link F1");
     return to_html(Figure{fmt::format("{}, policy {}", curve.scenario, curve.policy), drawings,
                           legend(entries), curve.failure.empty() ? "" : "Failure: " + curve.failure + ".",

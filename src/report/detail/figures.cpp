@@ -14,7 +14,7 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr std::array forest_measures = {Measure::emergency_travel_time, Measure::emergency_waiting_time,
+constexpr std::array forest_measures = {Measure::emergency_restricted_time, Measure::emergency_waiting_time,
                                         Measure::other_time_loss};
 constexpr double forest_right = 250.0;  // the numbers stand beside the drawing
 constexpr double heading_height = 28.0;

@@ -6,6 +6,7 @@
 #include "report/detail/figures.hpp"
 #include "report/detail/markup.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -53,6 +54,15 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
     return table;
 }
 
+/// Only where nothing is shown do more replications promise something.
+std::string replications_needed(const ConditionFacts& condition) {
+    const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
+    if (!condition.precision || !open) return missing(Script::typeset);
+    if (condition.precision->needed > most_replications_asked)
+        return fmt::format("more than {}", most_replications_asked);
+    return grouped(condition.precision->needed);
+}
+
 }  // namespace
 
 std::string slopes_figure(const ScenarioFacts& scenario) {
@@ -89,7 +99,7 @@ std::string slopes_figure(const ScenarioFacts& scenario) {
     }
     std::string note =
         "Each thin line is one replication, from the baseline (left) to the condition (right); the "
-        "thick one is the mean. Means over the EVs that arrived in both.";
+        "thick one is the mean. Means over all EVs; one that did not arrive counts with the horizon.";
     if (most > drawn_pairs)
         note += fmt::format(" Of {} pairs about {} are drawn.", grouped(most), drawn_pairs);
     return to_html(Figure{scenario.name, plot.finish(), legend(entries), note, slopes_data(scenario)});
@@ -140,19 +150,20 @@ std::string precision_figure(const ScenarioFacts& scenario) {
 DataTable precision_table(const ScenarioFacts& scenario) {
     const double wanted_s =
         scenario.least_relevant_s > 0.0 ? scenario.least_relevant_s : usual_least_relevant_s;
-    DataTable table{{"Condition", "complete pairs", "deviation of the differences, s", "half width, s",
-                     fmt::format("replications for \u00b1{} s", number(wanted_s, typeset(1)))},
-                    {}};
+    DataTable table{
+        {"Condition", "complete pairs", "deviation of the differences, s", "half width, s",
+         fmt::format("replications for \u00b1{} s, where no effect is shown", number(wanted_s, typeset(1)))},
+        {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
-        const Estimate& difference = condition.outcome(Measure::emergency_travel_time).difference;
+        const Estimate& difference = condition.outcome(Measure::emergency_restricted_time).difference;
         const auto& precision = condition.precision;
         table.rows.push_back(
             {condition.label(), grouped(difference.count),
              precision ? number(precision->deviation_s, typeset(1)) : missing(Script::typeset),
              difference.has_interval() ? number((*difference.high - *difference.low) / 2.0, typeset(2))
                                        : missing(Script::typeset),
-             precision ? grouped(precision->needed) : missing(Script::typeset)});
+             replications_needed(condition)});
     }
     return table;
 }

@@ -102,7 +102,9 @@ const char* effect_class(Effect effect) {
 std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const std::string sentence = verdict(scenario, condition, Script::typeset);
     const std::size_t colon = sentence.find(':');
-    const Effect effect = effect_of(condition.outcome(Measure::emergency_travel_time), Better::lower);
+    const Effect effect = condition.objections.on_emergency()
+                              ? Effect::worse
+                              : effect_of(condition, Measure::emergency_restricted_time);
     return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>{}</dd>\n", condition_label(condition),
                        effect_class(effect), escaped(sentence.substr(0, colon)),
                        escaped(sentence.substr(colon)));
@@ -120,6 +122,14 @@ DataTable events_of(const ScenarioFacts& scenario) {
                               grouped(events.teleports)});
     }
     return table;
+}
+
+std::string leases_of(const ScenarioFacts& scenario) {
+    DataTable table{{"Condition", "what its policy asked for"}, {}, DataTable::Cells::words};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.has_policy) table.rows.push_back({condition.label(), lease_sentence(condition)});
+    }
+    return table.rows.empty() ? std::string() : to_html(table);
 }
 
 std::string failures_of(const ScenarioFacts& scenario) {
@@ -149,7 +159,9 @@ std::span<const Section> sections() {
 }
 
 std::string verdict_section(const StudyFacts& study) {
-    std::string html = "<div class=\"cards\">\n";
+    std::string html =
+        "<p>Each condition against its baseline: what it did for emergency vehicles (EV) and to the "
+        "others.</p>\n<div class=\"cards\">\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::string entries;
         for (const ConditionFacts& condition : scenario.conditions) {
@@ -163,8 +175,11 @@ std::string verdict_section(const StudyFacts& study) {
            "</div>\n<p class=\"note\">Differences are paired: condition and baseline share seed, demand, "
            "drivers and "
            "sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
-           "excludes 0; "
-           "\u201cno effect shown\u201d does not prove that there is none.</p>\n";
+           "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is the "
+           "restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
+           "horizon. Whatever the means say, a condition that loses more EVs than its baseline, has them "
+           "collide more often, or ran without safety checks is not called a help. Fewer than five "
+           "replications give no interval and no effect: too few seeds.</p>\n";
 }
 
 std::string forest_section(const StudyFacts& study) {
@@ -207,10 +222,9 @@ std::string journeys_section(const StudyFacts& study) {
 std::string precision_section(const StudyFacts& study) {
     std::string html =
         "<p>Half the width of the 95 % interval of the EV travel time difference, as replications came in. "
-        "Where the "
-        "curve is below the line, differences as small as the line can be told from none. The last column "
-        "says how "
-        "many replications that takes (FHWA: n = (t s / e)\u00b2, at least 10).</p>\n" +
+        "Where the curve is below the line, differences as small as the line can be told from none. Where an "
+        "effect is shown, n is enough; where none is, the last column says how many replications would tell "
+        "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n" +
         figures_of(study, precision_figure);
     for (const ScenarioFacts& scenario : study.scenarios)
         html += fmt::format("<h3>{}</h3>\n{}", escaped(scenario.name), to_html(precision_table(scenario)));
@@ -266,12 +280,10 @@ std::string training_section(const StudyFacts& study) {
 
 std::string outcomes_section(const StudyFacts& study) {
     std::string html =
-        "<p>How every vehicle of the demand ended, over all completed runs. Means of EV travel time and time "
-        "loss "
-        "cover the EVs that arrived; this table shows how many they leave out. The second table counts the "
-        "actions "
-        "that policies asked for, those that were refused because they could not be carried out safely, and "
-        "what went wrong on the road.</p>\n";
+        "<p>How every vehicle of the demand ended, over all completed runs. Means over arrived EVs leave out "
+        "the others of this table. The second table counts the actions that policies asked for, those that "
+        "were refused because they could not be carried out safely, and what went wrong on the road; the "
+        "third says which actions, and why they were refused.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         DataTable table{{"Condition", "EVs", "arrived", "running at end", "teleported", "not inserted",
                          "removed", "others", "arrived", "runs", "failed", "missing"},
@@ -285,8 +297,13 @@ std::string outcomes_section(const StudyFacts& study) {
                                   grouped(condition.failed.size()), grouped(condition.missing_runs)});
         }
         const std::string failures = failures_of(scenario);
+        for (const ConditionFacts& condition : scenario.conditions) {
+            if (condition.runs_without_horizon > 0)
+                html += fmt::format("<p class=\"note\">{}: {}</p>\n", condition_label(condition),
+                                    without_horizon_sentence(condition.runs_without_horizon));
+        }
         html += fmt::format("<h3>{}</h3>\n{}{}{}", escaped(scenario.name), to_html(table),
-                            to_html(events_of(scenario)),
+                            to_html(events_of(scenario)) + leases_of(scenario),
                             failures.empty() ? "<p class=\"note\">No run failed.</p>\n" : failures);
     }
     return html;

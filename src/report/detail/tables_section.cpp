@@ -33,8 +33,9 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
     signed_style.sign = Sign::always;
     std::string html = "<td>" + mean_and_range(outcome.value, style, measure.printed_factor);
     if (outcome.difference.mean) {
-        html += fmt::format("<span class=\"{}\">{}</span>", delta_class(effect_of(outcome, measure.better)),
-                            estimate(outcome.difference, signed_style, measure.printed_factor));
+        html +=
+            fmt::format("<span class=\"{}\">{}</span>", delta_class(effect_of(condition, measure.measure)),
+                        estimate(outcome.difference, signed_style, measure.printed_factor));
     }
     return html + "</td>";
 }
@@ -97,8 +98,8 @@ DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
 
 std::string statistics_of(const ScenarioFacts& scenario) {
     std::string html;
-    for (const Measure measure :
-         {Measure::emergency_travel_time, Measure::other_time_loss, Measure::collisions}) {
+    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
+                                  Measure::other_time_loss, Measure::collisions}) {
         const DataTable table = statistics_table(scenario, measure);
         if (!table.rows.empty()) html += to_html(table);
     }
@@ -126,7 +127,8 @@ std::string definitions() {
 std::string tables_section(const StudyFacts& study) {
     constexpr std::array published_columns = {Measure::emergency_waiting_time,
                                               Measure::emergency_depart_delay, Measure::waiting_time};
-    constexpr std::array emergency_columns = {Measure::emergency_travel_time, Measure::emergency_time_loss,
+    constexpr std::array emergency_columns = {Measure::emergency_restricted_time,
+                                              Measure::emergency_travel_time, Measure::emergency_time_loss,
                                               Measure::gap_closed, Measure::other_time_loss};
     constexpr std::array event_columns = {Measure::depart_delay, Measure::collisions, Measure::teleports,
                                           Measure::unfinished};

@@ -49,7 +49,7 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
         if (condition.is_compared()) compared.push_back(&condition);
     }
     std::ranges::stable_sort(compared, {}, [](const ConditionFacts* condition) {
-        return condition->outcome(Measure::emergency_travel_time).difference.mean.value_or(0.0);
+        return condition->outcome(Measure::emergency_restricted_time).difference.mean.value_or(0.0);
     });
     std::vector<const ConditionFacts*> shown;
     if (!scenario.conditions.empty()) shown.push_back(&scenario.conditions.front());

@@ -122,6 +122,10 @@ void create_tables(Database& database) {
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
                     key_columns, columns<metrics::VehicleRow>()));
     database.execute(
+        fmt::format("CREATE TABLE leases ({}, part TEXT, action TEXT, outcome TEXT, reason TEXT, leases "
+                    "INTEGER)",
+                    key_columns));
+    database.execute(
         fmt::format("CREATE TABLE failures ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
 }
 
@@ -144,6 +148,7 @@ struct DatabaseWriter::Tables {
         : database(begin_database(part, manifest)),
           runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(1)),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
+          leases(database, "INSERT INTO leases VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
           failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
 
     void add_failure(const experiment::RunKey& key, std::string_view outcome, std::string_view cause,
@@ -158,6 +163,7 @@ struct DatabaseWriter::Tables {
     Database database;
     Inserter runs;
     Inserter vehicles;
+    Inserter leases;
     Inserter failures;
 };
 
@@ -190,6 +196,25 @@ void DatabaseWriter::add(const RunRecord& run) {
     row.insert();
     for (const metrics::VehicleRow& vehicle : run.vehicles)
         add(run.key, vehicle);
+    if (!run.leases) return;
+    for (const metrics::LeaseRow& lease : *run.leases) {
+        core::for_each_field<metrics::LeaseRow>(
+            [&](const auto& field) { add(run.key, lease, field.name, "", lease.*field.member); });
+        for (const auto& [reason, count] : lease.refused)
+            add(run.key, lease, "refused", reason, count);
+    }
+}
+
+void DatabaseWriter::add(const experiment::RunKey& key, const metrics::LeaseRow& lease,
+                         std::string_view outcome, std::string_view reason, std::uint64_t count) {
+    Inserter& row = tables_->leases;
+    row.add_key(key);
+    row.add(std::string_view(lease.part));
+    row.add(std::string_view(lease.action));
+    row.add(outcome);
+    row.add(reason);
+    row.add(count);
+    row.insert();
 }
 
 void DatabaseWriter::add(const experiment::RunKey& key, const metrics::VehicleRow& vehicle) {

@@ -25,6 +25,8 @@ class DatabaseWriter {
   private:
     struct Tables;
     void add(const experiment::RunKey& key, const metrics::VehicleRow& vehicle);
+    void add(const experiment::RunKey& key, const metrics::LeaseRow& lease, std::string_view outcome,
+             std::string_view reason, std::uint64_t count);
     void discard();
 
     std::filesystem::path file_;

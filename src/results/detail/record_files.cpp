@@ -1,11 +1,15 @@
 #include "results/detail/record_files.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
+#include "metrics/restricted_time.hpp"
 #include "results/detail/traffic_files.hpp"
 
 namespace clearway::results::detail {
@@ -59,6 +63,60 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
     return row;
 }
 
+constexpr const char* restricted_key = "emergency_restricted_travel_time_s";
+
+/// Records of versions without restricted times name no horizon: only where every emergency vehicle arrived
+/// it does not matter.
+std::optional<double> restricted_time_of_old(const std::string& vehicles_csv, const std::string& where) {
+    const auto vehicles = vehicles_from_csv(vehicles_csv, where, VehicleRows::emergency);
+    const auto arrived = [](const metrics::VehicleRow& vehicle) {
+        return vehicle.outcome == metrics::VehicleOutcome::arrived;
+    };
+    if (!std::ranges::all_of(vehicles, arrived)) return std::nullopt;
+    return metrics::emergency_restricted_mean_s(vehicles, 0.0);
+}
+
+void read_metrics(const core::Json& object, const std::string& where, std::vector<core::Problem>& problems,
+                  metrics::RunMetrics& metrics) {
+    core::ObjectReader reader(object, where, problems);
+    core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
+        if (std::string_view(field.name) == restricted_key)
+            reader.read_if_there(field.name, metrics.*field.member);
+        else
+            reader.read(field.name, metrics.*field.member);
+    });
+}
+
+core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
+    core::Json rows = core::Json::array();
+    for (const metrics::LeaseRow& lease : leases) {
+        core::Json row;
+        row["part"] = lease.part;
+        row["action"] = lease.action;
+        core::write_fields(row, lease);
+        row["refused"] = lease.refused;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json& object,
+                                                               const std::string& where,
+                                                               std::vector<core::Problem>& problems) {
+    const auto found = object.find("leases");
+    if (found == object.end()) return std::nullopt;
+    std::vector<metrics::LeaseRow> leases;
+    for (const core::Json& row : *found) {
+        metrics::LeaseRow& lease = leases.emplace_back();
+        core::ObjectReader reader(row, where + ": leases", problems);
+        reader.read("part", lease.part);
+        reader.read("action", lease.action);
+        reader.read_fields(lease);
+        reader.read("refused", lease.refused);
+    }
+    return leases;
+}
+
 }  // namespace
 
 std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv) {
@@ -67,6 +125,7 @@ std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv
     object["condition_spec"] = to_json(record.condition);
     core::write_fields(object["provenance"], record.provenance);
     core::write_fields(object["metrics"], record.metrics);
+    if (record.leases) object["leases"] = leases_to_json(*record.leases);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
     if (core::Json traffic = traffic_to_json(record.traffic); !traffic.is_null())
         object["traffic"] = std::move(traffic);
@@ -88,14 +147,17 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
     core::ObjectReader(reader.child("provenance", core::Json::value_t::object), where + ": provenance",
                        problems)
         .read_fields(record.provenance);
-    core::ObjectReader(reader.child("metrics", core::Json::value_t::object), where + ": metrics", problems)
-        .read_fields(record.metrics);
+    const core::Json& metrics = reader.child("metrics", core::Json::value_t::object);
+    read_metrics(metrics, where + ": metrics", problems, record.metrics);
+    record.leases = leases_from_json(object, where, problems);
     reader.read("vehicles_hash", vehicles_hash);
     if (problems.empty() && hash != core::content_hash(without_hash(text)))
         reader.problem(hash_key, "does not fit the rest");
     if (problems.empty() && vehicles_hash != core::content_hash(vehicles_csv))
         reader.problem("vehicles_hash", "does not fit vehicles.csv");
     if (!problems.empty()) throw core::InputError(problems);
+    if (!metrics.contains(restricted_key))
+        record.metrics.emergency_restricted_travel_time_s = restricted_time_of_old(vehicles_csv, where);
     record.traffic = traffic_from_json(object, where);
     return record;
 }

@@ -1,0 +1,149 @@
+#include "analysis/objections.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace clearway::analysis {
+namespace {
+
+using results::RunRecord;
+
+void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
+    switch (vehicle.outcome) {
+        case metrics::VehicleOutcome::arrived:
+            ++counts.arrived;
+            break;
+        case metrics::VehicleOutcome::running_at_end:
+            ++counts.running_at_end;
+            break;
+        case metrics::VehicleOutcome::teleported:
+            ++counts.teleported;
+            break;
+        case metrics::VehicleOutcome::not_inserted:
+            ++counts.not_inserted;
+            break;
+        case metrics::VehicleOutcome::removed:
+            ++counts.removed;
+            break;
+    }
+}
+
+/// A count of every replication that both conditions have.
+struct PairedCounts {
+    std::vector<double> condition;
+    std::vector<double> baseline;
+
+    void add(std::uint64_t with, std::uint64_t without) {
+        condition.push_back(static_cast<double>(with));
+        baseline.push_back(static_cast<double>(without));
+    }
+    /// Nothing unless the condition has more beyond the interval.
+    std::optional<Estimate> surplus(double level) const {
+        auto difference = estimate_count_difference(condition, baseline, level);
+        const bool more = difference && difference->interval && difference->interval->low > 0.0;
+        return more ? difference : std::nullopt;
+    }
+};
+
+std::uint64_t emergency_collisions(const RunRecord& run) {
+    return run.metrics.emergency_collisions + run.metrics.emergency_pedestrian_collisions;
+}
+
+std::string amount(const Estimate& more) {
+    return fmt::format("{:+.1f} a run [{:.1f}, {:.1f}]", more.mean, more.interval->low, more.interval->high);
+}
+
+/// `12 teleported, 1 still on the road`.
+std::string endings(const OutcomeCounts& counts) {
+    std::vector<std::string> words;
+    const auto add = [&](std::uint64_t number, const char* how) {
+        if (number > 0) words.push_back(fmt::format("{} {}", number, how));
+    };
+    add(counts.teleported, "teleported");
+    add(counts.running_at_end, "still on the road at the end");
+    add(counts.not_inserted, "not inserted");
+    add(counts.removed, "removed");
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+OutcomeCounts emergency_outcomes(const RunRecord& run) {
+    OutcomeCounts counts;
+    for (const metrics::VehicleRow& vehicle : run.vehicles) {
+        if (vehicle.vehicle_class == traffic::VehicleClass::emergency) count(vehicle, counts);
+    }
+    return counts;
+}
+
+OutcomeCounts other_outcomes(const RunRecord& run) {
+    const metrics::RunMetrics& all = run.metrics;
+    const OutcomeCounts emergency = emergency_outcomes(run);
+    const auto rest = [](std::uint64_t whole, std::uint64_t part) { return whole - std::min(whole, part); };
+    const std::uint64_t teleported =
+        rest(all.vehicle_count, all.arrived + all.unfinished + all.not_inserted + all.removed);
+    return {.arrived = rest(all.arrived, emergency.arrived),
+            .running_at_end = rest(all.unfinished, emergency.running_at_end),
+            .teleported = rest(teleported, emergency.teleported),
+            .not_inserted = rest(all.not_inserted, emergency.not_inserted),
+            .removed = rest(all.removed, emergency.removed)};
+}
+
+Objections objections_to(const detail::Runs& condition, const detail::Runs& baseline,
+                         traffic::SafetyChecks safety_checks, double level) {
+    Objections objections;
+    objections.unchecked = safety_checks == traffic::SafetyChecks::off;
+    PairedCounts collisions;
+    PairedCounts teleported;
+    PairedCounts not_inserted;
+    for (std::size_t row = 0; row < std::min(condition.size(), baseline.size()); ++row) {
+        if (condition[row] == nullptr || baseline[row] == nullptr) continue;
+        objections.emergency += emergency_outcomes(*condition[row]);
+        objections.baseline_emergency += emergency_outcomes(*baseline[row]);
+        const OutcomeCounts with = other_outcomes(*condition[row]);
+        const OutcomeCounts without = other_outcomes(*baseline[row]);
+        collisions.add(emergency_collisions(*condition[row]), emergency_collisions(*baseline[row]));
+        teleported.add(with.teleported, without.teleported);
+        not_inserted.add(with.not_inserted, without.not_inserted);
+    }
+    objections.collisions = collisions.surplus(level);
+    objections.teleported = teleported.surplus(level);
+    objections.not_inserted = not_inserted.surplus(level);
+    return objections;
+}
+
+std::string emergency_objections(const Objections& objections) {
+    std::vector<std::string> found;
+    const OutcomeCounts& lost = objections.emergency;
+    if (objections.loses_emergency()) {
+        found.push_back(fmt::format("lost {} of {} emergency vehicle{} ({}; baseline {})", lost.lost(),
+                                    lost.total(), lost.total() == 1 ? "" : "s", endings(lost),
+                                    objections.baseline_emergency.lost()));
+    }
+    if (objections.collisions)
+        found.push_back(fmt::format("collided more often with an emergency vehicle ({})",
+                                    amount(*objections.collisions)));
+    if (objections.unchecked) found.emplace_back("ran without safety checks");
+    return fmt::format("{}", fmt::join(found, " and "));
+}
+
+std::string other_objections(const Objections& objections) {
+    std::vector<std::string> found;
+    if (objections.teleported)
+        found.push_back(fmt::format("more other vehicles teleported ({})", amount(*objections.teleported)));
+    if (objections.not_inserted)
+        found.push_back(
+            fmt::format("more other vehicles not inserted ({})", amount(*objections.not_inserted)));
+    return fmt::format("{}", fmt::join(found, "; "));
+}
+
+std::string emergency_objection_word(const Objections& objections) {
+    if (objections.loses_emergency()) return "lost EVs";
+    if (objections.collisions) return "hit EVs";
+    return objections.unchecked ? "unchecked" : "";
+}
+
+}  // namespace clearway::analysis

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "core/fields.hpp"
+
+namespace clearway::metrics {
+
+/// What became of the leases of one part of a policy and one action in a run.
+struct LeaseRow {
+    std::string part;
+    std::string action;  ///< As traffic::name says: `change_lane`, ...
+    std::uint64_t issued = 0;
+    std::uint64_t renewed = 0;
+    std::uint64_t acted = 0;
+    std::uint64_t expired = 0;
+    std::map<std::string, std::uint64_t> refused;  ///< Reason -> leases refused for it at least once.
+
+    bool operator==(const LeaseRow&) const = default;
+
+    /// Sum over the reasons: a lease that was refused for two of them counts twice.
+    std::uint64_t refusals() const {
+        std::uint64_t sum = 0;
+        for (const auto& [reason, count] : refused)
+            sum += count;
+        return sum;
+    }
+
+    /// The numbers; part and action stand before them, refusals by reason after them.
+    static constexpr auto fields() {
+        using R = LeaseRow;
+        using core::Field;
+        return std::make_tuple(
+            Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, refused ones included", ""},
+            Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that prolonged one", ""},
+            Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that were carried out at least for a step", ""},
+            Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that ended by themselves", ""});
+    }
+};
+
+}  // namespace clearway::metrics
