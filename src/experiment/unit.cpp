@@ -72,6 +72,7 @@ core::Json to_json(const ConditionSpec& condition) {
     object["safety_checks"] = experiment::name(condition.safety_checks);
     if (!condition.loop_settings.empty()) object["loop_settings"] = condition.loop_settings;
     if (condition.bluelight == traffic::BlueLight::on) object["bluelight"] = "on";
+    if (!condition.factors.empty()) object["factors"] = condition.factors;
     return object;
 }
 
@@ -88,6 +89,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     reader.read_if_there("loop_settings", condition.loop_settings);
     if (object.contains("bluelight"))
         reader.read_name("bluelight", condition.bluelight, switch_from<traffic::BlueLight>);
+    reader.read_if_there("factors", condition.factors);
     return condition;
 }
 

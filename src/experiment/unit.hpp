@@ -49,6 +49,10 @@ struct ConditionSpec {
     core::Settings loop_settings = {};  ///< Members of LoopConfig that differ from its defaults.
     traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
 
+    /// Factors of the study that made it, `failure.dark_share` -> `0.3`; they say what the rest already
+    /// holds.
+    core::Settings factors = {};
+
     /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
     bool acts() const { return !parts.empty() || bluelight == traffic::BlueLight::on; }
 

@@ -202,8 +202,16 @@ std::string name_of(const Assignment& assignment, const std::vector<Factor>& fac
     return name;
 }
 
+core::Settings factors_of(const Assignment& assignment) {
+    core::Settings factors;
+    for (const auto& [factor, value] : assignment)
+        factors[factor->group + "." + factor->key] = value->text;
+    return factors;
+}
+
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                Problems& problems) {
+    condition.factors = factors_of(assignment);
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
         // Groups come in the order of their names, so the failure itself is set before its fields.

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/error.hpp"
+#include "core/settings.hpp"
 #include "experiment/unit.hpp"
 
 namespace clearway::study::detail {
@@ -42,6 +43,9 @@ std::vector<Assignment> combinations(const std::vector<Factor>& factors,
 
 /// `+failure=B5+mean_outage_s=20`, with full keys where short ones would mean two factors.
 std::string name_of(const Assignment& assignment, const std::vector<Factor>& factors);
+
+/// Names as in the study file, `failure.mean_outage_s`, and values.
+core::Settings factors_of(const Assignment& assignment);
 
 /// The condition under a combination. What is wrong with it is added to `problems`.
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
