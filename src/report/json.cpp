@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/console.hpp"
+#include "report/detail/factors_json.hpp"
 #include "report/published.hpp"
 #include "report/verdict.hpp"
 
@@ -91,7 +92,7 @@ Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition)
         }
         if (is_published(measure.measure)) {
             entry["published"] =
-                number_or_null(published_value(scenario.name, condition.name, measure.measure));
+                number_or_null(published_value(scenario.published_as, condition.name, measure.measure));
         }
         result[measure.field] = std::move(entry);
     }
@@ -119,6 +120,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"safety", to_json(condition.safety)},
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
+    if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {
         result["precision"] = {{"deviation_s", condition.precision->deviation_s},
                                {"replications_needed", condition.precision->needed}};
