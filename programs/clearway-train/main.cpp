@@ -33,7 +33,7 @@ enum class Mode { as_published, corrected, logistic };
 struct Arguments {
     std::filesystem::path data;
     std::filesystem::path out;
-    Mode mode = Mode::as_published;
+    Mode mode = Mode::as_published;  ///< One of the options says which.
     PairChoice pairs = PairChoice::candidates;
     std::vector<std::filesystem::path> unseen;
     Printing printing = Printing::epochs;
@@ -43,20 +43,25 @@ struct Arguments {
 
 void declare_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--data", arguments.data,
-                   "Data set of `clearway dataset`; with --corrected, of `... --samples`")
+                   "Data set of `clearway dataset`; with --corrected or --logistic, of `... --samples`")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out, "Folder for the results; made when absent")
         ->required()
         ->option_text("DIR (required)");
+    auto* const as_published = app.add_flag_callback(
+        "--as-published", [&] { arguments.mode = Mode::as_published; },
+        "Train as the dissertation did: one snapshot, no better than a constant");
     auto* const corrected = app.add_flag_callback(
         "--corrected", [&] { arguments.mode = Mode::corrected; },
         "Train on many snapshots, split by seed, without messages along the labels");
+    corrected->excludes(as_published);
     auto* const logistic =
         app.add_flag_callback(
                "--logistic", [&] { arguments.mode = Mode::logistic; },
                "Fit the logistic pair model on `clearway dataset --samples --net logistic`")
-            ->excludes(corrected);
+            ->excludes(corrected)
+            ->excludes(as_published);
     app.add_option("--ridge", arguments.logistic.ridge, "Weight of the squared weights beside the mean loss")
         ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("NUMBER, 0 to 1e6 [{:g}]", arguments.logistic.ridge))
@@ -91,10 +96,35 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "torch.load),\n"
         "graphsage_*.weights (for `clearway links evaluate --model graphsage_corrected=FILE`), and\n"
         "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
-        "Examples:\n  clearway dataset city --out data/city\n  clearway train --data data/city --out "
-        "models/mine\n"
-        "  clearway train --data data/city --pairs true-links --epochs 100 --seed 1 --out models/true_links "
+        "Examples:\n  clearway dataset city --out data/city\n  clearway train --as-published "
+        "--data data/city --out models/mine\n"
+        "  clearway train --as-published --data data/city --pairs true-links --epochs 100 --seed 1 --out "
+        "models/true_links "
         "--json");
+}
+
+/// What can be trained, the recommended first; for whoever names none.
+constexpr const char* choices =
+    "clearway train: which net? Name one of these:\n"
+    "  clearway train graphsage --data DIR --out DIR        recommended: the net that repairs links best\n"
+    "  clearway train --logistic --data DIR --out DIR       a logistic model of pairs: small and quick\n"
+    "  clearway train --corrected --data DIR --out DIR      the dissertation's net, trained soundly\n"
+    "  clearway train --as-published --data DIR --out DIR   the dissertation's net and training: no better\n"
+    "                                                       than a constant, kept to be compared with\n"
+    "The data set comes from `clearway dataset SCENARIO --out DIR`, with `--samples --net graphsage`,\n"
+    "`--samples --net logistic`, `--samples` and nothing else, in this order. `clearway train graphsage "
+    "--help`\n"
+    "and `clearway train --help` describe the options.\n";
+
+/// Whether the words say which net is trained, or ask for something else than a training.
+bool names_a_net(int argument_count, char** argument_values) {
+    for (int i = 1; i < argument_count; ++i) {
+        const std::string_view word = argument_values[i];
+        if (!word.starts_with("-") && i == 1) return true;  // a word: known, or told to be unknown
+        for (const char* known : {"--as-published", "--corrected", "--logistic", "--help", "-h", "--version"})
+            if (word == known) return true;
+    }
+    return false;
 }
 
 /// The dissertation's three lines an epoch, counted from 0 as there.
@@ -235,6 +265,10 @@ core::ExitCode train_as(const Arguments& arguments) {
 int run(int argument_count, char** argument_values) {
     if (argument_count > 1 && std::string_view(argument_values[1]) == graphsage_word) {
         return run_graphsage(argument_count - 1, argument_values + 1);
+    }
+    if (!names_a_net(argument_count, argument_values)) {
+        fmt::print(stderr, "{}", choices);
+        return static_cast<int>(core::ExitCode::usage);
     }
     CLI::App app("Trains the dissertation's GraphSAGENet for link prediction, as published or corrected.");
     app.name("clearway train");

@@ -24,6 +24,7 @@ struct Arguments {
     experiment::AttachJob job;
     DescribedCondition described;
     Printing printing = Printing::text;
+    report::Tables tables = report::Tables::essential;
 };
 
 /// Sets host and port of `HOST:PORT`, `:PORT` or `PORT`.
@@ -62,7 +63,7 @@ core::ExitCode attach(const Arguments& arguments) {
                                         1, "simulations");
     if (result.exit_code != core::ExitCode::ok) return result.exit_code;
     std::filesystem::remove_all(jobs);
-    return publish(results::Store::open(job.output), arguments.printing);
+    return publish(results::Store::open(job.output), {arguments.printing, arguments.tables});
 }
 
 }  // namespace
@@ -86,6 +87,7 @@ Action configure_attach(CLI::App& app) {
     add_seed_option(app, job.study_seed);
     app.add_option("--out", arguments->folder, "Run folder")->option_text("DIR [runs/attached-PORT]");
     add_json_option(app, arguments->printing, "the tables");
+    add_tables_option(app, arguments->tables);
     return [arguments](const Invocation&) { return attach(*arguments); };
 }
 

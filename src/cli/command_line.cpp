@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -38,14 +39,13 @@ constexpr std::array all_verbs = {
     Verb{"results", "Print any table of a run folder as CSV or JSON",
          "clearway results runs/reproduce vehicles --csv", configure_results},
     Verb{"replay", "Think a recorded run through again with another predictor, or export it as CSV",
-         "clearway replay runs/city/recordings/city/mine/00000.h5 --predictor dead_reckoning",
-         configure_replay},
+         "clearway replay runs/city-1a2b3c/city/corridor/0 --predictor dead_reckoning", configure_replay},
     Verb{"verify", "Make stored runs again and compare every number",
-         "clearway verify runs/reproduce city/baseline/7", configure_verify},
+         "clearway verify runs/reproduce/city/baseline/7", configure_verify},
     Verb{"dataset", "Record a data set for link prediction from a scenario",
          "clearway dataset city --out data/city", configure_dataset},
     Verb{"train", "Train link prediction, as published or corrected",
-         "clearway train --data data/city --out models/mine", configure_train},
+         "clearway train graphsage --data data/graphsage --out trained/graphsage", configure_train},
     Verb{"links", "Judge link prediction: links evaluate",
          "clearway links evaluate --benchmark eval_v1 --quick", configure_links},
     Verb{"list", "List scenarios, conditions, failures, predictors, policies and settings",
@@ -128,6 +128,7 @@ void declare(CLI::App& app, Action& action) {
 
 /// Never throws: standard error may be as full as the disk that is complained of.
 core::ExitCode complain(const std::exception& error, core::ExitCode code) {
+    std::fflush(stdout);
     std::fputs("clearway: ", stderr);
     std::fputs(error.what(), stderr);
     std::fputs("\n", stderr);
@@ -137,8 +138,14 @@ core::ExitCode complain(const std::exception& error, core::ExitCode code) {
 core::ExitCode act(const Action& action, const Invocation& invocation) {
     try {
         const core::ExitCode code = action(invocation);
-        if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw core::EnvironmentError("standard output cannot be written");
         return code;
+    } catch (const std::system_error& error) {
+        if (std::ferror(stdout) != 0)
+            return complain(core::EnvironmentError("standard output cannot be written"),
+                            core::ExitCode::environment);
+        return complain(error, core::ExitCode::environment);
     } catch (const core::Error& error) {
         return complain(error, error.exit_code());
     } catch (const std::exception& error) {
@@ -153,6 +160,8 @@ std::span<const Verb> verbs() {
 }
 
 int run_command_line(int argument_count, const char* const* arguments) {
+    // Line by line into a pipe too: what goes to standard error between two lines never lands within one.
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     const int usage = static_cast<int>(core::ExitCode::usage);
     if (const std::optional<std::string> problem = verb_problem(argument_count, arguments)) {
         fmt::print(stderr, "clearway: {}\n`clearway --help` describes them.\n", *problem);

@@ -14,6 +14,12 @@ void add_json_option(CLI::App& app, Printing& printing, const std::string& what)
         fmt::format("Print {} as JSON, units in the names of fields [text]", what));
 }
 
+void add_tables_option(CLI::App& app, report::Tables& tables) {
+    app.add_flag_callback(
+        "--tables", [&tables] { tables = report::Tables::all; },
+        "Print the tables of all measures [verdicts and the two main measures]");
+}
+
 void add_record_option(CLI::App& app, experiment::StepRecording& recording) {
     app.add_flag_callback(
         "--record", [&recording] { recording = experiment::StepRecording::on; },

@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 
 #include "experiment/run_job.hpp"
+#include "report/console.hpp"
 
 namespace clearway::cli {
 
@@ -19,6 +20,8 @@ inline constexpr std::uint32_t most_replications = 100000;
 
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
+/// Declares `--tables`: every measure is printed.
+void add_tables_option(CLI::App& app, report::Tables& tables);
 /// Declares `--record`: every step of every run is kept in a file.
 void add_record_option(CLI::App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at one time, 0 for one per core.

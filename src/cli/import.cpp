@@ -16,6 +16,7 @@
 #include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/progress.hpp"
+#include "core/terminal.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -38,34 +39,35 @@ class Stages {
         const auto interval = is_terminal ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
         if (now - shown_ < interval) return;
         shown_ = now;
-        drawn_ = is_terminal;
-        fmt::print(stderr, "{}import: {}, {} elapsed{}", is_terminal ? "\r" : "", stage,
-                   core::clock_text(elapsed_s), is_terminal ? "\x1b[K" : "\n");
-        std::fflush(stderr);
+        const std::string line = fmt::format("import: {}, {} elapsed", stage, core::clock_text(elapsed_s));
+        is_terminal ? core::draw_line(line) : core::print_message(line + "\n");
     }
-    void finish() const {
-        if (drawn_) fmt::print(stderr, "\r\x1b[K");
-    }
+    ~Stages() { core::clear_drawn_line(); }
+    Stages() = default;
+    Stages(const Stages&) = delete;
+    Stages& operator=(const Stages&) = delete;
 
   private:
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point shown_ = started_;
-    bool drawn_ = false;
 };
+
+/// Imports, saying what is done, until it is interrupted.
+scenario_import::Findings import_watched(const scenario_import::ImportRequest& request) {
+    const InterruptionWatch interruption;
+    Stages stages;
+    return scenario_import::import(request, [&](const std::string& stage, double) {
+        if (const int signal = interruption.received(); signal != 0)
+            throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
+                              "interrupted; nothing is left behind");
+        stages.show(stage);
+    });
+}
 
 core::ExitCode import(Arguments& arguments) {
     arguments.request.files.assign(arguments.files.begin(), arguments.files.end());
     arguments.request.folder = arguments.name;
-    const core::InterruptionWatch interruption;
-    Stages stages;
-    const scenario_import::Findings findings =
-        scenario_import::import(arguments.request, [&](const std::string& stage, double) {
-            if (interruption.signal() != 0)
-                throw core::Error(interruption.exit_code(core::ExitCode::ok),
-                                  "interrupted; nothing is left behind");
-            stages.show(stage);
-        });
-    stages.finish();
+    const scenario_import::Findings findings = import_watched(arguments.request);
     if (arguments.printing == Printing::json) {
         fmt::print("{}", scenario_import::to_json(findings));
     } else {

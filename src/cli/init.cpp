@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -5,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/verb.hpp"
+#include "core/process.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::cli {
@@ -22,8 +24,11 @@ Action configure_init(CLI::App& app) {
         ->option_text("SCENARIO [intersection]");
     return [arguments](const Invocation&) {
         scenario::init(arguments->folder, arguments->from);
-        fmt::print("{}/scenario.toml written, a copy of {}. Edit it, then: clearway run {}\n",
-                   arguments->folder, arguments->from, arguments->folder);
+        // A name alone could be that of a scenario that comes with Clearway.
+        const std::filesystem::path folder = arguments->folder;
+        const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
+        fmt::print("{} written, a copy of {}. Edit it, then:\n  {}\n", (folder / "scenario.toml").string(),
+                   arguments->from, core::shell_text({"clearway", "run", scenario}));
         return core::ExitCode::ok;
     };
 }

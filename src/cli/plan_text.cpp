@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -26,11 +27,11 @@ struct Cell {
     RunCost cost;  ///< Of one run.
 };
 
-/// The folder's store when it holds this very study.
+/// The folder's store when it holds this study, with as many replications or fewer.
 std::optional<results::Store> existing_store(const study::Plan& plan, const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
     results::Store store = results::Store::open(folder);
-    if (!results::differences(store.manifest(), plan.manifest).empty()) return std::nullopt;
+    if (!results::continues(plan.manifest, store.manifest())) return std::nullopt;
     return store;
 }
 
@@ -111,13 +112,20 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
 
 std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
     const std::vector<Cell> cells = cells_of(plan, folder);
-    std::string text = fmt::format("{:24} {:32} {:9} {:>6} {:>9}  {}\n", "scenario", "condition", "engine",
-                                   "runs", "complete", "failure, predictor, policy");
+    std::size_t scenario_width = std::string_view("scenario").size();
+    std::size_t condition_width = std::string_view("condition").size();
+    for (const Cell& cell : cells) {
+        scenario_width = std::max(scenario_width, cell.scenario.size());
+        condition_width = std::max(condition_width, cell.condition.name.size());
+    }
+    std::string text =
+        fmt::format("{:{}}  {:{}}  {:8} {:>6} {:>9}  {}\n", "scenario", scenario_width, "condition",
+                    condition_width, "engine", "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
-        text += fmt::format("{:24} {:32} {:9} {:6} {:9}  {}, {}, {}\n", cell.scenario, condition.name,
-                            experiment::name(condition.engine), cell.runs, cell.complete, condition.failure,
-                            condition.predictor, policy_of(condition));
+        text += fmt::format("{:{}}  {:{}}  {:8} {:6} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
+                            condition.name, condition_width, experiment::name(condition.engine), cell.runs,
+                            cell.complete, condition.failure, condition.predictor, policy_of(condition));
     }
     const Rest rest = rest_of(cells, workers);
     text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),

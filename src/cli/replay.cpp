@@ -17,6 +17,7 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
+#include "results/run_name.hpp"
 #include "scenario/config.hpp"
 #include "trace/failure_log.hpp"
 #include "trace/recording_tables.hpp"
@@ -197,10 +198,17 @@ nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
     return json;
 }
 
-void print_json(const trace::RecordingInfo& info, const experiment::ConditionSpec& condition,
-                const trace::ReplayResult& result) {
+/// Its name, or without its run folder the end of it.
+std::string run_of(const std::filesystem::path& recording, const experiment::RunKey& key) {
+    const std::filesystem::path folder = recording.parent_path().parent_path().parent_path().parent_path();
+    if (!std::filesystem::exists(folder / "manifest.json")) return experiment::to_text(key);
+    return results::run_name(std::filesystem::proximate(folder), key);
+}
+
+void print_json(const std::string& run, const trace::RecordingInfo& info,
+                const experiment::ConditionSpec& condition, const trace::ReplayResult& result) {
     nlohmann::ordered_json json;
-    json["run"] = experiment::to_text(info.key);
+    json["run"] = run;
     json["clearway_version"] = info.provenance.clearway_version;
     json["sumo_version"] = info.provenance.sumo_version;
     json["begin_s"] = result.begin_s;
@@ -246,11 +254,11 @@ void print_agreement(const std::string& what, const trace::Agreement& agreement)
                agreement.first_difference.empty() ? "" : "; first difference " + agreement.first_difference);
 }
 
-void print_text(const trace::RecordingInfo& info, const experiment::ConditionSpec& condition,
-                const trace::ReplayResult& result) {
-    fmt::print("{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n",
-               experiment::to_text(info.key), result.begin_s, result.end_s, result.steps,
-               result.vehicle_steps, info.provenance.clearway_version, info.provenance.sumo_version);
+void print_text(const std::string& run, const trace::RecordingInfo& info,
+                const experiment::ConditionSpec& condition, const trace::ReplayResult& result) {
+    fmt::print("{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n", run,
+               result.begin_s, result.end_s, result.steps, result.vehicle_steps,
+               info.provenance.clearway_version, info.provenance.sumo_version);
     fmt::print("The traffic is as recorded: it does not react to what is believed in the replay.\n\n");
     print_row("", "recorded", "replayed");
     print_row("failure", info.condition.failure, condition.failure);
@@ -279,7 +287,8 @@ bool is_same(const trace::ReplayResult& result) {
            result.beliefs.same == result.beliefs.compared && result.leases.same == result.leases.compared;
 }
 
-core::ExitCode replay_file(const Arguments& arguments) {
+core::ExitCode replay_file(Arguments arguments) {
+    arguments.file = results::recording_named(arguments.file, "RUN");
     trace::RecordingReader recording(arguments.file);
     if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
@@ -289,8 +298,9 @@ core::ExitCode replay_file(const Arguments& arguments) {
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = network_of(info, arguments);
     const trace::ReplayResult result = trace::replay(recording, condition, network);
-    arguments.printing == Printing::json ? print_json(info, condition, result)
-                                         : print_text(info, condition, result);
+    const std::string run = run_of(arguments.file, info.key);
+    arguments.printing == Printing::json ? print_json(run, info, condition, result)
+                                         : print_text(run, info, condition, result);
     if (condition != info.condition || is_same(result)) return core::ExitCode::ok;
     fmt::print(
         stderr,
@@ -321,12 +331,12 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
 
 Action configure_replay(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.footer(app.get_footer() + "\n  clearway replay FILE --csv belief --from 60 --to 90 > belief.csv\n\n" +
+    app.footer(app.get_footer() + "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n\n" +
                "Tables: " + joined(table_names()) + "\n\n" + open_loop);
-    app.add_option("file", arguments->file,
-                   "A file recordings/SCENARIO/CONDITION/REPLICATION.h5 of a run folder")
+    app.add_option("run", arguments->file,
+                   fmt::format("{} of a recorded run, or a recording", results::run_name_form))
         ->required()
-        ->option_text("FILE (required)");
+        ->option_text("RUN (required)");
     std::vector<CLI::Option*> thinking;
     thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
                            ->option_text("NAME [as recorded]"));

@@ -21,6 +21,7 @@ struct Arguments {
     unsigned jobs = 0;
     experiment::RunLimits limits;
     Printing printing = Printing::text;
+    report::Tables tables = report::Tables::essential;
     scenario::Options scenario;
 };
 
@@ -35,8 +36,12 @@ std::string folder_of(const Arguments& arguments) {
 }
 
 core::ExitCode reproduce(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{folder_of(arguments), arguments.jobs, arguments.limits, arguments.printing,
-                           invocation.command};
+    RunPlanOptions options{.folder = folder_of(arguments),
+                           .workers = arguments.jobs,
+                           .limits = arguments.limits,
+                           .printing = arguments.printing,
+                           .command = invocation.command,
+                           .tables = arguments.tables};
     const study::Plan plan =
         plan_for(study::dissertation_study(arguments.seeds, arguments.seed, arguments.scenario), options);
     return run_and_print(plan, options);
@@ -57,6 +62,7 @@ Action configure_reproduce(CLI::App& app) {
     add_jobs_option(app, arguments->jobs);
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "the tables");
+    add_tables_option(app, arguments->tables);
     add_scenario_options(app, arguments->scenario);
     return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
 }

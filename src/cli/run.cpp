@@ -23,8 +23,6 @@ namespace {
 enum class Floor : std::uint8_t { solo, none };
 
 constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replications
-/// What `--gui` shows where no condition is named: links, and vehicles that fail to report.
-constexpr const char* usually_shown = "graph_graphsage";
 
 struct Arguments {
     std::string scenario;
@@ -38,6 +36,7 @@ struct Arguments {
     experiment::StepRecording recording = experiment::StepRecording::off;
     experiment::RunLimits limits;
     Printing printing = Printing::text;
+    report::Tables tables = report::Tables::essential;
     scenario::Options options;
     bool is_shown = false;
     double delay_ms = 50.0;  ///< 0.25 s steps: five times as fast as the traffic.
@@ -84,14 +83,11 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const Arguments& argume
     return chosen;
 }
 
-/// Those, or else the usual ones, and what they are compared with.
+/// Those, or else the usual one, and what they are compared with.
 std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
                                                      std::vector<experiment::ConditionSpec> chosen) {
-    if (chosen.empty()) {
-        for (const experiment::BuiltInCondition& known : experiment::built_in_conditions()) {
-            chosen.push_back(known.condition);
-        }
-    }
+    if (chosen.empty())
+        chosen.push_back(experiment::built_in_condition(experiment::usual_condition, "--condition"));
     std::vector<experiment::ConditionSpec> all;
     for (const experiment::ConditionSpec& condition : chosen) {
         if (condition.engine != experiment::Engine::solo) add_once(all, baseline_of(condition.engine));
@@ -110,7 +106,7 @@ std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
 
 /// Of the conditions that the user chose, the one that a window shows.
 experiment::ConditionSpec shown_condition(const std::vector<experiment::ConditionSpec>& chosen) {
-    if (chosen.empty()) return experiment::built_in_condition(usually_shown, "--gui");
+    if (chosen.empty()) return experiment::built_in_condition(experiment::usual_condition, "--gui");
     if (chosen.size() == 1) return chosen.front();
     std::vector<std::string> names;
     for (const experiment::ConditionSpec& condition : chosen)
@@ -138,8 +134,8 @@ study::StudyConfig study_of(const Arguments& arguments, std::vector<experiment::
 }
 
 core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{arguments.folder,   arguments.jobs,     arguments.limits,
-                           arguments.printing, invocation.command, arguments.recording};
+    RunPlanOptions options{arguments.folder,   arguments.jobs,      arguments.limits, arguments.printing,
+                           invocation.command, arguments.recording, arguments.tables};
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments);
     if (!arguments.is_shown) return run_and_print(plan_for(study_of(arguments, chosen), options), options);
     const experiment::ConditionSpec shown = shown_condition(chosen);
@@ -151,10 +147,10 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
 
 void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "A window";
-    CLI::Option* const gui =
-        app.add_flag("--gui", arguments->is_shown,
-                     fmt::format("Show the first seed of one condition [{}] in sumo-gui", usually_shown))
-            ->group(group);
+    CLI::Option* const gui = app.add_flag("--gui", arguments->is_shown,
+                                          fmt::format("Show the first seed of one condition [{}] in sumo-gui",
+                                                      experiment::usual_condition))
+                                 ->group(group);
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
                    "Least wall time of a step, from a minute before the first emergency vehicle, ms")
@@ -198,7 +194,8 @@ Action configure_run(CLI::App& app) {
         ->option_text("SCENARIO (required)");
     app.add_option("--condition", arguments->conditions,
                    "A built-in condition; can be repeated. A baseline is always added")
-        ->option_text("NAME ... [all built-in ones, unless one of your own is described]");
+        ->option_text(
+            fmt::format("NAME ... [{}, unless one of your own is described]", experiment::usual_condition));
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
         "Leave out the runs of emergency vehicles alone, hence the gap closed [with them]");
@@ -210,6 +207,7 @@ Action configure_run(CLI::App& app) {
     add_record_option(app, arguments->recording);
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "the tables");
+    add_tables_option(app, arguments->tables);
     add_own_condition_options(app, arguments);
     add_scenario_options(app, arguments->options);
     add_window_options(app, arguments);

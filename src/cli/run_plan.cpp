@@ -17,6 +17,7 @@
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
+#include "results/run_name.hpp"
 #include "results/table_reader.hpp"
 #include "study/side_files.hpp"
 
@@ -25,6 +26,12 @@ namespace {
 
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_failures = 10;
+
+/// Replications that a run folder holds; 0 where there is none yet.
+std::uint32_t replications_in(const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "manifest.json")) return 0;
+    return results::Store::open(folder).manifest().replications;
+}
 
 /// The headline of a study while it runs, read again every two seconds.
 class PresentEstimate {
@@ -86,7 +93,7 @@ void name_failures(const results::Store& store, const results::Results& results)
                results.manifest.runs().size(), (store.folder() / "logs").string());
     for (std::size_t i = 0; i < std::min(count, named_failures); ++i) {
         const results::FailureRecord& failure = results.failures[i];
-        fmt::print(stderr, "  {}: {}{}\n", experiment::to_text(failure.key), failure.message,
+        fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), failure.key), failure.message,
                    last_words(failure.log_tail));
     }
     if (count > named_failures) {
@@ -113,10 +120,14 @@ study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) 
 
 results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions& options) {
     const bool is_new = is_absent_or_empty(options.folder);
+    const std::uint32_t before = replications_in(options.folder);
     try {
         results::Store store = study::prepare_folder(plan, options.folder);
         study::complete_scenarios(plan, store);
-        study::keep_command(store, options.command);
+        study::keep_command(store, options.command, before);
+        if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
+            fmt::print(stderr, "clearway: {}: extended from {} to {} replications\n", options.folder.string(),
+                       before, store.manifest().replications);
         if (const auto trainings = shipped(std::filesystem::path("models") / "training"))
             study::copy_trainings(*trainings, store);
         return store;
@@ -135,10 +146,10 @@ study::StudyResult run_missing(const study::Plan& plan, const results::Store& st
     study::RunnerOptions runner;
     runner.workers = options.workers;
     runner.limits = options.limits;
-    runner.on_set_aside = [](const results::SetAside& damaged) {
+    runner.on_set_aside = [&store](const results::SetAside& damaged) {
         fmt::print(stderr,
                    "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
-                   experiment::to_text(damaged.key), damaged.why, damaged.place.string());
+                   results::run_name(store.folder(), damaged.key), damaged.why, damaged.place.string());
     };
     study::StudyResult result = study::run(plan, store, runner, [&](const study::StudyProgress& now) {
         progress.begin_at(now.resumed);
@@ -156,16 +167,17 @@ bool was_interrupted(const study::StudyResult& result) {
 core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
     const results::Store store = prepare_run_folder(plan, options);
     const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, options.printing);
+    return was_interrupted(result) ? result.exit_code : publish(store, {options.printing, options.tables});
 }
 
-core::ExitCode publish(const results::Store& store, Printing printing, double least_relevant_s) {
+core::ExitCode publish(const results::Store& store, const PublishOptions& options) {
     if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const report::StudyFacts facts =
-        report::facts_of(results, analysis::summarise(results), store.folder(), least_relevant_s);
+        report::facts_of(results, analysis::summarise(results), store.folder(), options.least_relevant_s);
     write_report(facts, store.folder() / "report.html");
-    fmt::print("{}", printing == Printing::json ? report::json_tables(facts) : report::console_tables(facts));
+    fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
+                                                        : report::console_tables(facts, options.tables));
     name_failures(store, results);
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
     if (!results.missing.empty()) {

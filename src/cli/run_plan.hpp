@@ -21,6 +21,14 @@ struct RunPlanOptions {
     Printing printing = Printing::text;
     std::string command;  ///< What the user typed, for the report and for resuming.
     experiment::StepRecording recording = experiment::StepRecording::off;
+    report::Tables tables = report::Tables::essential;
+};
+
+/// How the results of a run folder are printed.
+struct PublishOptions {
+    Printing printing = Printing::text;
+    report::Tables tables = report::Tables::essential;
+    double least_relevant_s = report::usual_least_relevant_s;  ///< Smaller EV time differences are no effect.
 };
 
 /// Checks names, makes the plan with the versions installed and settles an empty `options.folder`:
@@ -46,9 +54,7 @@ bool was_interrupted(const study::StudyResult& result);
 core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options);
 
 /// Writes the tables, where they are not current, and `report.html` of a run folder from its runs, and prints
-/// the tables on standard output. EV times that differ by less than `least_relevant_s` are no effect. Answers
-/// ok, runs_failed when a run failed, incomplete when one is missing.
-core::ExitCode publish(const results::Store& store, Printing printing,
-                       double least_relevant_s = report::usual_least_relevant_s);
+/// them on standard output. Answers ok, runs_failed when a run failed, incomplete when one is missing.
+core::ExitCode publish(const results::Store& store, const PublishOptions& options);
 
 }  // namespace clearway::cli

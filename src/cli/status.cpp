@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -66,15 +67,22 @@ StudyStatus sum_of(const std::vector<StudyStatus>& parts, const std::filesystem:
 }
 
 std::string text_of(const StudyStatus& status, const std::string& headline) {
-    std::string text =
-        fmt::format("{:32} {:40} {:>8} {:>9} {:>7}\n", "scenario", "condition", "runs", "complete", "failed");
+    constexpr std::string_view mark = " (!)";
+    std::size_t scenario_width = std::string_view("scenario").size();
+    std::size_t condition_width = std::string_view("condition").size();
+    for (const CellStatus& cell : status.cells) {
+        scenario_width = std::max(scenario_width, cell.scenario.size());
+        condition_width = std::max(condition_width, cell.condition.size() + mark.size());
+    }
+    std::string text = fmt::format("{:{}}  {:{}} {:>8} {:>9} {:>7}\n", "scenario", scenario_width,
+                                   "condition", condition_width, "runs", "complete", "failed");
     bool any_unsafe = false;
     for (const CellStatus& cell : status.cells) {
         const bool is_unsafe = cell.safety_checks == traffic::SafetyChecks::off;
         any_unsafe = any_unsafe || is_unsafe;
-        text +=
-            fmt::format("{:32} {:40} {:8} {:9} {:7}\n", cell.scenario,
-                        cell.condition + (is_unsafe ? " (!)" : ""), cell.runs, cell.complete, cell.failed);
+        text += fmt::format("{:{}}  {:{}} {:8} {:9} {:7}\n", cell.scenario, scenario_width,
+                            fmt::format("{}{}", cell.condition, is_unsafe ? mark : ""), condition_width,
+                            cell.runs, cell.complete, cell.failed);
     }
     if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
     text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));

@@ -26,6 +26,7 @@ struct Arguments {
     experiment::StepRecording recording = experiment::StepRecording::off;
     experiment::RunLimits limits;
     Printing printing = Printing::text;
+    report::Tables tables = report::Tables::essential;
 };
 
 void print_shard(const study::Shard& shard, const study::StudyProgress& progress, const std::string& folder,
@@ -79,7 +80,8 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
                            arguments.limits,
                            arguments.printing,
                            invocation.command,
-                           arguments.recording};
+                           arguments.recording,
+                           arguments.tables};
     if (arguments.mode == Mode::dry_run) return print_plan(config, shard, options);
     if (!shard.whole()) return run_shard(config, shard, options);
     study::claim(folder, shard);
@@ -111,6 +113,7 @@ Action configure_study(CLI::App& app) {
     add_record_option(app, arguments->recording);
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "tables or plan");
+    add_tables_option(app, arguments->tables);
     return [arguments](const Invocation& invocation) { return run_study(*arguments, invocation); };
 }
 

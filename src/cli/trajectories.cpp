@@ -10,7 +10,7 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/number_range.hpp"
-#include "results/store.hpp"
+#include "results/run_name.hpp"
 #include "scenario/sumo_files.hpp"
 
 namespace clearway::cli {
@@ -23,34 +23,17 @@ struct Arguments {
     double reach_m = 50.0;
 };
 
-/// The recording of a run, given as itself or as FOLDER/SCENARIO/CONDITION/REPLICATION.
-std::filesystem::path recording_of(const std::filesystem::path& run) {
-    if (std::filesystem::is_regular_file(run)) return std::filesystem::absolute(run).lexically_normal();
-    const std::filesystem::path whole = std::filesystem::absolute(run).lexically_normal();
-    const std::string number = whole.filename().string();
-    const bool is_number =
-        !number.empty() && number.size() <= 5 && number.find_first_not_of("0123456789") == std::string::npos;
-    const std::filesystem::path folder = whole.parent_path().parent_path().parent_path();
-    if (!is_number || !std::filesystem::exists(folder / "manifest.json"))
-        throw core::InputError({run.string(), "is no run",
-                                "a recording, or FOLDER/SCENARIO/CONDITION/REPLICATION",
-                                "for example runs/city-1a2b3c/city/corridor/0"});
-    const experiment::RunKey key{whole.parent_path().parent_path().filename().string(),
-                                 whole.parent_path().filename().string(),
-                                 static_cast<std::uint32_t>(std::stoul(number))};
-    const std::filesystem::path recording = trace::recording_file(folder, key);
-    if (!std::filesystem::exists(recording))
-        throw core::InputError({run.string(), fmt::format("has no recording {}", recording.string()),
-                                "a recorded run",
-                                "give the command that made it again, with --record and another --out"});
-    return recording;
-}
-
 core::ExitCode write(const Arguments& arguments) {
-    const std::filesystem::path file = recording_of(arguments.run);
+    const std::filesystem::path file = results::recording_named(arguments.run, "RUN");
     trace::RecordingReader recording(file);
     const experiment::RunKey key = recording.info().key;
-    const std::uint64_t seed = recording.info().provenance.study_seed;
+    const experiment::ConditionSpec condition = recording.info().condition;
+    const scenario::SumoRun run{.seed = core::StudySeed{recording.info().provenance.study_seed},
+                                .replication = core::Replication{key.replication},
+                                .lateral_model = condition.engine == experiment::Engine::sublane
+                                                     ? scenario::LateralModel::sublane
+                                                     : scenario::LateralModel::lanes,
+                                .bluelight = condition.bluelight};
     const std::filesystem::path run_folder = file.parent_path().parent_path().parent_path().parent_path();
     const std::filesystem::path scenario_folder =
         results::Store::open(run_folder).scenario_folder(key.scenario);
@@ -65,13 +48,15 @@ core::ExitCode write(const Arguments& arguments) {
     const trace::TrajectoryCounts counts = trace::write_trajectories(
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
-    scenario::write_sumo_files(config, network, core::StudySeed{seed}, core::Replication{key.replication},
-                               folder / "sumo");
-    fmt::print("{}: {} EVs and {} neighbours in {} places\n", experiment::to_text(key),
-               counts.emergency_vehicles, counts.neighbours, counts.places);
-    fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, the baseline for any SUMO\n",
-               folder.string(),
-               counts.has_coordinates ? fmt::format("  {}/trajectories.geojson\n", folder.string()) : "");
+    scenario::write_sumo_files(config, network, run, folder / "sumo");
+    fmt::print("{}: {} EVs and {} neighbours in {} places\n",
+               results::run_name(std::filesystem::proximate(run_folder), key), counts.emergency_vehicles,
+               counts.neighbours, counts.places);
+    fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
+               counts.has_coordinates ? fmt::format("  {}/trajectories.geojson\n", folder.string()) : "",
+               condition.parts.empty()
+                   ? "this run for any SUMO"
+                   : "its demand, engine and devices for any SUMO; what the policy did is not in it");
     if (!counts.has_coordinates)
         fmt::print(stderr,
                    "clearway: this network has no map projection that is known, so no GeoJSON and no "
@@ -84,7 +69,7 @@ core::ExitCode write(const Arguments& arguments) {
 Action configure_trajectories(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("run", arguments->run,
-                   "FOLDER/SCENARIO/CONDITION/REPLICATION of a recorded run, or a recording")
+                   fmt::format("{} of a recorded run, or a recording", results::run_name_form))
         ->required()
         ->option_text("RUN (required)");
     app.add_option("--out", arguments->folder, "Folder to write into")

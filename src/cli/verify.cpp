@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -19,7 +18,7 @@
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "results/record_difference.hpp"
-#include "results/store.hpp"
+#include "results/run_name.hpp"
 #include "study/runner.hpp"
 #include "trace/difference.hpp"
 #include "trace/recording.hpp"
@@ -31,8 +30,7 @@ namespace {
 constexpr std::size_t shown_cells = 3;
 
 struct Arguments {
-    std::string folder;
-    std::string run;
+    std::string what;  ///< A run, or with `all` and `sample` a run folder.
     bool all = false;
     std::size_t sample = 0;
     std::string out;
@@ -43,7 +41,7 @@ struct Arguments {
 enum class Verdict : std::uint8_t { same, different, damaged, failed };
 
 struct Verification {
-    experiment::RunKey key;
+    std::string run;  ///< Its name.
     Verdict verdict = Verdict::same;
     std::string hash;  ///< Of the stored record's trace; empty when it cannot be read.
     std::string cause;
@@ -81,53 +79,24 @@ void require_same_versions(const results::Manifest& manifest) {
                         differing));
 }
 
-template <class Entry>
-std::vector<std::string> names_in(const std::vector<Entry>& entries) {
-    std::vector<std::string> names;
-    for (const Entry& entry : entries)
-        names.push_back(entry.name);
-    return names;
+/// The runs to verify and where they are. Throws core::Error with code incomplete where there is nothing to
+/// compare with.
+struct Chosen {
+    results::Store store;
+    std::vector<experiment::RunKey> keys;
+};
+
+Chosen chosen_run(const std::string& name) {
+    results::NamedRun run = results::run_named(name, "RUN");
+    if (run.store.complete(run.key)) return {std::move(run.store), {run.key}};
+    const auto failure = run.store.read_failure(run.key);
+    throw core::Error(core::ExitCode::incomplete,
+                      fmt::format("run {} {}; there is nothing to compare with",
+                                  results::run_name(run.store.folder(), run.key),
+                                  failure ? "failed: " + failure->message : "has not been made yet"));
 }
 
-/// `city/baseline/7` as a run of the study. Throws core::InputError naming what is unknown in it.
-experiment::RunKey key_from(const std::string& word, const results::Manifest& manifest) {
-    const std::size_t first = word.find('/');
-    const std::size_t last = word.rfind('/');
-    if (first == std::string::npos || first == last)
-        throw core::InputError({"RUN", fmt::format("`{}` is no run", word), "SCENARIO/CONDITION/REPLICATION",
-                                "for example " + experiment::to_text(manifest.runs().front())});
-    experiment::RunKey key{word.substr(0, first), word.substr(first + 1, last - first - 1), 0};
-    std::vector<core::Problem> problems;
-    const auto check = [&](const std::string& what, const std::string& name,
-                           const std::vector<std::string>& known) {
-        if (std::ranges::find(known, name) != known.end()) return;
-        const std::string near = core::nearest(name, known);
-        problems.push_back({"RUN: " + what, fmt::format("`{}` is not in this study", name), joined(known),
-                            near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
-    };
-    check("scenario", key.scenario, names_in(manifest.scenarios));
-    check("condition", key.condition, names_in(manifest.conditions));
-    const std::string number = word.substr(last + 1);
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), key.replication);
-    if (error != std::errc() || end != number.data() + number.size() ||
-        key.replication >= manifest.replications)
-        problems.push_back({"RUN: replication", fmt::format("`{}` is not in this study", number),
-                            fmt::format("0 to {}", manifest.replications - 1), ""});
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    return key;
-}
-
-/// The runs to verify. Throws core::Error with code incomplete where there is nothing to compare with.
-std::vector<experiment::RunKey> chosen_runs(const results::Store& store, const Arguments& arguments) {
-    if (!arguments.run.empty()) {
-        const experiment::RunKey key = key_from(arguments.run, store.manifest());
-        if (store.complete(key)) return {key};
-        const auto failure = store.read_failure(key);
-        throw core::Error(
-            core::ExitCode::incomplete,
-            fmt::format("{}: run {} {}; there is nothing to compare with", store.folder().string(),
-                        arguments.run, failure ? "failed: " + failure->message : "has not been made yet"));
-    }
+std::vector<experiment::RunKey> complete_runs(const results::Store& store, const Arguments& arguments) {
     std::vector<experiment::RunKey> complete = store.manifest().runs();
     std::erase_if(complete, [&](const experiment::RunKey& key) { return !store.complete(key); });
     if (complete.empty())
@@ -139,6 +108,21 @@ std::vector<experiment::RunKey> chosen_runs(const results::Store& store, const A
     for (std::size_t i = 0; i < arguments.sample; ++i)
         sample.push_back(complete[i * complete.size() / arguments.sample]);
     return sample;
+}
+
+Chosen chosen_runs(const Arguments& arguments) {
+    const bool is_folder = std::filesystem::exists(std::filesystem::path(arguments.what) / "manifest.json");
+    const bool wants_many = arguments.all || arguments.sample > 0;
+    if (is_folder && !wants_many)
+        throw core::InputError({"RUN", fmt::format("{} is a whole run folder", arguments.what),
+                                results::run_name_form, "Name one of its runs, or add --all or --sample N"});
+    if (!wants_many) return chosen_run(arguments.what);
+    if (!is_folder)
+        throw core::InputError({"RUN", fmt::format("{} is no run folder", arguments.what),
+                                "a folder written with --out", "One run goes without --all and --sample"});
+    results::Store store = results::Store::open(arguments.what);
+    std::vector<experiment::RunKey> keys = complete_runs(store, arguments);
+    return {std::move(store), std::move(keys)};
 }
 
 /// Units that make these runs again, from the scenarios and networks of the folder.
@@ -204,7 +188,7 @@ std::string first_differing_step(const std::filesystem::path& one, const std::fi
 Verification verify(const results::Store& stored, const results::Store& again,
                     const experiment::RunKey& key) {
     Verification verification;
-    verification.key = key;
+    verification.run = results::run_name(stored.folder(), key);
     std::optional<results::RunRecord> record;
     try {
         record = stored.read(key);
@@ -230,7 +214,7 @@ Verification verify(const results::Store& stored, const results::Store& again,
 }
 
 void print_verification(const Verification& each) {
-    fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), experiment::to_text(each.key),
+    fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), each.run,
                each.hash.empty() ? "" : "  trace " + each.hash, each.cause.empty() ? "" : "  " + each.cause);
     if (!each.first_step.empty()) fmt::print("  recordings part {}\n", each.first_step);
     for (const char* const table : {"provenance", "metrics", "vehicles"}) {
@@ -245,7 +229,7 @@ void print_verification(const Verification& each) {
 }
 
 nlohmann::ordered_json json_of(const Verification& each) {
-    nlohmann::ordered_json json{{"run", experiment::to_text(each.key)}, {"verdict", text_of(each.verdict)}};
+    nlohmann::ordered_json json{{"run", each.run}, {"verdict", text_of(each.verdict)}};
     json["trace_hash"] =
         each.hash.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(each.hash);
     if (!each.cause.empty()) json["cause"] = each.cause;
@@ -294,16 +278,11 @@ void print_all(const std::vector<Verification>& verifications, Printing printing
 }
 
 core::ExitCode verify_runs(const Arguments& arguments) {
-    if (arguments.run.empty() != (arguments.all || arguments.sample > 0))
-        throw core::InputError({"RUN",
-                                arguments.run.empty() ? "is missing" : "goes without --all and --sample",
-                                "SCENARIO/CONDITION/REPLICATION, --all or --sample N", ""});
-    const results::Store stored = results::Store::open(arguments.folder);
+    const auto [stored, keys] = chosen_runs(arguments);
     std::error_code none;
-    if (std::filesystem::equivalent(arguments.folder, arguments.out, none))
+    if (std::filesystem::equivalent(stored.folder(), arguments.out, none))
         throw core::InputError({"--out", fmt::format("{} is the folder to verify", arguments.out),
                                 "a new or empty folder", "A run must be made elsewhere to be compared"});
-    const std::vector<experiment::RunKey> keys = chosen_runs(stored, arguments);
     require_same_versions(stored.manifest());
     std::optional<core::TemporaryFolder> temporary;
     if (arguments.out.empty()) temporary.emplace();
@@ -330,11 +309,11 @@ core::ExitCode verify_runs(const Arguments& arguments) {
 
 Action configure_verify(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce")
+    app.add_option("run", arguments->what,
+                   fmt::format("Run to make again: {}; with --all or --sample the run folder",
+                               results::run_name_form))
         ->required()
-        ->option_text("DIR (required)");
-    app.add_option("run", arguments->run, "Run to make again: SCENARIO/CONDITION/REPLICATION")
-        ->option_text("RUN (required unless --all or --sample)");
+        ->option_text("RUN|DIR (required)");
     CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
     app.add_option("--sample", arguments->sample, "So many complete runs, evenly spread over the sorted list")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/terminal.hpp"
+
 namespace clearway::core {
 namespace {
 
 constexpr std::size_t bar_width = 30;
+constexpr std::size_t least_bar_width = 8;
 
 std::string counts(std::size_t done, std::size_t total, std::size_t failed, double elapsed_s,
                    std::size_t before) {
@@ -46,34 +49,51 @@ void Progress::update(std::size_t done, std::size_t failed, const std::string& n
     note_ = note;
     const auto interval = style_ == Style::bar ? std::chrono::milliseconds(100) : std::chrono::seconds(10);
     const auto last = ever_printed_ ? printed_ : started_;
-    if (Clock::now() - last >= interval) print(false);
+    if (Clock::now() - last >= interval) print();
 }
 
 void Progress::finish() {
-    print(true);
+    print();
+    end_drawn_line();
+}
+
+Progress::~Progress() {
+    if (style_ == Style::bar) end_drawn_line();
 }
 
 // NOLINTNEXTLINE(readability-function-size): what a line shows
 std::string Progress::render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                 std::size_t failed, double elapsed_s, std::size_t before) {
-    const std::size_t filled = total == 0 ? bar_width : std::min(bar_width, bar_width * done / total);
+                                 std::size_t failed, double elapsed_s, std::size_t before,
+                                 std::size_t width) {
+    const std::size_t filled = total == 0 ? width : std::min(width, width * done / total);
     std::string bar(filled, '=');
-    if (filled < bar_width) bar += '>';
-    bar.resize(bar_width, ' ');
+    if (filled < width) bar += '>';
+    bar.resize(width, ' ');
     return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s, before));
 }
 
-void Progress::print(bool final) {
-    if (style_ == Style::silent) return;
+std::string Progress::line(std::size_t columns) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
     const std::string note = note_.empty() ? "" : "  " + note_;
+    if (style_ == Style::lines)
+        return fmt::format("{}: {}{}\n", label_, counts(done_, total_, failed_, elapsed_s, before_), note);
+    const auto with_bar = [&](std::size_t width) {
+        return render_bar(label_, done_, total_, failed_, elapsed_s, before_, width) + note;
+    };
+    // The bar gives way first, then the end of the note.
+    const std::size_t length = with_bar(bar_width).size();
+    const std::size_t too_long = length > columns ? length - columns : 0;
+    const std::size_t width = bar_width - std::min(too_long, bar_width - least_bar_width);
+    return cut_to_columns(with_bar(width), columns);
+}
+
+void Progress::print() {
+    if (style_ == Style::silent) return;
     if (style_ == Style::bar) {
-        fmt::print(stderr, "\r{}{}\x1b[K{}", render_bar(label_, done_, total_, failed_, elapsed_s, before_),
-                   note, final ? "\n" : "");
+        draw_line(line(terminal_columns() - 1));
     } else {
-        fmt::print(stderr, "{}: {}{}\n", label_, counts(done_, total_, failed_, elapsed_s, before_), note);
+        print_message(line(0));
     }
-    std::fflush(stderr);
     printed_ = Clock::now();
     ever_printed_ = true;
 }

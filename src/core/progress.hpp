@@ -6,14 +6,18 @@
 
 namespace clearway::core {
 
-/// Progress of a long job on standard error: a bar that is redrawn on a terminal, otherwise one line per 10
-/// s, and a last line at the end. Times left are estimated from the work done so far.
+/// Progress of a long job on standard error: a bar that is redrawn on a terminal and never wraps, otherwise
+/// one line per 10 s, and a last line at the end. Times left are estimated from the work done so far.
 class Progress {
   public:
     enum class Style { bar, lines, silent };
 
     /// `style_for_stderr()` chooses between bar and lines.
     Progress(std::string label, std::size_t total, Style style);
+    /// Ends a drawn line, so that what is printed next begins below it.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
     /// The bar if standard error is a terminal, else lines.
     static Style style_for_stderr();
 
@@ -27,11 +31,15 @@ class Progress {
 
     /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. Pure, for tests.
     static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                  std::size_t failed, double elapsed_s, std::size_t before = 0);
+                                  std::size_t failed, double elapsed_s, std::size_t before = 0,
+                                  std::size_t width = 30);
+    /// What is printed now; a bar's line has at most `columns` characters, for which first the bar and then
+    /// the note is shortened.
+    std::string line(std::size_t columns) const;
 
   private:
     using Clock = std::chrono::steady_clock;
-    void print(bool final);
+    void print();
 
     std::string label_;
     std::size_t total_;

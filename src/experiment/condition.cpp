@@ -67,6 +67,7 @@ core::Json to_json(const ConditionSpec& condition) {
     if (!condition.model_file.empty())
         object["model"] = {{"file", condition.model_file}, {"hash", condition.model_hash}};
     if (condition.bluelight == traffic::BlueLight::on) object["bluelight"] = "on";
+    if (!condition.factors.empty()) object["factors"] = condition.factors;
     return object;
 }
 
@@ -87,6 +88,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
         model.read("file", condition.model_file);
         model.read("hash", condition.model_hash);
     }
+    reader.read_if_there("factors", condition.factors);
     if (object.contains("bluelight"))
         reader.read_name("bluelight", condition.bluelight, switch_from<traffic::BlueLight>);
     return condition;

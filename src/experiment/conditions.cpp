@@ -27,8 +27,14 @@ std::vector<BuiltInCondition> make_conditions() {
     ConditionSpec solo;
     solo.name = "solo";
     solo.engine = Engine::solo;
+    ConditionSpec corridor;
+    corridor.name = usual_condition;
+    corridor.parts = {"corridor"};
     return {
         {"The car-following model alone (IDM); what all others are compared with", baseline},
+        {"Signals preempted, the lane cleared and the crossing traffic recovered, with perfect sensing; what "
+         "`clearway run` compares with the baseline",
+         corridor},
         with_policy("graph_simulation", "perfect", "none",
                     "The dissertation's policy on the graph from simulation attributes: perfect sensing"),
         with_policy("graph_graphsage", usual_failure, "graphsage_corrected",

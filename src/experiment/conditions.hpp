@@ -13,8 +13,11 @@ struct BuiltInCondition {
     ConditionSpec condition;
 };
 
-/// The conditions of the dissertation's study and its controls: `baseline`, `graph_simulation`,
-/// `graph_graphsage`, `b10_no_repair`, `b10_dead_reckoning`, then `solo`, the practical floor.
+/// What is run where no condition is named.
+inline constexpr const char* usual_condition = "corridor";
+
+/// `baseline`, the usual condition, the dissertation's `graph_simulation` and `graph_graphsage` with the
+/// controls `b10_no_repair` and `b10_dead_reckoning`, then `solo`, the practical floor.
 const std::vector<BuiltInCondition>& built_in_conditions();
 
 /// Throws core::InputError, saying `where`, for an unknown name and names the nearest.

@@ -7,14 +7,12 @@
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
+#include "scenario/sumo_files.hpp"
 #include "trace/listeners.hpp"
 #include "trace/recording.hpp"
 
 namespace clearway::loop {
 namespace {
-
-/// Width of a lane's lateral cells in the sublane model, m (facts: 0.5).
-constexpr const char* lateral_resolution_m = "0.5";
 
 sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenario::Prepared& prepared,
                                    const roads::Network& network, const std::filesystem::path& folder) {
@@ -28,7 +26,7 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     if (prepared.time.time_to_teleport_s)
         config.time_to_teleport = core::Seconds(*prepared.time.time_to_teleport_s);
     if (unit.engine == experiment::Engine::sublane) {
-        config.extra_arguments = {"--lateral-resolution", lateral_resolution_m};
+        config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
     }
     config.names = names_of(network);
     return config;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/detail/factors_json.hpp"
 #include "report/text.hpp"
+#include "results/factor_columns.hpp"
 
 namespace clearway::report {
 namespace {
@@ -18,7 +21,8 @@ using analysis::ScenarioSummary;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t label_width = 34;
-constexpr std::size_t page_width = 110;
+constexpr std::size_t page_width = 100;
+constexpr const char* numbers_format = "{:>8}{:>9}  {:<17}{:>6}{:>7}{:>8}{:>9}\n";
 
 /// Calls `visit` with every condition that is compared, and its scenario.
 template <class Visit>
@@ -30,6 +34,74 @@ void for_each_compared(const analysis::Summary& summary, Visit&& visit) {
     }
 }
 
+bool is_unsafe(const ConditionSummary& condition) {
+    return condition.condition.safety_checks == traffic::SafetyChecks::off;
+}
+
+std::string last_part(const std::string& name) {
+    return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
+}
+
+/// The conditions of a scenario as the first columns of its tables: their names, and one column for each
+/// factor of the study in place of its digits in the names.
+class LabelColumns {
+  public:
+    explicit LabelColumns(const ScenarioSummary& scenario) {
+        for (const ConditionSummary& condition : scenario.conditions) {
+            for (const auto& [name, value] : condition.condition.factors) {
+                std::size_t& width = widths_[name];
+                width = std::max({width, last_part(name).size() + 2, printable(value).size() + 2});
+            }
+        }
+        for (const auto& [name, width] : widths_)
+            width_of_factors_ += width;
+    }
+
+    std::string header() const {
+        std::string text = cell("Condition", name_width());
+        for (const auto& [name, width] : widths_)
+            text += cell(last_part(name), width);
+        return on_line(text);
+    }
+    std::string of(const ConditionSummary& condition) const {
+        const core::Settings& factors = condition.condition.factors;
+        const std::string mark = is_unsafe(condition) ? " (!)" : "";
+        const std::string name = printable(without_factors(condition.condition));
+        std::string text = cell(name.substr(0, name_width() - 1 - mark.size()) + mark, name_width());
+        for (const auto& [factor, width] : widths_) {
+            const auto value = factors.find(factor);
+            text += cell(value == factors.end() ? missing(Script::plain) : printable(value->second), width);
+        }
+        return on_line(text);
+    }
+
+  private:
+    static std::string cell(const std::string& text, std::size_t width) {
+        return fmt::format("{:<{}}", text, width);
+    }
+    std::size_t name_width() const {
+        return width_of_factors_ + 12 <= label_width ? label_width - width_of_factors_ : label_width;
+    }
+    /// What does not fit before the numbers stands on a line of its own.
+    static std::string on_line(std::string text) {
+        if (text.size() <= label_width) return text;
+        text.resize(std::min(text.size(), page_width));
+        text.erase(text.find_last_not_of(' ') + 1);
+        return text + "\n" + std::string(label_width, ' ');
+    }
+    static std::string without_factors(const experiment::ConditionSpec& condition) {
+        std::size_t end = condition.name.size();
+        for (const auto& [factor, value] : condition.factors) {
+            end = std::min(end, condition.name.find("+" + last_part(factor) + "="));
+            end = std::min(end, condition.name.find("+" + factor + "="));
+        }
+        return condition.name.substr(0, end);
+    }
+
+    std::map<std::string, std::size_t> widths_;
+    std::size_t width_of_factors_ = 0;
+};
+
 std::string p_text(const std::optional<double>& p) {
     if (!p) return missing(Script::plain);
     return *p < 0.001 ? "<0.001" : number(*p, {.decimals = 3});
@@ -39,11 +111,7 @@ std::string optional_text(const std::optional<double>& value, NumberStyle style)
     return value ? number(*value, style) : missing(style.script);
 }
 
-bool is_unsafe(const ConditionSummary& condition) {
-    return condition.condition.safety_checks == traffic::SafetyChecks::off;
-}
-
-std::string row_of(const ConditionSummary& condition, const Comparison& comparison) {
+std::string numbers_of(const Comparison& comparison) {
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
     const auto& difference = comparison.difference;
@@ -58,10 +126,7 @@ std::string row_of(const ConditionSummary& condition, const Comparison& comparis
                                   : fmt::format("{} of {}", comparison.complete_pairs,
                                                 comparison.complete_pairs + comparison.incomplete_pairs);
     const auto& relative = comparison.relative;
-    const std::string mark = is_unsafe(condition) ? " (!)" : "";
-    const std::string label =
-        printable(condition.condition.name).substr(0, label_width - 1 - mark.size()) + mark;
-    return fmt::format("{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n", label, label_width, pairs,
+    return fmt::format(fmt::runtime(numbers_format), pairs,
                        difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
@@ -172,6 +237,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
     bool any_few = false;
     for (const ScenarioSummary& scenario : summary.scenarios) {
         text += objections_text(scenario);
+        const LabelColumns labels(scenario);
         for (const std::string& name : metrics) {
             std::string rows;
             const analysis::MetricInfo* metric = nullptr;
@@ -181,13 +247,14 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 any_unsafe = any_unsafe || is_unsafe(condition);
                 const Comparison& comparison = *condition.metric(name).comparison;
                 any_few = any_few || comparison.complete_pairs < analysis::fewest_for_interval;
-                rows += row_of(condition, comparison);
+                rows += labels.of(condition) + numbers_of(comparison);
             }
             if (metric == nullptr) continue;
-            fmt::format_to(out, "{}: {}{}\n{:<{}}{:>10}{:>10}  {:<19}{:>7}{:>8}{:>9}{:>9}\n{:-<{}}\n{}\n",
-                           printable(scenario.scenario), metric->doc,
-                           metric->unit == "1" ? "" : ", " + metric->unit, "Condition", label_width, "pairs",
-                           "diff.", "95 % interval", "%", "d", "p Holm", "Wilcoxon", "", page_width, rows);
+            fmt::format_to(out, "{}: {}{}\n{}", printable(scenario.scenario), metric->doc,
+                           metric->unit == "1" ? "" : ", " + metric->unit, labels.header());
+            fmt::format_to(out, fmt::runtime(numbers_format), "pairs", "diff.", "95 % interval", "%", "d",
+                           "p Holm", "Wilcoxon");
+            fmt::format_to(out, "{:-<{}}\n{}\n", "", page_width, rows);
         }
     }
     if (any_few)
@@ -200,10 +267,12 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
 std::string comparison_json(const analysis::Summary& summary, const std::vector<std::string>& metrics,
                             const std::vector<Shortfall>& short_of) {
     Json comparisons = Json::array();
+    const results::FactorColumns columns(summary.manifest);
     for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
         Json values = Json::object();
         for (const std::string& metric : metrics)
             values[metric] = to_json(*condition.metric(metric).comparison);
+        const core::Settings factors = columns.settings(scenario.scenario, condition.condition.name);
         comparisons.push_back({{"scenario", scenario.scenario},
                                {"condition", condition.condition.name},
                                {"compared_with", condition.baseline},
@@ -211,6 +280,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                                {"objections", analysis::emergency_objections(condition.objections)},
                                {"objections_of_others", analysis::other_objections(condition.objections)},
                                {"metrics", std::move(values)}});
+        if (!factors.empty()) comparisons.back()["factors"] = detail::factors_json(factors);
     });
     Json gates = Json::array();
     for (const Shortfall& one : short_of)

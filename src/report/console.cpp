@@ -11,8 +11,9 @@
 namespace clearway::report {
 namespace {
 
-constexpr std::size_t page_width = 110;
+constexpr std::size_t page_width = 100;
 constexpr std::size_t label_width = 38;
+constexpr std::size_t published_label_width = 37;
 
 /// Names come from files: nothing in them may steer the terminal. For text of several lines.
 std::string safe_table(std::string text) {
@@ -31,7 +32,7 @@ std::string label(const ConditionFacts& condition) {
 }
 
 std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
-    const auto value = published_value(scenario.name, condition.name, measure);
+    const auto value = published_value(scenario.published_as, condition.name, measure);
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
@@ -51,20 +52,20 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
     constexpr std::array columns = {Measure::emergency_waiting_time, Measure::emergency_depart_delay,
                                     Measure::waiting_time};
-    fmt::format_to(out, "{:<{}}", "", label_width);
+    fmt::format_to(out, "{:<{}}", "", published_label_width);
     for (const Measure measure : columns) {
-        fmt::format_to(out, "{:>24}", info(measure).title);
+        fmt::format_to(out, "{:>21}", info(measure).title);
     }
-    fmt::format_to(out, "\n{:<{}}", "Condition", label_width);
+    fmt::format_to(out, "\n{:<{}}", "Condition", published_label_width);
     for (std::size_t column = 0; column < columns.size(); ++column) {
-        fmt::format_to(out, "{:>14}{:>10}", "here, s", "published");
+        fmt::format_to(out, "{:>12}{:>9}", "here, s", "published");
     }
     fmt::format_to(out, "\n{:-<{}}\n", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        fmt::format_to(out, "{:<{}}", label(condition), label_width);
+        fmt::format_to(out, "{:<{}}", label(condition), published_label_width);
         for (const Measure measure : columns) {
             const NumberStyle style{.decimals = decimals_of(scenario, measure)};
-            fmt::format_to(out, "{:>14}{:>10}", mean_and_half_width(condition.outcome(measure).value, style),
+            fmt::format_to(out, "{:>13}{:>8}", mean_and_half_width(condition.outcome(measure).value, style),
                            published_text(scenario, condition, measure));
         }
         text += '\n';
@@ -73,10 +74,10 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
 
 /// Mean right-aligned, then the interval.
 std::string split_cell(const Estimate& value, NumberStyle style, double factor) {
-    if (!value.mean) return fmt::format("{:>9}  {:<17}", missing(style.script), "");
+    if (!value.mean) return fmt::format("{:>8}  {:<16}", missing(style.script), "");
     const std::string whole = estimate(value, style, factor);
     const std::size_t space = whole.find(' ');
-    return fmt::format("{:>9}  {:<17}", whole.substr(0, space),
+    return fmt::format("{:>8}  {:<16}", whole.substr(0, space),
                        space != std::string::npos ? whole.substr(space + 1)
                        : value.too_few()          ? "too few seeds"
                                                   : "(no interval)");
@@ -89,9 +90,9 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
         case Effect::worse:
             return "worse";
         case Effect::negligible:
-            return "not relevant";
+            return "negligible";
         case Effect::none_shown:
-            return "no effect shown";
+            return "none shown";
         case Effect::ruled_out: {
             const std::string word = analysis::emergency_objection_word(condition.objections);
             return word.empty() ? "others lost" : word;
@@ -157,7 +158,7 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
 /// Median and 95th percentile over all EVs, those that did not arrive ranked last.
 void append_tails(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
-    fmt::format_to(out, "\n{:<{}}{:>9}  {:<17}{:>9}  {}\n{:-<{}}\n", "EV travel time over all EVs, s",
+    fmt::format_to(out, "\n{:<{}}{:>8}  {:<16}{:>8}  {}\n{:-<{}}\n", "EV travel time over all EVs, s",
                    label_width, "median", "95 % interval", "95th perc.", "95 % interval", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
         std::string line = fmt::format("  {:<{}}", label(condition), label_width - 2);
@@ -217,22 +218,11 @@ bool is_about_emergency(const MeasureInfo& measure) {
     return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
 }
 
-void append_scenario(const ScenarioFacts& scenario, std::string& text) {
-    auto out = std::back_inserter(text);
-    const auto table = published_table(scenario.name);
-    append_head(scenario, text);
-    const bool has_emergency = emergency_vehicles(scenario) > 0;
-    if (table) {
-        fmt::format_to(out, "\n{}\n", table->caption);
-        append_published_table(scenario, text);
-    }
-    fmt::format_to(out, "\n{:<{}}{:>9}  {:<17}{:>9}  {:<17}{}\n{:-<{}}\n", "Measure and condition",
-                   label_width, "mean", "95 % interval", "diff.", "95 % interval", "effect", "", page_width);
-    for (const MeasureInfo& measure : measures()) {
-        if (has_emergency || !is_about_emergency(measure)) append_measure(scenario, measure, text);
-    }
-    if (has_emergency) append_tails(scenario, text);
-    text += '\n';
+bool is_essential(Measure measure) {
+    return measure == Measure::emergency_restricted_time || measure == Measure::other_time_loss;
+}
+
+void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
         append_wrapped(
@@ -240,11 +230,33 @@ void append_scenario(const ScenarioFacts& scenario, std::string& text) {
             text);
     }
     append_leases(scenario, text);
-    append_censored(scenario, text);
+}
+
+void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {
+    const bool has_emergency = emergency_vehicles(scenario) > 0;
+    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>8}  {:<16}{:>8}  {:<16}{}\n{:-<{}}\n",
+                   "Measure and condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
+                   "effect", "", page_width);
+    for (const MeasureInfo& measure : measures()) {
+        const bool wanted = tables == Tables::all || is_essential(measure.measure);
+        if (wanted && (has_emergency || !is_about_emergency(measure))) append_measure(scenario, measure, text);
+    }
+    if (tables == Tables::all && has_emergency) append_tails(scenario, text);
+}
+
+void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {
+    append_head(scenario, text);
+    append_verdicts(scenario, text);
     append_runs(scenario, text);
-    const std::string wide = wide_edges_sentence(scenario);
-    if (!wide.empty()) append_wrapped(wide, text);
+    if (const auto table = published_table(scenario.published_as)) {
+        text += fmt::format("\n{}\n", table->caption);
+        append_published_table(scenario, text);
+    }
+    append_measures(scenario, tables, text);
     text += '\n';
+    if (tables == Tables::all) append_censored(scenario, text);
+    const std::string wide = wide_edges_sentence(scenario);
+    if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
 }
 
 /// Empty where there are enough.
@@ -259,11 +271,11 @@ std::string few_seeds_sentence(const StudyFacts& study) {
 
 }  // namespace
 
-std::string console_tables(const StudyFacts& study) {
+std::string console_tables(const StudyFacts& study, Tables tables) {
     std::string text;
     bool any_unsafe = false;
     for (const ScenarioFacts& scenario : study.scenarios) {
-        append_scenario(scenario, text);
+        append_scenario(scenario, tables, text);
         any_unsafe =
             any_unsafe || std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
@@ -280,12 +292,17 @@ std::string console_tables(const StudyFacts& study) {
         "or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of the paired "
         "differences to the "
         "baseline of the "
-        "same replication; better or worse when its interval excludes 0; not relevant where an EV's time "
+        "same replication; better or worse when its interval excludes 0; negligible where an EV's time "
         "changes by less than what counts ("
-        "--least-difference). published: the dissertation's "
-        "number, one "
-        "unseeded run on a network of its own; not a result of this study.",
+        "--least-difference).",
         text);
+    if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
+        append_wrapped(
+            "published: the dissertation's number, one unseeded run on a network of its own; not a result of "
+            "this study.",
+            text);
+    if (tables == Tables::essential)
+        append_wrapped("All measures, medians and tails: --tables, or report.html.", text);
     if (any_unsafe) append_wrapped("(!): the simulator's safety checks were off in this condition.", text);
     return text;
 }

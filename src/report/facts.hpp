@@ -10,6 +10,7 @@
 
 #include "analysis/estimate.hpp"
 #include "analysis/objections.hpp"
+#include "core/settings.hpp"
 #include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
 
@@ -220,8 +221,9 @@ inline constexpr std::size_t distribution_points = 200;  // as many as a figure 
 
 struct ConditionFacts {
     std::string name;
-    std::string title;   ///< As in the dissertation where it has the condition, else the name.
-    std::string recipe;  ///< Failure, predictor and policy parts, in words.
+    std::string title;       ///< As in the dissertation where it has the condition, else the name.
+    std::string recipe;      ///< Failure, predictor and policy parts, in words.
+    core::Settings factors;  ///< Of the study, `failure.dark_share` -> `0.3`; those of the scenario too.
     /// Index in the scenario of the condition that it is compared with (same engine). Empty for a baseline
     /// and for EVs alone on the road, which are a floor and not a condition to judge.
     std::optional<std::size_t> baseline;
@@ -264,6 +266,8 @@ struct WideEdge {
 
 struct ScenarioFacts {
     std::string name;
+    /// Scenario of the dissertation whose published numbers stand beside; empty outside its own study.
+    std::string published_as;
     std::string title;
     std::string attribution;  ///< Whom the map data must name; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty where the folder holds no usable picture.

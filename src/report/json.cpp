@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/console.hpp"
+#include "report/detail/factors_json.hpp"
 #include "report/published.hpp"
 #include "report/verdict.hpp"
 
@@ -119,7 +120,7 @@ Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition)
         }
         if (is_published(measure.measure)) {
             entry["published"] =
-                number_or_null(published_value(scenario.name, condition.name, measure.measure));
+                number_or_null(published_value(scenario.published_as, condition.name, measure.measure));
         }
         result[measure.field] = std::move(entry);
     }
@@ -148,6 +149,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
     if (condition.leases) result["leases"] = to_json(*condition.leases);
+    if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {
         const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
         result["precision"] = {

@@ -17,6 +17,7 @@
 #include "report/detail/safety_facts.hpp"
 #include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
+#include "results/factor_columns.hpp"
 
 namespace clearway::report {
 namespace {
@@ -192,14 +193,17 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
                              double level, double least_relevant_s) {
     ScenarioFacts facts;
     facts.name = summary.scenario;
+    if (manifest.study == "dissertation") facts.published_as = summary.scenario;
     facts.title = summary.title;
     facts.replications = manifest.replications;
     facts.least_relevant_s = least_relevant_s;
+    const results::FactorColumns factors(manifest);
     for (const analysis::ConditionSummary& one : summary.conditions) {
         ConditionFacts condition;
         condition.name = one.condition.name;
         condition.title = title_of(condition.name);
         condition.recipe = recipe_of(one.condition);
+        condition.factors = factors.settings(summary.scenario, condition.name);
         condition.safety_checks_off = one.condition.safety_checks == traffic::SafetyChecks::off;
         condition.objections = one.objections;
         condition.runs_without_horizon = one.runs_without_horizon;

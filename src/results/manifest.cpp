@@ -32,6 +32,7 @@ core::Json to_object(const Manifest& manifest) {
         entry["configuration_hash"] = scenario.configuration_hash;
         entry["attribution"] = scenario.attribution;
         entry["configuration"] = scenario.configuration;
+        if (!scenario.factors.empty()) entry["factors"] = scenario.factors;
         object["scenarios"].push_back(std::move(entry));
     }
     object["conditions"] = core::Json::array();
@@ -55,6 +56,7 @@ ScenarioEntry scenario_from(const core::Json& object, const std::string& where,
     reader.read("configuration_hash", scenario.configuration_hash);
     reader.read("attribution", scenario.attribution);
     reader.read("configuration", scenario.configuration);
+    reader.read_if_there("factors", scenario.factors);
     return scenario;
 }
 
@@ -107,6 +109,12 @@ std::string differences(const Manifest& left, const Manifest& right) {
     add(left.conditions != right.conditions, "conditions");
     add(left.precision != right.precision, "precision");
     return list;
+}
+
+bool continues(const Manifest& wanted, const Manifest& stored) {
+    Manifest as_many = wanted;
+    as_many.replications = stored.replications;
+    return as_many == stored && wanted.replications >= stored.replications;
 }
 
 std::string manifest_hash(const Manifest& manifest) {

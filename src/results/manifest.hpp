@@ -20,6 +20,7 @@ struct ScenarioEntry {
     std::string configuration;       ///< The effective configuration, TOML.
     std::string configuration_hash;  ///< Of `configuration` and the files of its own.
     std::string attribution;         ///< Whom the map data must name; may be empty.
+    core::Settings factors = {};     ///< Of the study that made it, `scenario.demand.human` -> `80`.
 
     bool operator==(const ScenarioEntry&) const = default;
 };
@@ -55,6 +56,9 @@ struct Manifest {
 
 /// Names of the parts in which two manifests differ, `seed, conditions`; empty for the same study.
 std::string differences(const Manifest& left, const Manifest& right);
+
+/// Whether `wanted` is the study of `stored` with as many replications or more.
+bool continues(const Manifest& wanted, const Manifest& stored);
 
 /// Deterministic JSON with a `hash` of the rest.
 std::string to_json(const Manifest& manifest);

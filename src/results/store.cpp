@@ -85,6 +85,22 @@ void require_same(const fs::path& file, const std::string& content, const experi
                     file.string(), to_text(key)));
 }
 
+/// Throws core::InputError, naming what differs, where a folder's study cannot become the wanted one.
+void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
+    if (continues(wanted, stored)) return;
+    const std::string differing = differences(stored, wanted);
+    if (differing == "replications")
+        throw core::InputError(
+            {folder.string(),
+             fmt::format("holds {} replications of this study, and {} are asked for", stored.replications,
+                         wanted.replications),
+             fmt::format("{} or more", stored.replications),
+             "Ask for as many to continue or for more to extend it, or choose another folder with --out; "
+             "`clearway report` prints what is there"});
+    throw core::InputError({folder.string(), "holds another study: different " + differing, "",
+                            "Choose another folder with --out, or ask for the same study to resume it"});
+}
+
 /// `target`, or with `.2`, `.3`, ... behind it, whichever is not there yet.
 fs::path free_place(const fs::path& target) {
     fs::path place = target;
@@ -110,16 +126,11 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
     core::make_folder(folder);
     const fs::path file = folder / manifest_name;
     if (fs::exists(file)) {
-        Store store = open(folder);
-        const std::string differing = differences(store.manifest(), manifest);
-        if (differing.empty()) return store;
-        if (differing == "replications" && manifest.precision &&
-            manifest.replications > store.manifest().replications) {
-            core::write_atomically(file, to_json(manifest));
-            return {folder, manifest};
-        }
-        throw core::InputError({folder.string(), "holds another study: different " + differing, "",
-                                "Choose another folder with --out, or ask for the same study to resume it"});
+        const Store store = open(folder);
+        require_continues(manifest, store.manifest(), folder);
+        if (manifest == store.manifest()) return store;
+        core::write_atomically(file, to_json(manifest));
+        return {folder, manifest};
     }
     if (holds_something(folder))
         throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",

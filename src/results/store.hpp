@@ -38,8 +38,9 @@ struct SetAside {
 /// flushed to the disk and renamed without replacing, so it is there as a whole or not at all.
 class Store {
   public:
-    /// Opens `folder` for a study, making it when it is new. Throws core::InputError when it holds another
-    /// study or something else than a run folder; core::EnvironmentError when it cannot be written.
+    /// Opens `folder` for a study, making it when it is new. More replications than the folder holds extend
+    /// its study. Throws core::InputError when it holds another study, one of more replications, or something
+    /// else than a run folder; core::EnvironmentError when it cannot be written.
     static Store create(const std::filesystem::path& folder, const Manifest& manifest);
     /// Opens an existing run folder. Throws core::InputError when it is none.
     static Store open(const std::filesystem::path& folder);

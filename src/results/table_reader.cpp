@@ -1,6 +1,7 @@
 #include "results/table_reader.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,13 +56,20 @@ std::vector<std::string> names_in(const Database& database) {
     return names;
 }
 
-/// A cell; empty text for what is not available. Whole numbers are never negative here, and seeds use all of
-/// their 64 bits.
+/// Whether the column's whole numbers have a sign: those of factors have, while others are never negative and
+/// seeds use all of their 64 bits.
+bool is_signed(sqlite3_stmt* row, int column) {
+    const char* const type = sqlite3_column_decltype(row, column);
+    return type != nullptr && std::string_view(type) == "NUMERIC";
+}
+
+/// A cell; empty text for what is not available.
 std::string csv_cell_at(sqlite3_stmt* row, int column) {
     switch (sqlite3_column_type(row, column)) {
         case SQLITE_NULL:
             return {};
         case SQLITE_INTEGER:
+            if (is_signed(row, column)) return fmt::format("{}", sqlite3_column_int64(row, column));
             return fmt::format("{}", static_cast<std::uint64_t>(sqlite3_column_int64(row, column)));
         case SQLITE_FLOAT:
             return fmt::format("{}", sqlite3_column_double(row, column));
@@ -75,6 +83,7 @@ core::Json json_at(sqlite3_stmt* row, int column) {
         case SQLITE_NULL:
             return nullptr;
         case SQLITE_INTEGER:
+            if (is_signed(row, column)) return sqlite3_column_int64(row, column);
             return static_cast<std::uint64_t>(sqlite3_column_int64(row, column));
         case SQLITE_FLOAT:
             return sqlite3_column_double(row, column);
@@ -116,6 +125,10 @@ void print_json(const Database& database, const std::string& table, std::ostream
 bool tables_are_current(const Store& store) {
     if (!std::filesystem::exists(store.folder() / "results.sqlite")) return false;
     const Database database = open_database(store);
+    std::string study;
+    database.for_each_row("SELECT value FROM study WHERE key = 'manifest_hash'",
+                          [&](sqlite3_stmt* row) { study = Database::text_at(row, 0); });
+    if (study != manifest_hash(store.manifest())) return false;
     std::uint64_t complete = 0;
     std::uint64_t failed = 0;
     for (const experiment::RunKey& key : store.manifest().runs()) {

@@ -15,8 +15,8 @@ enum class TableFormat : std::uint8_t {
     json,  ///< One array with an object for each row, one row a line, null for what is not available.
 };
 
-/// Whether the run folder's `results.sqlite` holds all runs and failures that there are. Throws
-/// core::InputError for a database of another version and for a file that is none.
+/// Whether the run folder's `results.sqlite` is of its study and holds all runs and failures that there are.
+/// Throws core::InputError for a database of another version and for a file that is none.
 bool tables_are_current(const Store& store);
 
 /// Names of the tables of a run folder's `results.sqlite`, in alphabetical order. Throws core::InputError as

@@ -4,6 +4,7 @@
 #include "core/csv.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
+#include "results/factor_columns.hpp"
 #include "results/table_writer.hpp"
 
 namespace clearway::results {
@@ -15,27 +16,50 @@ std::string key_cells(const experiment::RunKey& key) {
     return fmt::format("{},{},{}", csv_text(key.scenario), csv_text(key.condition), key.replication);
 }
 
-std::string complete_line(const RunRecord& run) {
-    std::string line =
-        fmt::format("{},ok,,{}", key_cells(run.key), experiment::name(run.condition.safety_checks));
-    core::append_cells(line, run.metrics);
-    core::append_cells(line, run.provenance);
-    return line;
-}
+/// The lines of `runs.csv`, without ends.
+class RunLines {
+  public:
+    explicit RunLines(const Manifest& manifest) : factors_(manifest) {}
 
-std::string incomplete_line(const experiment::RunKey& key, std::string_view outcome, std::string_view cause) {
-    std::string line = fmt::format("{},{},{},", key_cells(key), outcome, cause);
-    core::append_empty_cells<metrics::RunMetrics>(line);
-    core::append_empty_cells<experiment::Provenance>(line);
-    return line;
-}
+    std::string header() const {
+        std::string line = "scenario,condition,replication,outcome,cause,safety_checks";
+        for (const std::string& name : factors_.names())
+            line += "," + csv_text(name);
+        core::append_header<metrics::RunMetrics>(line);
+        core::append_header<experiment::Provenance>(line);
+        return line;
+    }
+    std::string of(const RunRecord& run) const {
+        std::string line = fmt::format("{},ok,,{}{}", key_cells(run.key),
+                                       experiment::name(run.condition.safety_checks), factor_cells(run.key));
+        core::append_cells(line, run.metrics);
+        core::append_cells(line, run.provenance);
+        return line;
+    }
+    std::string of(const FailureRecord& failure) const {
+        return without_numbers(failure.key, "failed", name(failure.cause));
+    }
+    std::string of_missing(const experiment::RunKey& key) const {
+        return without_numbers(key, "missing", "");
+    }
 
-std::string runs_header() {
-    std::string line = "scenario,condition,replication,outcome,cause,safety_checks";
-    core::append_header<metrics::RunMetrics>(line);
-    core::append_header<experiment::Provenance>(line);
-    return line;
-}
+  private:
+    std::string factor_cells(const experiment::RunKey& key) const {
+        std::string cells;
+        for (const std::string& value : factors_.values(key.scenario, key.condition))
+            cells += "," + csv_text(value);
+        return cells;
+    }
+    std::string without_numbers(const experiment::RunKey& key, std::string_view outcome,
+                                std::string_view cause) const {
+        std::string line = fmt::format("{},{},{},{}", key_cells(key), outcome, cause, factor_cells(key));
+        core::append_empty_cells<metrics::RunMetrics>(line);
+        core::append_empty_cells<experiment::Provenance>(line);
+        return line;
+    }
+
+    FactorColumns factors_;
+};
 
 void append_vehicles(const RunRecord& run, std::string& text) {
     const std::string key = key_cells(run.key);
@@ -83,13 +107,14 @@ void write_all(const Results& results, Writer& writer) {
 }
 
 /// `runs.csv` as text.
-struct RunLines {
-    std::string text = runs_header() + "\n";
-    void add(const RunRecord& run) { text += complete_line(run) + "\n"; }
-    void add(const FailureRecord& failure) {
-        text += incomplete_line(failure.key, "failed", name(failure.cause)) + "\n";
-    }
-    void add_missing(const experiment::RunKey& key) { text += incomplete_line(key, "missing", "") + "\n"; }
+struct RunsText {
+    explicit RunsText(const Manifest& manifest) : lines(manifest), text(lines.header() + "\n") {}
+    void add(const RunRecord& run) { text += lines.of(run) + "\n"; }
+    void add(const FailureRecord& failure) { text += lines.of(failure) + "\n"; }
+    void add_missing(const experiment::RunKey& key) { text += lines.of_missing(key) + "\n"; }
+
+    RunLines lines;
+    std::string text;
 };
 
 }  // namespace
@@ -110,9 +135,9 @@ Results read_results(const Store& store, VehicleRows rows) {
 }
 
 std::string runs_csv(const Results& results) {
-    RunLines lines;
-    write_all(results, lines);
-    return lines.text;
+    RunsText runs(results.manifest);
+    write_all(results, runs);
+    return runs.text;
 }
 
 std::string vehicles_csv(const Results& results) {
@@ -124,14 +149,16 @@ std::string vehicles_csv(const Results& results) {
 
 struct TableWriter::Files {
     explicit Files(const Store& store)
-        : runs(store.runs_csv()),
+        : lines(store.manifest()),
+          runs(store.runs_csv()),
           vehicles(store.vehicles_csv()),
           leases(store.folder() / "leases.csv"),
           database(store.folder() / "results.sqlite", store.manifest()) {
-        runs.write(runs_header() + "\n");
+        runs.write(lines.header() + "\n");
         vehicles.write(vehicles_header() + "\n");
         leases.write(leases_header() + "\n");
     }
+    RunLines lines;
     core::AtomicFile runs;
     core::AtomicFile vehicles;
     core::AtomicFile leases;
@@ -142,7 +169,7 @@ TableWriter::TableWriter(const Store& store) : files_(std::make_unique<Files>(st
 TableWriter::~TableWriter() = default;
 
 void TableWriter::add(const RunRecord& run) {
-    files_->runs.write(complete_line(run) + "\n");
+    files_->runs.write(files_->lines.of(run) + "\n");
     std::string lines;
     append_vehicles(run, lines);
     files_->vehicles.write(lines);
@@ -153,12 +180,12 @@ void TableWriter::add(const RunRecord& run) {
 }
 
 void TableWriter::add(const FailureRecord& failure) {
-    files_->runs.write(incomplete_line(failure.key, "failed", name(failure.cause)) + "\n");
+    files_->runs.write(files_->lines.of(failure) + "\n");
     files_->database.add(failure);
 }
 
 void TableWriter::add_missing(const experiment::RunKey& key) {
-    files_->runs.write(incomplete_line(key, "missing", "") + "\n");
+    files_->runs.write(files_->lines.of_missing(key) + "\n");
     files_->database.add_missing(key);
 }
 

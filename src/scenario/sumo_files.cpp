@@ -12,16 +12,20 @@ namespace clearway::scenario {
 
 namespace {
 
-std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& departures) {
+std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& departures,
+                          traffic::BlueLight bluelight) {
+    const char* const device = bluelight == traffic::BlueLight::on
+                                   ? "        <param key=\"has.bluelight.device\" value=\"true\"/>\n"
+                                   : "";
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<routes>\n";
     for (const traffic::EmergencyDeparture& departure : departures)
         xml += fmt::format(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departSpeed=\"{}\">\n    "
             "    <route "
-            "edges=\"{}\"/>\n    </vehicle>\n",
+            "edges=\"{}\"/>\n{}    </vehicle>\n",
             core::escaped(departure.id), core::escaped(departure.type), departure.depart.value,
             departure.depart_lane, departure.depart_speed,
-            core::escaped(fmt::format("{}", fmt::join(departure.edges, " "))));
+            core::escaped(fmt::format("{}", fmt::join(departure.edges, " "))), device);
     return xml + "</routes>\n";
 }
 
@@ -41,14 +45,18 @@ std::string copied(const std::vector<std::filesystem::path>& files, const std::f
 
 }  // namespace
 
-void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
-                      core::Replication replication, const std::filesystem::path& folder) {
-    const Prepared prepared = prepare(config, network, seed, replication, folder);
+void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network, const SumoRun& run,
+                      const std::filesystem::path& folder) {
+    const Prepared prepared = prepare(config, network, run.seed, run.replication, folder);
     core::write_atomically(folder / "network.net.xml", core::read_file(prepared.network_file));
-    core::write_atomically(folder / "emergency.rou.xml", emergency_xml(prepared.emergency));
+    core::write_atomically(folder / "emergency.rou.xml", emergency_xml(prepared.emergency, run.bluelight));
     std::string routes = "traffic.rou.xml,emergency.rou.xml";
     for (std::size_t row = 1; row < prepared.route_files.size(); ++row)  // after traffic.rou.xml
         routes += "," + prepared.route_files[row].filename().string();
+    const std::string lateral =
+        run.lateral_model == LateralModel::sublane
+            ? fmt::format("    <lateral-resolution value=\"{}\"/>\n", sublane_resolution_m)
+            : "";
     const std::string additional = copied(prepared.additional_files, folder);
     core::write_atomically(
         folder / "run.sumocfg",
@@ -58,10 +66,10 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
             "    <route-files value=\"{}\"/>\n"
             "    <additional-files value=\"{}\"/>\n    <begin value=\"0\"/>\n    <end value=\"{}\"/>\n"
             "    <step-length value=\"{}\"/>\n    <seed value=\"{}\"/>\n"
-            "    <time-to-teleport value=\"{}\"/>\n    <xml-validation value=\"never\"/>\n"
+            "    <time-to-teleport value=\"{}\"/>\n{}    <xml-validation value=\"never\"/>\n"
             "    <collision.action value=\"warn\"/>\n</configuration>\n",
             routes, additional, prepared.time.horizon_s, prepared.time.step_length_s, prepared.simulator_seed,
-            prepared.time.time_to_teleport_s.value_or(300.0)));
+            prepared.time.time_to_teleport_s.value_or(300.0), lateral));
 }
 
 }  // namespace clearway::scenario

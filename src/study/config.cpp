@@ -232,6 +232,10 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file, const 
                          config);
         for (const toml::table* table : own)
             add_own_scenario(*table, overrides, assignment, {file, factors}, problems, config);
+        for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+            if (!assignment.empty())
+                config.scenario_factors.try_emplace(scenario.name, detail::factors_of(assignment));
+        }
     }
 }
 
@@ -371,8 +375,9 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
         }
     }
     if (!problems.empty()) throw core::InputError(problems);
-    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions())
-        config.conditions.push_back(known.condition);
+    for (const char* name :
+         {"baseline", "graph_simulation", "graph_graphsage", "b10_no_repair", "b10_dead_reckoning", "solo"})
+        config.conditions.push_back(experiment::built_in_condition(name, "conditions"));
     return config;
 }
 

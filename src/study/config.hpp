@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct StudyConfig {
     std::uint64_t seed = 1;
     std::uint32_t replications = 20;  ///< 1 to 100000. FHWA asks for at least 10.
     std::vector<scenario::ScenarioConfig> scenarios;
+    std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, of those that factors made.
     std::vector<experiment::ConditionSpec> conditions;
     /// Instead of a number of replications; `replications` is then that of the first round.
     std::optional<results::PrecisionTarget> precision;

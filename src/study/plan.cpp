@@ -70,9 +70,11 @@ results::Manifest make_manifest(const StudyConfig& config, const Versions& versi
     manifest.study_seed = config.seed;
     manifest.replications = config.replications;
     for (const scenario::ScenarioConfig& scenario : config.scenarios) {
-        manifest.scenarios.push_back({scenario.name, scenario.version, scenario.title,
-                                      scenario::to_toml(scenario), scenario::scenario_hash(scenario),
-                                      scenario.network.attribution});
+        const auto factors = config.scenario_factors.find(scenario.name);
+        manifest.scenarios.push_back(
+            {scenario.name, scenario.version, scenario.title, scenario::to_toml(scenario),
+             scenario::scenario_hash(scenario), scenario.network.attribution,
+             factors == config.scenario_factors.end() ? core::Settings{} : factors->second});
     }
     manifest.conditions = config.conditions;
     manifest.precision = config.precision;

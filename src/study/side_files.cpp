@@ -83,9 +83,10 @@ void complete_scenarios(const Plan& plan, const results::Store& store) {
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
-void keep_command(const results::Store& store, const std::string& command) {
+void keep_command(const results::Store& store, const std::string& command, std::uint32_t before) {
     const std::filesystem::path file = store.folder() / "command.txt";
-    if (!std::filesystem::exists(file)) core::write_atomically(file, command + "\n");
+    if (before == store.manifest().replications && std::filesystem::exists(file)) return;
+    core::write_atomically(file, command + "\n");
 }
 
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {

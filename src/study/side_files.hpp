@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -14,8 +15,9 @@ namespace clearway::study {
 /// all scenarios.
 void complete_scenarios(const Plan& plan, const results::Store& store);
 
-/// Keeps the command that began the study, whatever continues it.
-void keep_command(const results::Store& store, const std::string& command);
+/// Keeps the command that began the study, whatever continues it, unless that command extends it beyond the
+/// replications that were there `before`.
+void keep_command(const results::Store& store, const std::string& command, std::uint32_t before);
 
 /// Copies what the trainings of models left, `NAME/{losses.csv,summary.json}` of `source`, for the report's
 /// train-test curves. Throws core::EnvironmentError when it cannot write.

@@ -102,6 +102,23 @@ TEST_F(CityTest, the_demand_of_an_import_does_not_jam_a_town_that_fills_slowly) 
     EXPECT_THAT(check.out, HasSubstr("ok       jams"));
 }
 
+TEST_F(CityTest, the_files_of_sumo_are_those_of_the_condition) {
+    write_line_scenario();
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--engine", "sublane", "--bluelight",
+                        "on", "--name", "blue", "--record", "--out", "out"})
+                  .code,
+              0);
+    ASSERT_EQ(clearway({"trajectories", "out/line/blue/0", "--out", "blue"}).code, 0);
+    EXPECT_THAT(read("blue/sumo/run.sumocfg"), HasSubstr("<lateral-resolution value=\"0.5\"/>"));
+    EXPECT_THAT(read("blue/sumo/emergency.rou.xml"), HasSubstr("has.bluelight.device"));
+    ASSERT_EQ(clearway({"trajectories", "out/line/baseline_sublane/0", "--out", "plain"}).code, 0);
+    EXPECT_THAT(read("plain/sumo/run.sumocfg"), HasSubstr("lateral-resolution"));
+    EXPECT_THAT(read("plain/sumo/emergency.rou.xml"), Not(HasSubstr("bluelight")));
+    const core::Command sumo{
+        "sumo", {"-c", (folder() / "blue/sumo/run.sumocfg").string()}, {}, folder() / "sumo.log"};
+    EXPECT_TRUE(core::run(sumo).ok()) << read("sumo.log");
+}
+
 TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {
     write_line_scenario();
     ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--condition", "baseline", "--record",
@@ -114,7 +131,11 @@ TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "ways/trajectories.geojson"));
     const Ended missing = clearway({"trajectories", "out/line/baseline/7"});
     EXPECT_EQ(missing.code, 3);
-    EXPECT_THAT(missing.err, HasSubstr("--record"));
+    EXPECT_THAT(missing.err, HasSubstr("`7` is not in this study"));
+    std::filesystem::remove_all(folder() / "out/recordings");
+    const Ended unrecorded = clearway({"trajectories", "out/line/baseline/0"});
+    EXPECT_EQ(unrecorded.code, 3);
+    EXPECT_THAT(unrecorded.err, HasSubstr("--record"));
     EXPECT_EQ(clearway({"trajectories", "nowhere"}).code, 3);
 }
 

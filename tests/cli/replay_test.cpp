@@ -17,6 +17,7 @@ using testing::Not;
 using testing::StartsWith;
 
 const std::string recording = "out/recordings/line/mine/00000.h5";
+const std::string run_of_mine = "out/line/mine/0";
 
 class ReplayTest : public UserTest {
   protected:
@@ -143,11 +144,34 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     EXPECT_THAT(cut.err, AllOf(HasSubstr("00000.h5"), HasSubstr("cut short")));
 }
 
+TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const Ended replayed = clearway({"replay", run_of_mine});
+    EXPECT_EQ(replayed.code, 0) << replayed.err;
+    EXPECT_THAT(replayed.out, StartsWith(run_of_mine + ": "));
+    const Ended verified = clearway({"verify", run_of_mine});
+    EXPECT_EQ(verified.code, 0) << verified.err;
+    EXPECT_THAT(verified.out, StartsWith("same       " + run_of_mine + "  "));
+    const Ended written = clearway({"trajectories", run_of_mine, "--out", "ways"});
+    EXPECT_EQ(written.code, 0) << written.err;
+    EXPECT_THAT(written.out, StartsWith(run_of_mine + ": "));
+    for (const char* const verb : {"replay", "verify", "trajectories"}) {
+        const Ended unknown = clearway({verb, "out/lin/mime/3"});
+        EXPECT_EQ(unknown.code, 3) << verb;
+        EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `mine`?"),
+                                       HasSubstr("`3` is not in this study; allowed: 0 to 0")))
+            << verb;
+        const Ended nowhere = clearway({verb, "line/mine/0"});
+        EXPECT_EQ(nowhere.code, 3) << verb;
+        EXPECT_THAT(nowhere.err, HasSubstr("FOLDER/SCENARIO/CONDITION/N")) << verb;
+    }
+}
+
 TEST_F(ReplayTest, verify_finds_runs_the_same) {
     ASSERT_EQ(run().code, 0);
-    const Ended one = clearway({"verify", "out", "line/mine/0"});
+    const Ended one = clearway({"verify", "out/line/mine/0"});
     EXPECT_EQ(one.code, 0) << one.err;
-    EXPECT_THAT(one.out, StartsWith("same       line/mine/0  trace "));
+    EXPECT_THAT(one.out, StartsWith("same       out/line/mine/0  trace "));
     const Ended all = clearway({"verify", "out", "--all", "--json"});
     EXPECT_EQ(all.code, 0) << all.err;
     const auto json = nlohmann::json::parse(all.out);
@@ -161,32 +185,32 @@ TEST_F(ReplayTest, verify_tells_where_a_run_differs) {
     ASSERT_EQ(run({"--record"}).code, 0);
     // A network that someone changed: the same run is another one now.
     damage("out/scenarios/line/network/network.net.xml", "speed=\"20.00\"", "speed=\"12.00\"");
-    const Ended ended = clearway({"verify", "out", "line/baseline/0"});
+    const Ended ended = clearway({"verify", "out/line/baseline/0"});
     EXPECT_EQ(ended.code, 7) << ended.err << ended.out;
-    EXPECT_THAT(ended.out, AllOf(HasSubstr("different  line/baseline/0"),
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("different  out/line/baseline/0"),
                                  HasSubstr("provenance: trace_hash: stored "), HasSubstr("vehicles row 1 ("),
                                  HasSubstr("recordings part at "), HasSubstr(" s, snapshot: ")));
 }
 
 TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {
     ASSERT_EQ(run().code, 0);
-    const Ended unknown = clearway({"verify", "out", "lin/basline/4"});
+    const Ended unknown = clearway({"verify", "out/lin/basline/4"});
     EXPECT_EQ(unknown.code, 3);
     EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `baseline`?"),
                                    HasSubstr("`4` is not in this study")));
-    EXPECT_EQ(clearway({"verify", "out", "line"}).code, 3);
+    EXPECT_EQ(clearway({"verify", "out/line"}).code, 3);
     EXPECT_EQ(clearway({"verify", "out"}).code, 3);
-    EXPECT_EQ(clearway({"verify", "out", "line/mine/0", "--all"}).code, 3);
+    EXPECT_EQ(clearway({"verify", "out/line/mine/0", "--all"}).code, 3);
     EXPECT_EQ(clearway({"verify", "nowhere", "--all"}).code, 3);
     const Ended itself = clearway({"verify", "out", "--all", "--out", "./out"});
     EXPECT_EQ(itself.code, 3);
     EXPECT_THAT(itself.err, HasSubstr("is the folder to verify"));
     damage("out/runs/line/mine/00000/run.json", "\"arrived\": ", "\"arrived\": 1");
-    const Ended damaged = clearway({"verify", "out", "line/mine/0"});
+    const Ended damaged = clearway({"verify", "out/line/mine/0"});
     EXPECT_EQ(damaged.code, 3) << damaged.out;
     EXPECT_THAT(damaged.out, AllOf(StartsWith("damaged"), HasSubstr("run.json: hash")));
     std::filesystem::remove_all(folder() / "out/runs/line/mine");
-    const Ended missing = clearway({"verify", "out", "line/mine/0"});
+    const Ended missing = clearway({"verify", "out/line/mine/0"});
     EXPECT_EQ(missing.code, 5);
     EXPECT_THAT(missing.err, HasSubstr("has not been made yet"));
     EXPECT_THAT(missing.out, IsEmpty());
@@ -200,7 +224,7 @@ TEST_F(ReplayTest, verify_refuses_another_version_of_sumo) {
     manifest.erase("hash");
     manifest["hash"] = core::content_hash(manifest.dump(2) + "\n");
     write("out/manifest.json", manifest.dump(2) + "\n");
-    const Ended ended = clearway({"verify", "out", "line/mine/0"});
+    const Ended ended = clearway({"verify", "out/line/mine/0"});
     EXPECT_EQ(ended.code, 4) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("SUMO 1.99.0 in the study"));
 }

@@ -164,10 +164,151 @@ TEST_F(RunTest, without_out_the_same_command_finds_its_folder_again) {
 TEST_F(RunTest, another_study_in_the_same_folder_is_refused) {
     ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
     const std::string before = read("out/runs.csv");
-    const Ended other = clearway(two_conditions("out", 2));
+    std::vector<std::string> words = two_conditions("out", 1);
+    words.insert(words.end(), {"--seed", "9", "--density", "2"});
+    const Ended other = clearway(words);
     EXPECT_EQ(other.code, 3);
-    EXPECT_THAT(other.err, HasSubstr("out"));
+    EXPECT_THAT(other.err,
+                AllOf(HasSubstr("out"), HasSubstr("different seed, scenarios"), HasSubstr("--out")));
     EXPECT_EQ(read("out/runs.csv"), before);
+}
+
+TEST_F(RunTest, more_seeds_extend_a_study_and_keep_its_runs) {
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    const auto made = std::filesystem::last_write_time(folder() / "out/runs/line/baseline/00001/run.json");
+    EXPECT_THAT(clearway({"verify", "out", "--all"}).out, HasSubstr("4 verified: 4 same"));
+    const Ended extended = clearway(two_conditions("out", 4));
+    ASSERT_EQ(extended.code, 0) << extended.err;
+    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 4 replications"), HasSubstr("8/8")));
+    EXPECT_THAT(extended.out, HasSubstr("line: 4 replications"));
+    EXPECT_EQ(std::filesystem::last_write_time(folder() / "out/runs/line/baseline/00001/run.json"), made);
+    EXPECT_THAT(read("out/command.txt"), HasSubstr("--seeds 4"));
+    ASSERT_EQ(clearway(two_conditions("whole", 4)).code, 0);
+    EXPECT_EQ(read("out/runs.csv"), read("whole/runs.csv"));
+    EXPECT_EQ(read("out/vehicles.csv"), read("whole/vehicles.csv"));
+}
+
+TEST_F(RunTest, fewer_seeds_than_are_there_are_refused_with_what_to_do) {
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    const std::string before = read("out/manifest.json");
+    const Ended fewer = clearway(two_conditions("out", 1));
+    EXPECT_EQ(fewer.code, 3);
+    EXPECT_THAT(fewer.err, AllOf(HasSubstr("holds 2 replications of this study, and 1 are asked for"),
+                                 HasSubstr("allowed: 2 or more"), HasSubstr("--out")));
+    EXPECT_EQ(read("out/manifest.json"), before);
+}
+
+TEST_F(RunTest, a_study_file_with_more_replications_goes_on_in_its_folder) {
+    const auto study = [](int replications) {
+        return "name = \"mine\"\nreplications = " + std::to_string(replications) +
+               "\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n";
+    };
+    write("my.toml", study(1));
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    write("my.toml", study(3));
+    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("1 complete in runs/mine"));
+    const Ended extended = clearway({"study", "my.toml"});
+    ASSERT_EQ(extended.code, 0) << extended.err;
+    EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,baseline,2,ok"));
+}
+
+TEST_F(RunTest, without_a_condition_it_compares_corridor_with_the_baseline) {
+    const Ended ended = clearway({"run", "line", "--seeds", "1", "--out", "out"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string runs = read("out/runs.csv");
+    for (const char* const condition : {"baseline", "corridor", "solo"})
+        EXPECT_THAT(runs, HasSubstr(std::string("line,") + condition + ",0,ok"));
+    EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 4);
+}
+
+TEST_F(RunTest, the_dissertations_tables_belong_to_reproduce) {
+    const Ended run = clearway({"run", "merge", "--seeds", "1", "--no-solo", "--condition",
+                                "graph_simulation", "--out", "out", "--tables"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, AllOf(Not(HasSubstr("TABLE")), Not(HasSubstr("published"))));
+    EXPECT_THAT(read("out/report.html"), Not(HasSubstr("class=\"published\"")));
+    const Ended reproduced = clearway({"reproduce", "--seeds", "1", "--out", "all"});
+    ASSERT_EQ(reproduced.code, 0) << reproduced.err;
+    EXPECT_THAT(reproduced.out,
+                AllOf(HasSubstr("TABLE II."), HasSubstr("TABLE IV."), HasSubstr("published")));
+}
+
+TEST_F(RunTest, the_verdict_comes_first_and_long_tables_where_they_are_asked_for) {
+    const Ended brief = clearway(two_conditions("out", 2));
+    ASSERT_EQ(brief.code, 0) << brief.err;
+    const std::size_t verdict = brief.out.find("Graph made by simulation attributes: ");
+    ASSERT_NE(verdict, std::string::npos);
+    EXPECT_LT(verdict, brief.out.find("EV travel time, s\n"));
+    EXPECT_THAT(brief.out, AllOf(HasSubstr("--tables"), Not(HasSubstr("Collisions"))));
+    const Ended all = clearway({"report", "out", "--tables"});
+    EXPECT_THAT(all.out, AllOf(HasSubstr("Collisions"), HasSubstr("95th perc.")));
+    for (const std::string& text : {brief.out, all.out, clearway({"compare", "out"}).out}) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_LE(line.size(), 100U) << line;
+    }
+}
+
+TEST_F(RunTest, on_a_terminal_of_80_columns_no_progress_line_wraps_or_meets_a_result) {
+    std::vector<std::string> words = two_conditions("a_folder_with_a_rather_long_name", 12);
+    const Ended ended = on_terminal(words, 80);
+    ASSERT_EQ(ended.code, 0) << ended.out;
+    std::string text = ended.out;
+    for (std::size_t at = 0; (at = text.find("\x1b[K", at)) != std::string::npos;)
+        text.erase(at, 3);
+    ASSERT_THAT(text, AllOf(HasSubstr("\rruns ["), HasSubstr("24/24")));
+    std::size_t bars = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        // A terminal's line ends in \r\n; a \r before that goes back to its beginning.
+        std::istringstream drawings(line);
+        for (std::string drawing; std::getline(drawings, drawing, '\r');) {
+            if (!drawing.starts_with("runs [")) {
+                EXPECT_THAT(drawing, Not(HasSubstr("runs ["))) << "something stands before a progress line";
+                continue;
+            }
+            ++bars;
+            EXPECT_LT(drawing.size(), 80U) << drawing;
+            EXPECT_THAT(drawing, Not(HasSubstr("clearway:"))) << "a result stands in a progress line";
+        }
+    }
+    EXPECT_GE(bars, 1U);
+    EXPECT_LT(text.rfind("runs ["), text.find("line: 12 replications"));
+}
+
+TEST_F(RunTest, both_streams_in_one_pipe_keep_their_lines_whole_and_in_order) {
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    const Ended apart = clearway({"report", "out", "--tables"});
+    ASSERT_THAT(apart.err, HasSubstr("written: "));
+    const std::string line = "cd " + core::shell_text({folder().string()}) + " && " + CLEARWAY_BINARY_DIR +
+                             "/bin/clearway report out --tables 2>&1 | cat > both.txt";
+    ASSERT_TRUE(core::run({"/bin/sh", {"-c", line}, {}, {}}).ok());
+    EXPECT_EQ(read("both.txt"), apart.out + apart.err);
+}
+
+TEST_F(RunTest, factors_are_columns_of_every_table) {
+    write("my.toml",
+          "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\n"
+          "conditions = [\"baseline\", \"b10_no_repair\"]\n"
+          "[factors]\nfailure.dark_share = [0.1, 0.6]\nscenario.demand.human = [3, 5]\n");
+    const Ended ended = clearway({"study", "my.toml", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string runs = read("runs/mine/runs.csv");
+    EXPECT_THAT(runs, HasSubstr("outcome,cause,safety_checks,failure.dark_share,scenario.demand.human,"));
+    EXPECT_THAT(runs, HasSubstr("line+human=3,baseline,0,ok,,on,,3,"));
+    EXPECT_THAT(runs, HasSubstr("line+human=5,b10_no_repair+dark_share=0.6,1,ok,,on,0.6,5,"));
+    const auto& of_json = nlohmann::json::parse(ended.out).at("scenarios").at(1).at("conditions").at(2);
+    EXPECT_EQ(of_json.at("factors"),
+              (nlohmann::json{{"failure.dark_share", 0.6}, {"scenario.demand.human", 5}}));
+    const auto rows = nlohmann::json::parse(clearway({"results", "runs/mine", "runs", "--json"}).out);
+    EXPECT_TRUE(rows.at(0).at("failure.dark_share").is_null());
+    EXPECT_EQ(rows.at(2).at("failure.dark_share"), 0.1);
+    EXPECT_EQ(rows.at(2).at("scenario.demand.human"), 3);
+    const std::string compared = clearway({"compare", "runs/mine"}).out;
+    EXPECT_THAT(compared, testing::ContainsRegex("Condition +dark_share +pairs"));
+    EXPECT_THAT(compared, testing::ContainsRegex("\nb10_no_repair +0.6 +2 "));
+    const auto json = nlohmann::json::parse(clearway({"compare", "runs/mine", "--json"}).out);
+    EXPECT_EQ(json.at("comparisons").at(0).at("factors").at("failure.dark_share"), 0.1);
 }
 
 TEST_F(RunTest, sublane_brings_a_baseline_of_its_own) {
@@ -252,6 +393,22 @@ TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "out" / "report.html"));
 }
 
+TEST_F(RunTest, init_prints_a_command_that_works_as_it_stands) {
+    // The name of a scenario that comes with Clearway: alone it would mean that one.
+    const Ended made = clearway({"init", "city", "--from", "line"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const std::size_t at = made.out.find("\n  clearway ");
+    ASSERT_NE(at, std::string::npos) << made.out;
+    const std::string command = made.out.substr(at + 3, made.out.find('\n', at + 1) - at - 3);
+    EXPECT_EQ(command, "clearway run ./city");
+    const std::string line = "cd " + core::shell_text({folder().string()}) +
+                             " && PATH=" + CLEARWAY_BINARY_DIR + "/bin:$PATH && " + command +
+                             " > said.txt 2> stderr.txt";
+    ASSERT_TRUE(core::run({"/bin/sh", {"-c", line}, {}, {}}).ok()) << read("stderr.txt");
+    EXPECT_THAT(read("said.txt"), HasSubstr("city: 10 replications"));
+    EXPECT_THAT(read("stderr.txt"), HasSubstr("30/30"));
+}
+
 TEST_F(RunTest, init_copies_a_scenario_that_runs) {
     ASSERT_EQ(clearway({"init", "mine", "--from", "line"}).code, 0);
     const Ended ended =
@@ -325,7 +482,8 @@ TEST_F(RunTest, dataset_overwrites_no_other_recording) {
 
 TEST_F(RunTest, train_takes_what_dataset_wrote) {
     ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
-    const Ended ended = clearway({"train", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
+    const Ended ended =
+        clearway({"train", "--as-published", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(nlohmann::json::parse(ended.out).at("epochs_run"), 3);
     EXPECT_TRUE(std::filesystem::exists(folder() / "model" / "GraphSAGENet.pth"));
@@ -334,8 +492,9 @@ TEST_F(RunTest, train_takes_what_dataset_wrote) {
 TEST_F(RunTest, both_readings_of_the_list_have_one_name_in_dataset_and_train) {
     for (const char* const pairs : {"candidates", "true-links"}) {
         ASSERT_EQ(clearway({"dataset", "line", "--out", pairs, "--pairs", pairs}).code, 0);
-        const Ended ended = clearway({"train", "--data", "candidates", "--out", std::string("model-") + pairs,
-                                      "--pairs", pairs, "--epochs", "2", "--json"});
+        const Ended ended =
+            clearway({"train", "--as-published", "--data", "candidates", "--out",
+                      std::string("model-") + pairs, "--pairs", pairs, "--epochs", "2", "--json"});
         ASSERT_EQ(ended.code, 0) << ended.err;
         EXPECT_EQ(nlohmann::json::parse(ended.out).at("pairs"), pairs);
     }

@@ -112,13 +112,13 @@ TEST_F(ShownRunTest, a_run_in_sumo_gui_equals_the_same_run_without_and_can_be_se
           "time=\"20\"/></viewsettings>");
     const Ended ended = clearway(shown({"--gui-delay", "0", "--gui-settings-file", "view.xml"}), here);
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("line/graph_graphsage/0 in sumo-gui"));
+    EXPECT_THAT(ended.err, HasSubstr("line/corridor/0 in sumo-gui"));
     EXPECT_TRUE(read("picture.png").starts_with("\x89PNG")) << "sumo-gui drew";
     EXPECT_FALSE(std::filesystem::exists(folder() / "out/work"));
-    const Ended usual = clearway(
-        {"run", "line", "--condition", "graph_graphsage", "--no-solo", "--seeds", "1", "--out", "usual"});
+    const Ended usual =
+        clearway({"run", "line", "--condition", "corridor", "--no-solo", "--seeds", "1", "--out", "usual"});
     ASSERT_EQ(usual.code, 0) << usual.err;
-    const std::string run = "/runs/line/graph_graphsage/00000";
+    const std::string run = "/runs/line/corridor/00000";
     EXPECT_EQ(bytes_of("out" + run), bytes_of("usual" + run));
     EXPECT_EQ(ended.out, usual.out);
     EXPECT_EQ(clearway(shown(), here).code, 0) << "once more";

@@ -78,6 +78,17 @@ Ended UserTest::clearway(const std::vector<std::string>& words, const Surroundin
     return finish(start(words, surroundings));
 }
 
+Ended UserTest::on_terminal(const std::vector<std::string>& words, int columns) const {
+    std::vector<std::string> command = {std::string(CLEARWAY_BINARY_DIR) + "/bin/clearway"};
+    command.insert(command.end(), words.begin(), words.end());
+    const std::string line = "cd " + core::shell_text({folder().string()}) + " && stty cols " +
+                             std::to_string(columns) + " && " + core::shell_text(command);
+    const std::filesystem::path transcript = folder() / "terminal.txt";
+    const core::Exit exit =
+        core::run({"/usr/bin/script", {"-q", "-e", "-c", line, transcript.string()}, {}, "/dev/null"});
+    return {exit.code, core::read_file(transcript), ""};
+}
+
 std::string UserTest::read(const std::string& name) const {
     return core::read_file(folder() / name);
 }

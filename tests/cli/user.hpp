@@ -37,6 +37,9 @@ class UserTest : public testing::Test {
     core::Child start(const std::vector<std::string>& words, const Surroundings& surroundings = {}) const;
     Ended finish(const core::Child& child) const;
 
+    /// Runs `clearway WORDS` on a terminal of so many columns and waits; `out` holds all that it showed.
+    Ended on_terminal(const std::vector<std::string>& words, int columns) const;
+
     /// A file of the folder.
     std::string read(const std::string& name) const;
     const std::filesystem::path& folder() const { return folder_.path(); }

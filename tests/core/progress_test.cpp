@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/terminal.hpp"
+
 namespace clearway::core {
 namespace {
 
@@ -25,6 +27,27 @@ TEST(ProgressBar, ShowsCountsFailuresAndTimes) {
     EXPECT_THAT(Progress::render_bar("x", 60, 60, 0, 9.0),
                 StartsWith("x [==============================] 60/60, 0:09 elapsed"));
     EXPECT_THAT(Progress::render_bar("x", 0, 0, 0, 0.0), HasSubstr("0/0"));
+}
+
+TEST(ProgressLine, FitsTheTerminalAndGivesUpTheBarFirst) {
+    Progress progress("runs", 1200, Progress::Style::bar);
+    const std::string note = "EV travel time -12.3 s [-15.9, -8.6] in city/graph_graphsage_dead_reckoning";
+    for (const std::size_t columns : {200, 120, 80, 40, 20}) {
+        progress.update(700, 3, note);
+        const std::string line = progress.line(columns);
+        EXPECT_LE(line.size(), columns) << line;
+        EXPECT_THAT(line, StartsWith("runs ["));
+    }
+    EXPECT_THAT(progress.line(200), EndsWith(note));
+    EXPECT_THAT(progress.line(80), HasSubstr("700/1200, 3 failed"));
+    EXPECT_THAT(progress.line(80), HasSubstr("EV travel"));
+}
+
+TEST(Terminal, CutsBetweenCharactersOfUtf8) {
+    EXPECT_EQ(cut_to_columns("Zürich", 6), "Zürich");
+    EXPECT_EQ(cut_to_columns("Zürich", 2), "Zü");
+    EXPECT_EQ(cut_to_columns("Zürich", 1), "Z");
+    EXPECT_EQ(cut_to_columns("", 5), "");
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ inline void compare(ConditionFacts& facts, const Estimate& travel_time, const Es
 inline ScenarioFacts scenario(const std::string& name) {
     ScenarioFacts facts;
     facts.name = name;
+    facts.published_as = name;
     facts.replications = 20;
     facts.conditions = {condition("baseline", "Baseline", 101.3),
                         condition("graph_simulation", "Graph made by simulation attributes", 88.9),

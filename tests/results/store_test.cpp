@@ -202,6 +202,21 @@ TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {
     }
 }
 
+TEST_F(StoreOfAStudy, IsExtendedByMoreReplicationsAndNeverCutByFewer) {
+    store_.write(record(key), {});
+    const Store longer = Store::create(store_.folder(), synthetic::manifest(5));
+    EXPECT_EQ(longer.manifest().replications, 5U);
+    EXPECT_TRUE(longer.complete(key));
+    EXPECT_EQ(Store::open(store_.folder()).manifest(), synthetic::manifest(5));
+    try {
+        Store::create(store_.folder(), synthetic::manifest(4));
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("holds 5 replications of this study, and 4 are asked"));
+    }
+    EXPECT_EQ(Store::open(store_.folder()).manifest().replications, 5U);
+}
+
 TEST_F(StoreOfAStudy, DoesNotTakeOverAFolderOfSomethingElse) {
     folder_.write("notes.txt", "mine");
     EXPECT_THROW(Store::create(folder_.path(), synthetic::manifest()), core::InputError);

@@ -53,6 +53,11 @@ TEST_F(TableReader, ListsTheTables) {
                 testing::IsSupersetOf({"failures", "leases", "runs", "study", "vehicles"}));
 }
 
+TEST_F(TableReader, KnowsTablesOfAStudyThatWasExtendedSince) {
+    EXPECT_TRUE(tables_are_current(store));
+    EXPECT_FALSE(tables_are_current(Store::create(folder.path(), synthetic::manifest(3))));
+}
+
 TEST_F(TableReader, PrintsTextNumbersAndWhatIsNotAvailable) {
     const std::string csv = printed("vehicles", TableFormat::csv);
     EXPECT_THAT(csv, StartsWith("scenario,condition,replication,id,class,"));

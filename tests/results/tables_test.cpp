@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <sqlite3.h>
@@ -6,6 +7,7 @@
 #include "core/files.hpp"
 #include "results/store.hpp"
 #include "results/synthetic.hpp"
+#include "results/table_reader.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::results {
@@ -127,6 +129,35 @@ TEST(Tables, AreInOneDatabaseToo) {
         query(file,
               "SELECT typeof(waiting_count), typeof(travel_time_s) FROM vehicles WHERE id = 'h1' LIMIT 1"),
         "integer|real|");
+}
+
+TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
+    Manifest manifest = synthetic::manifest();
+    manifest.conditions[1].factors = {{"failure.dark_share", "-2"}, {"condition.failure", "B5"}};
+    manifest.scenarios[1].factors = {{"scenario.demand.human", "80"}};
+    const support::TemporaryFolder folder;
+    const Store store = Store::create(folder.path(), manifest);
+    fill(store, keys);
+    store.write(record({"beta", "treated", 1}), {});
+    const Results results = read_results(store);
+    const auto lines = lines_of(runs_csv(results));
+    EXPECT_THAT(lines[0], testing::HasSubstr(
+                              ",safety_checks,condition.failure,failure.dark_share,scenario.demand.human,"
+                              "emergency_travel_time_s,"));
+    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,,,,50.1,"));
+    EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,B5,-2,,"));
+    EXPECT_THAT(lines[8], testing::StartsWith("beta,treated,1,ok,,on,B5,-2,80,50.1,"));
+    for (const std::string& line : lines)
+        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(lines[0], ',')) << line;
+    write_tables(store, results);
+    EXPECT_EQ(query(folder.path() / "results.sqlite",
+                    "SELECT \"condition.failure\", typeof(\"failure.dark_share\"), \"scenario.demand.human\" "
+                    "FROM runs WHERE \"failure.dark_share\" < 0 ORDER BY scenario"),
+              "B5|integer|null|B5|integer|80|");
+    std::ostringstream csv;
+    print_table(store, "runs", TableFormat::csv, csv);
+    EXPECT_THAT(csv.str(), testing::HasSubstr("beta,treated,1,on,B5,-2,80,50.1,"));
+    EXPECT_EQ(Store::open(folder.path()).manifest(), manifest);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class TrainProgramTest : public testing::Test {
 };
 
 TEST_F(TrainProgramTest, prints_three_lines_an_epoch_as_published) {
-    const Ended ended = train({"--data", data(), "--out", out()});
+    const Ended ended = train({"--as-published", "--data", data(), "--out", out()});
     EXPECT_EQ(ended.exit.code, 0) << ended.output;
     EXPECT_THAT(ended.output, testing::ContainsRegex("epoch: 0\n=======\nloss: [0-9.]+ [0-9.]+\nepoch: 1\n"));
     EXPECT_THAT(ended.output, HasSubstr("epoch: 99\n=======\nloss: "));
@@ -52,12 +52,13 @@ TEST_F(TrainProgramTest, prints_three_lines_an_epoch_as_published) {
 }
 
 TEST_F(TrainProgramTest, quiet_prints_the_closing_figures_only) {
-    const Ended ended = train({"--data", data(), "--out", out(), "--quiet"});
+    const Ended ended = train({"--as-published", "--data", data(), "--out", out(), "--quiet"});
     EXPECT_THAT(ended.output, AllOf(testing::Not(HasSubstr("epoch:")), HasSubstr("test: 1 pairs")));
 }
 
 TEST_F(TrainProgramTest, json_is_all_that_is_printed) {
-    const Ended ended = train({"--data", data(), "--out", out(), "--json", "--epochs", "7", "--seed", "3"});
+    const Ended ended =
+        train({"--as-published", "--data", data(), "--out", out(), "--json", "--epochs", "7", "--seed", "3"});
     const auto summary = nlohmann::json::parse(ended.output);
     EXPECT_EQ(summary["epochs_run"], 7);
     EXPECT_EQ(summary["configuration"]["seed"], 3);
@@ -65,7 +66,7 @@ TEST_F(TrainProgramTest, json_is_all_that_is_printed) {
 }
 
 TEST_F(TrainProgramTest, python_computes_the_same_logits_from_the_pth) {
-    ASSERT_EQ(train({"--data", data(), "--out", out(), "--quiet"}).exit.code, 0);
+    ASSERT_EQ(train({"--as-published", "--data", data(), "--out", out(), "--quiet"}).exit.code, 0);
     const std::filesystem::path log = folder_.path() / "python.txt";
     const core::Exit exit =
         core::run({"/usr/bin/python3",
@@ -79,7 +80,9 @@ TEST_F(TrainProgramTest, python_computes_the_same_logits_from_the_pth) {
 
 TEST_F(TrainProgramTest, same_seed_same_files) {
     for (const char* name : {"a", "b"}) {
-        ASSERT_EQ(train({"--data", data(), "--out", folder_.path() / name, "--quiet"}).exit.code, 0);
+        ASSERT_EQ(
+            train({"--as-published", "--data", data(), "--out", folder_.path() / name, "--quiet"}).exit.code,
+            0);
     }
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "a")) {
         const auto name = entry.path().filename();
@@ -89,36 +92,47 @@ TEST_F(TrainProgramTest, same_seed_same_files) {
 
 TEST_F(TrainProgramTest, bad_data_exit_with_3_and_name_file_and_line) {
     folder_.write("vehicle_features.csv", "0,0\n0.5,nan\n1\n1.5,0.25\n2,1\n");
-    const Ended ended = train({"--data", data(), "--out", out()});
+    const Ended ended = train({"--as-published", "--data", data(), "--out", out()});
     EXPECT_EQ(ended.exit.code, 3);
     EXPECT_THAT(ended.output, AllOf(HasSubstr("vehicle_features.csv:2: value 2: `nan`"),
                                     HasSubstr("vehicle_features.csv:3: 1 values")));
 }
 
 TEST_F(TrainProgramTest, a_missing_folder_exits_with_3) {
-    const Ended ended = train({"--data", data() + "/none", "--out", out()});
+    const Ended ended = train({"--as-published", "--data", data() + "/none", "--out", out()});
     EXPECT_EQ(ended.exit.code, 3);
     EXPECT_THAT(ended.output, HasSubstr("clearway dataset"));
 }
 
 TEST_F(TrainProgramTest, an_unwritable_out_folder_exits_with_4_before_training) {
-    const Ended ended = train({"--data", data(), "--out", data() + "/target_y.csv/out"});
+    const Ended ended = train({"--as-published", "--data", data(), "--out", data() + "/target_y.csv/out"});
     EXPECT_EQ(ended.exit.code, 4);
     EXPECT_THAT(ended.output, AllOf(HasSubstr("target_y.csv/out"), testing::Not(HasSubstr("epoch"))));
 }
 
 TEST_F(TrainProgramTest, a_full_disk_exits_with_4) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
-    const Ended ended = train({"--data", data(), "--out", "/dev/full/out"});
+    const Ended ended = train({"--as-published", "--data", data(), "--out", "/dev/full/out"});
     EXPECT_EQ(ended.exit.code, 4);
 }
 
+TEST_F(TrainProgramTest, without_a_word_it_lists_the_nets_and_trains_none) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{}, std::vector<std::string>{"--data", data(), "--out", out()}}) {
+        const Ended ended = train(words);
+        EXPECT_EQ(ended.exit.code, 2);
+        EXPECT_THAT(ended.output, AllOf(HasSubstr("recommended"), HasSubstr("--as-published")));
+        EXPECT_LT(ended.output.find("train graphsage"), ended.output.find("--as-published"));
+        EXPECT_FALSE(std::filesystem::exists(out()));
+    }
+}
+
 TEST_F(TrainProgramTest, wrong_usage_exits_with_2) {
-    EXPECT_EQ(train({"--data", data()}).exit.code, 2);
-    EXPECT_EQ(train({"--data", data(), "--out", out(), "--epochs", "-1"}).exit.code, 2);
-    EXPECT_EQ(train({"--data", data(), "--out", out(), "--pairs", "some"}).exit.code, 2);
-    EXPECT_EQ(train({"--data", data(), "--out", out(), "--patience", "3"}).exit.code, 2);
-    EXPECT_EQ(train({"--data", data(), "--out", out(), "--unknown"}).exit.code, 2);
+    EXPECT_EQ(train({"--as-published", "--data", data()}).exit.code, 2);
+    EXPECT_EQ(train({"--as-published", "--data", data(), "--out", out(), "--epochs", "-1"}).exit.code, 2);
+    EXPECT_EQ(train({"--as-published", "--data", data(), "--out", out(), "--pairs", "some"}).exit.code, 2);
+    EXPECT_EQ(train({"--as-published", "--data", data(), "--out", out(), "--patience", "3"}).exit.code, 2);
+    EXPECT_EQ(train({"--as-published", "--data", data(), "--out", out(), "--unknown"}).exit.code, 2);
 }
 
 TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
@@ -126,7 +140,8 @@ TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
                 HasSubstr("clearway train: graphsag is not known here, did you mean graphsage?"));
     EXPECT_THAT(train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
                 HasSubstr("clearway train graphsage: --epoch is not known here, did you mean --epochs?"));
-    EXPECT_THAT(train({"--data", data()}).output, HasSubstr("clearway train: --out is required"));
+    EXPECT_THAT(train({"--as-published", "--data", data()}).output,
+                HasSubstr("clearway train: --out is required"));
 }
 
 TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
@@ -145,20 +160,24 @@ TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
 }
 
 TEST_F(TrainProgramTest, a_folder_holds_one_training) {
-    ASSERT_EQ(train({"--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
+    ASSERT_EQ(
+        train({"--as-published", "--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
     const std::string model = core::read_file(out() + "/GraphSAGENet.pth");
     const std::string stray = folder_.write("out/checkpoint.json.2147483647.part", "{");
-    const Ended other = train({"--data", data(), "--out", out(), "--quiet", "--epochs", "4"});
+    const Ended other =
+        train({"--as-published", "--data", data(), "--out", out(), "--quiet", "--epochs", "4"});
     EXPECT_EQ(other.exit.code, 3);
     EXPECT_THAT(other.output, AllOf(HasSubstr("out/summary.json: was made with epochs = 3"),
                                     HasSubstr("epochs = 4, as this training has"), HasSubstr("--out")));
     EXPECT_EQ(core::read_file(out() + "/GraphSAGENet.pth"), model);
     EXPECT_FALSE(std::filesystem::exists(stray)) << "what a killed writer left";
-    EXPECT_EQ(train({"--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
+    EXPECT_EQ(
+        train({"--as-published", "--data", data(), "--out", out(), "--quiet", "--epochs", "3"}).exit.code, 0);
 }
 
 TEST_F(TrainProgramTest, divergence_exits_with_1_says_so_and_keeps_a_model) {
-    const Ended ended = train({"--data", data(), "--out", out(), "--quiet", "--learning-rate", "1e20"});
+    const Ended ended =
+        train({"--as-published", "--data", data(), "--out", out(), "--quiet", "--learning-rate", "1e20"});
     EXPECT_EQ(ended.exit.code, 1);
     EXPECT_THAT(ended.output, HasSubstr("training diverged after 1 good epoch:"));
     EXPECT_TRUE(std::filesystem::exists(out() + "/GraphSAGENet.pth"));
@@ -195,7 +214,7 @@ TEST_F(TrainProgramTest, help_names_units_defaults_and_an_example) {
     const Ended ended = train({"--help"});
     EXPECT_EQ(ended.exit.code, 0);
     EXPECT_THAT(ended.output, AllOf(HasSubstr("--learning-rate"), HasSubstr("[0.01]"), HasSubstr("[100]"),
-                                    HasSubstr("nat"), HasSubstr("clearway train --data")));
+                                    HasSubstr("nat"), HasSubstr("clearway train --as-published --data")));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -41,7 +42,7 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
 }
 
 std::string published_cell(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
-    const auto value = published_value(scenario.name, condition.name, measure);
+    const auto value = published_value(scenario.published_as, condition.name, measure);
     return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, {1, Script::typeset}) : "");
 }
 
@@ -136,12 +137,15 @@ std::string tables_section(const StudyFacts& study) {
         "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to the "
         "baseline, in "
         "colour where its interval excludes 0 and the difference is large enough to count (blue better, "
-        "orange worse). The columns <em>published</em> "
-        "repeat the dissertation: one unseeded run on networks of its own; they are no results of this "
-        "study.</p>\n";
+        "orange worse).";
+    if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
+        html +=
+            " The columns <em>published</em> repeat the dissertation: one unseeded run on networks of its "
+            "own; they are no results of this study.";
+    html += "</p>\n";
     html += definitions();
     for (const ScenarioFacts& scenario : study.scenarios) {
-        const auto table = published_table(scenario.name);
+        const auto table = published_table(scenario.published_as);
         html += fmt::format("<h3>{}</h3>\n<p class=\"caption\">{}</p>\n", escaped(scenario.name),
                             table ? table->caption : "Waiting time and depart delay");
         html += measure_table(scenario, published_columns, table.has_value());

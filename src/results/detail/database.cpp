@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "results/detail/sqlite.hpp"
+#include "results/factor_columns.hpp"
 
 namespace clearway::results::detail {
 namespace {
@@ -113,10 +114,21 @@ void write_study(Database& database, const Manifest& manifest) {
     }
 }
 
-void create_tables(Database& database) {
+/// `, "failure.dark_share" NUMERIC`: numbers where the values look so, texts otherwise.
+std::string columns(const FactorColumns& factors) {
+    std::string text;
+    for (std::string name : factors.names()) {
+        for (std::size_t at = 0; (at = name.find('"', at)) != std::string::npos; at += 2)
+            name.insert(at, "\"");
+        text += fmt::format(", \"{}\" NUMERIC", name);
+    }
+    return text;
+}
+
+void create_tables(Database& database, const FactorColumns& factors) {
     database.execute(fmt::format(
-        "CREATE TABLE runs ({}, safety_checks TEXT{}{}, PRIMARY KEY (scenario, condition, replication))",
-        key_columns, columns<metrics::RunMetrics>(), columns<experiment::Provenance>()));
+        "CREATE TABLE runs ({}, safety_checks TEXT{}{}{}, PRIMARY KEY (scenario, condition, replication))",
+        key_columns, columns(factors), columns<metrics::RunMetrics>(), columns<experiment::Provenance>()));
     database.execute(
         fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
@@ -137,7 +149,7 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
     database.execute("PRAGMA journal_mode = OFF");
     database.execute("BEGIN");
     write_study(database, manifest);
-    create_tables(database);
+    create_tables(database, FactorColumns(manifest));
     return database;
 }
 
@@ -146,7 +158,9 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
 struct DatabaseWriter::Tables {
     Tables(const std::filesystem::path& part, const Manifest& manifest)
         : database(begin_database(part, manifest)),
-          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(1)),
+          factors(manifest),
+          runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(
+                                                          1 + static_cast<int>(factors.names().size()))),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
           leases(database, "INSERT INTO leases VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
           failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
@@ -161,6 +175,7 @@ struct DatabaseWriter::Tables {
     }
 
     Database database;
+    FactorColumns factors;
     Inserter runs;
     Inserter vehicles;
     Inserter leases;
@@ -191,6 +206,8 @@ void DatabaseWriter::add(const RunRecord& run) {
     Inserter& row = tables_->runs;
     row.add_key(run.key);
     row.add(experiment::name(run.condition.safety_checks));
+    for (const std::string& value : tables_->factors.values(run.key.scenario, run.key.condition))
+        row.add(value.empty() ? std::optional<std::string_view>() : std::string_view(value));
     row.add_fields(run.metrics);
     row.add_fields(run.provenance);
     row.insert();

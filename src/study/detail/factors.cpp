@@ -268,8 +268,16 @@ Assignment concerning(const experiment::ConditionSpec& condition, const Assignme
     return concerned;
 }
 
+core::Settings factors_of(const Assignment& assignment) {
+    core::Settings factors;
+    for (const auto& [factor, value] : assignment)
+        factors[factor->group + "." + factor->key] = value->text;
+    return factors;
+}
+
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                Problems& problems) {
+    condition.factors = factors_of(assignment);
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
     }

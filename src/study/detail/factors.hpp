@@ -61,6 +61,9 @@ Assignment concerning(const experiment::ConditionSpec& condition, const Assignme
 /// `+failure=B5+mean_outage_s=20`, with full keys where short ones would mean two factors.
 std::string name_of(const Assignment& assignment, const Factors& factors);
 
+/// Names as in the study file, `failure.mean_outage_s`, and values.
+core::Settings factors_of(const Assignment& assignment);
+
 /// The condition under a combination. What is wrong with it is added to `problems`.
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                std::vector<core::Problem>& problems);

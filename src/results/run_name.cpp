@@ -1,0 +1,111 @@
+#include "results/run_name.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "trace/recording.hpp"
+
+namespace clearway::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `mine/city/corridor/7` in its four parts.
+struct Parts {
+    fs::path folder;
+    std::string scenario;
+    std::string condition;
+    std::string number;
+};
+
+bool is_run_folder(const fs::path& folder) {
+    std::error_code none;
+    return fs::exists(folder / "manifest.json", none);
+}
+
+std::optional<Parts> parts_of(const std::string& name) {
+    fs::path path = fs::path(name).lexically_normal();
+    if (path.filename().empty()) path = path.parent_path();  // a slash at the end
+    Parts parts{path.parent_path().parent_path().parent_path(),
+                path.parent_path().parent_path().filename().string(), path.parent_path().filename().string(),
+                path.filename().string()};
+    if (parts.scenario.empty() || parts.condition.empty()) return std::nullopt;
+    if (parts.folder.empty()) parts.folder = ".";
+    // A shell completes the folders of a run's own files, FOLDER/runs/SCENARIO/CONDITION/00007.
+    const bool is_below = parts.folder.filename() == "runs" || parts.folder.filename() == "recordings";
+    if (!is_run_folder(parts.folder) && is_below) {
+        parts.folder = parts.folder.parent_path();
+        if (parts.folder.empty()) parts.folder = ".";
+    }
+    return parts;
+}
+
+template <class Entry>
+void require_known(const std::string& where, const std::string& name, const std::vector<Entry>& entries,
+                   std::vector<core::Problem>& problems) {
+    std::vector<std::string> known;
+    for (const Entry& entry : entries)
+        known.push_back(entry.name);
+    if (std::ranges::find(known, name) != known.end()) return;
+    const std::string near = core::nearest(name, known);
+    problems.push_back({where, fmt::format("`{}` is not in this study", name),
+                        fmt::format("{}", fmt::join(known, ", ")),
+                        near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
+}
+
+std::optional<std::uint32_t> number_from(const std::string& text) {
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+}  // namespace
+
+std::string run_name(const fs::path& folder, const experiment::RunKey& key) {
+    return (folder / experiment::to_text(key)).lexically_normal().string();
+}
+
+NamedRun run_named(const std::string& name, const std::string& where) {
+    const std::optional<Parts> parts = parts_of(name);
+    if (!parts || !is_run_folder(parts->folder))
+        throw core::InputError(
+            {where,
+             parts ? fmt::format("`{}` is no run: {} is no run folder", name, parts->folder.string())
+                   : fmt::format("`{}` is no run", name),
+             run_name_form, "for example runs/city-1a2b3c/city/corridor/0"});
+    NamedRun run{Store::open(parts->folder), {parts->scenario, parts->condition, 0}};
+    const Manifest& manifest = run.store.manifest();
+    std::vector<core::Problem> problems;
+    require_known(where + ": scenario", parts->scenario, manifest.scenarios, problems);
+    require_known(where + ": condition", parts->condition, manifest.conditions, problems);
+    const std::optional<std::uint32_t> number = number_from(parts->number);
+    if (number && *number < manifest.replications) {
+        run.key.replication = *number;
+    } else {
+        problems.push_back({where + ": replication", fmt::format("`{}` is not in this study", parts->number),
+                            fmt::format("0 to {}", manifest.replications - 1), ""});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return run;
+}
+
+fs::path recording_named(const std::string& name, const std::string& where) {
+    if (fs::is_regular_file(name)) return fs::absolute(name).lexically_normal();
+    const NamedRun run = run_named(name, where);
+    const fs::path recording = trace::recording_file(run.store.folder(), run.key);
+    if (!fs::exists(recording))
+        throw core::InputError(
+            {where,
+             fmt::format("{} has no recording {}", run_name(run.store.folder(), run.key), recording.string()),
+             "a recorded run", "Give the command that made it again, with --record"});
+    return fs::absolute(recording).lexically_normal();
+}
+
+}  // namespace clearway::results
