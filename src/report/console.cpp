@@ -209,6 +209,7 @@ std::string console_tables(const StudyFacts& study) {
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
     }
     text += safe_table(failure_table(study.failure_curves));
+    text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(
         "here: mean and half width of its 95 % interval. diff.: mean of the paired differences to the "
         "baseline of the "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/failure_curve.hpp"
+#include "report/sensitivity.hpp"
 
 namespace clearway::report {
 
@@ -281,6 +282,7 @@ struct StudyFacts {
     std::string title;
     std::vector<ScenarioFacts> scenarios;
     std::vector<FailureCurve> failure_curves;
+    std::vector<Sensitivity> sensitivities;
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
     std::string command;  ///< That makes the same study again.
