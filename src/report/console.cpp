@@ -281,6 +281,7 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
     }
     text += safe_table(failure_table(study.failure_curves));
+    text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
         "here: mean and half width of its 95 % interval; (to x): its upper end where it is lopsided, for "

@@ -13,6 +13,7 @@
 #include "core/settings.hpp"
 #include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
+#include "report/sensitivity.hpp"
 
 namespace clearway::report {
 
@@ -298,6 +299,7 @@ struct StudyFacts {
     std::string title;
     std::vector<ScenarioFacts> scenarios;
     std::vector<FailureCurve> failure_curves;
+    std::vector<Sensitivity> sensitivities;
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
     std::string command;  ///< That makes the same study again.

@@ -199,6 +199,21 @@ Json to_json(const FailureCurve& curve) {
             {"repairs", std::move(repairs)}};
 }
 
+Json to_json(const Sensitivity& sensitivity) {
+    Json settings = Json::array();
+    for (const SensitivityRow& row : sensitivity.rows) {
+        Json levels = Json::array();
+        for (const SensitivityLevel& level : row.levels)
+            levels.push_back({{"value", level.value},
+                              {"emergency_travel_time_difference_s", to_json(level.emergency)},
+                              {"others_time_loss_difference_s", to_json(level.others)}});
+        settings.push_back({{"setting", row.setting}, {"levels", std::move(levels)}});
+    }
+    return {{"scenario", sensitivity.scenario},
+            {"condition", sensitivity.condition},
+            {"settings", std::move(settings)}};
+}
+
 }  // namespace
 
 std::string json_tables(const StudyFacts& study) {
@@ -218,6 +233,9 @@ std::string json_tables(const StudyFacts& study) {
         {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};
     for (const FailureCurve& curve : study.failure_curves) {
         result["failure_curves"].push_back(to_json(curve));
+    }
+    for (const Sensitivity& sensitivity : study.sensitivities) {
+        result["sensitivities"].push_back(to_json(sensitivity));
     }
     return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

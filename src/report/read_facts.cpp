@@ -375,6 +375,7 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     add_failures(results, conditions);
     add_files(summary.manifest, folder, study);
     study.failure_curves = failure_curves(summary);
+    study.sensitivities = sensitivities(summary);
     const results::Store store = results::Store::open(folder);
     for (ScenarioFacts& scenario : study.scenarios)
         scenario.journeys = detail::journeys_in(store, scenario);

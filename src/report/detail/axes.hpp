@@ -73,6 +73,8 @@ class Plot {
     /// A horizontal interval with its mean, at height `y` in figure units.
     void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
     void point(double value, double y, std::size_t series);
+    /// A filled bar between two values of x, at height `y` in figure units.
+    void beam(std::pair<double, double> bounds, double y, std::size_t series);
     /// A level line between two values of x at a value of y, in a style of its own.
     void stripe(std::pair<double, double> bounds, double value, const char* style);
     void vertical(double value);

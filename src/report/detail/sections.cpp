@@ -53,6 +53,10 @@ bool has_counts(const StudyFacts& study) {
     return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.flows.empty(); });
 }
 
+bool has_sensitivities(const StudyFacts& study) {
+    return !study.sensitivities.empty();
+}
+
 bool has_pictures(const StudyFacts& study) {
     return any_scenario(study, [](const ScenarioFacts& scenario) { return !scenario.network_svg.empty(); });
 }
@@ -65,12 +69,13 @@ bool has_failure_curves(const StudyFacts& study) {
     return !study.failure_curves.empty();
 }
 
-constexpr std::array<Section, 14> all_sections = {{
+constexpr std::array<Section, 15> all_sections = {{
     {"verdict", "Verdict", always, verdict_section},
     {"tables", "Tables", always, tables_section},
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
     {"failure", "Benefit against failure", has_failure_curves, failure_section},
+    {"sensitivity", "Sensitivity to each number", has_sensitivities, sensitivity_section},
     {"cost", "Cost to the others", has_approaches, cost_section},
     {"safety", "Safety, comfort and flow", has_safety, safety_section},
     {"journeys", "An EV's journey", has_journeys, journeys_section},

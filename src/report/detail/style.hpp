@@ -62,7 +62,7 @@ stroke-width:4px;stroke-linejoin:round}.network text{font-size:26px!important}
 .s0{--c:var(--ink)}.s1{--c:var(--s1)}.s2{--c:var(--s2)}.s3{--c:var(--s3)}.s4{--c:var(--s4)}.s5{--c:var(--s5)}.s6{--c:var(--s6)}
 .signal-red{stroke:var(--s2);stroke-width:5;fill:none}.signal-yellow{stroke:var(--s5);stroke-width:5;stroke-dasharray:2 2;fill:none}
 .signal-green{stroke:var(--s3);stroke-width:1.6;fill:none}
-.hair{fill:none;stroke:var(--c);stroke-width:1;stroke-opacity:.4}.band{fill:var(--c);fill-opacity:.16;stroke:none}
+.beam{fill:var(--c);fill-opacity:.35;stroke:none}.hair{fill:none;stroke:var(--c);stroke-width:1;stroke-opacity:.4}.band{fill:var(--c);fill-opacity:.16;stroke:none}
 .line,.bar{stroke:var(--c)}.dot{fill:var(--c);stroke:var(--paper);stroke-width:1.2}
 .line.s2{stroke-dasharray:7 3}.line.s3{stroke-dasharray:2 3}.line.s4{stroke-dasharray:9 3 2 3}.line.s5{stroke-dasharray:4 2}
 .line.s6{stroke-dasharray:1 4}
