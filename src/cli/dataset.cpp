@@ -13,12 +13,9 @@
 #include "cli/record_orders.hpp"
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "experiment/dataset_order.hpp"
-#include "samples/dataset_files.hpp"
-#include "samples/graph_sample.hpp"
-#include "samples/pair_samples.hpp"
+#include "samples/dataset_plan.hpp"
 #include "scenario/network.hpp"
 
 namespace clearway::cli {
@@ -27,8 +24,7 @@ namespace {
 struct Arguments {
     std::string scenario;
     std::string folder;
-    std::uint32_t first_seed = 0;
-    std::uint32_t seeds = 1;
+    samples::DatasetSeeds seeds;
     unsigned jobs = 0;
     Printing printing = Printing::text;
     experiment::DatasetOrder order;  ///< What all orders share.
@@ -45,63 +41,6 @@ void check_failures(const std::vector<std::string>& failures) {
                             "", "Give --exits known or --exits unknown"});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
-}
-
-/// One order per replication, on a scenario and network below `origin/` of the data set.
-std::vector<experiment::DatasetOrder> make_orders(const Arguments& arguments, const std::string& scenario) {
-    experiment::DatasetOrder order = arguments.order;
-    order.scenario = scenario;
-    order.output = arguments.folder;
-    const std::filesystem::path origin = order.output / "origin" / scenario;
-    order.scenario_file = origin / "scenario.toml";
-    order.network_folder = origin / "network";
-    std::vector<experiment::DatasetOrder> orders;
-    for (std::uint32_t i = 0; i < arguments.seeds; ++i) {
-        order.replication = arguments.first_seed + i;
-        orders.push_back(order);
-    }
-    return orders;
-}
-
-/// What an order will write.
-std::vector<std::filesystem::path> files_of(const experiment::DatasetOrder& order) {
-    if (order.kind == experiment::DatasetKind::published) {
-        return {order.output / samples::edge_list_file, order.output / samples::vehicle_features_file,
-                order.output / samples::target_file};
-    }
-    const char* const ending = order.kind == experiment::DatasetKind::pair_samples
-                                   ? samples::pair_sample_ending
-                                   : samples::graph_sample_extension;
-    std::vector<std::filesystem::path> files;
-    for (const std::string& failure : order.failures)
-        files.push_back(experiment::sample_file(order, failure, ending));
-    return files;
-}
-
-bool holds(const std::filesystem::path& file, const std::string& text) {
-    return std::filesystem::exists(file) && core::read_file(file) == text;
-}
-
-/// Refuses a folder in which recordings of others would be lost. The same command may be given again.
-void check_folder(const std::vector<experiment::DatasetOrder>& orders, const std::string& scenario) {
-    const char* const cure = "Record into another --out, or remove what is there";
-    const std::filesystem::path& scenario_file = orders.front().scenario_file;
-    if (std::filesystem::exists(scenario_file) && !holds(scenario_file, scenario)) {
-        throw core::InputError(
-            {scenario_file.string(),
-             fmt::format("another configuration of {} was recorded here", orders.front().scenario),
-             "one for each scenario of a data set", cure});
-    }
-    std::vector<std::string> taken;
-    for (const experiment::DatasetOrder& order : orders) {
-        if (holds(order_file(order), experiment::to_json(order))) continue;
-        for (const std::filesystem::path& file : files_of(order)) {
-            if (std::filesystem::exists(file)) taken.push_back(file.string());
-        }
-    }
-    if (taken.empty()) return;
-    const std::string more = taken.size() == 1 ? "" : fmt::format(", and {} more", taken.size() - 1);
-    throw core::InputError({taken.front(), "is there already, of another recording" + more, "", cure});
 }
 
 void print_files(const std::vector<std::string>& lines, Printing printing) {
@@ -121,16 +60,18 @@ void print_files(const std::vector<std::string>& lines, Printing printing) {
 }
 
 core::ExitCode record(Arguments arguments, const Invocation& invocation) {
-    const bool samples = arguments.order.kind != experiment::DatasetKind::published;
-    if (samples && arguments.order.failures.empty()) arguments.order.failures = {"B10"};
-    if (!samples && arguments.seeds > 1) {
-        throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds),
+    const bool many = arguments.order.kind != experiment::DatasetKind::published;
+    if (many && arguments.order.failures.empty()) arguments.order.failures = {"B10"};
+    if (!many && arguments.seeds.count > 1) {
+        throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds.count),
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.order.failures);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
-    const std::vector<experiment::DatasetOrder> orders = make_orders(arguments, config.name);
-    check_folder(orders, scenario::to_toml(config));
+    arguments.order.output = arguments.folder;
+    const std::vector<experiment::DatasetOrder> orders =
+        samples::dataset_orders(arguments.order, config.name, arguments.seeds);
+    samples::check_folder(orders, scenario::to_toml(config));
     scenario::store(config, orders.front().scenario_file.parent_path());
     scenario::build_network(config, orders.front().network_folder);
     const WorkerResult result = record_orders(orders, arguments.jobs);
@@ -208,10 +149,10 @@ Action configure_dataset(CLI::App& app) {
     app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
         ->required()
         ->option_text("DIR (required)");
-    app.add_option("--seeds", arguments->seeds, "Replications to record; more than one with --samples")
+    app.add_option("--seeds", arguments->seeds.count, "Replications to record; more than one with --samples")
         ->check(CLI::Range(1U, most_replications))
         ->option_text(fmt::format("N, 1 to {} [1]", most_replications));
-    app.add_option("--first-seed", arguments->first_seed, "Number of the first replication")
+    app.add_option("--first-seed", arguments->seeds.first, "Number of the first replication")
         ->check(CLI::Range(0U, 4000000000U))
         ->option_text("N, 0 to 4000000000 [0]");
     add_seed_option(app, arguments->order.study_seed);

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-namespace clearway::cli {
+#include "samples/dataset_plan.hpp"
 
-std::filesystem::path order_file(const experiment::DatasetOrder& order) {
-    return order.scenario_file.parent_path() / "orders" / fmt::format("{:04}.json", order.replication);
-}
+namespace clearway::cli {
 
 WorkerResult record_orders(const std::vector<experiment::DatasetOrder>& orders, unsigned jobs) {
     std::vector<WorkerOrder> work;
     for (const experiment::DatasetOrder& order : orders) {
-        const std::filesystem::path file = order_file(order);
+        const std::filesystem::path file = samples::order_file(order);
         work.push_back({.label = fmt::format("{} replication {}", order.scenario, order.replication),
                         .option = "--dataset",
                         .file = file,

@@ -7,9 +7,6 @@
 
 namespace clearway::cli {
 
-/// Where the order of a recording is kept beside the data set.
-std::filesystem::path order_file(const experiment::DatasetOrder& order);
-
 /// Records data sets with worker processes (`clearway-run --dataset FILE`) as `work_on` says; the lines are
 /// what the workers said about their files, by replication. Order files and logs stand beside each order's
 /// scenario file.

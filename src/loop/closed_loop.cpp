@@ -19,9 +19,11 @@ constexpr double time_tolerance_s = 0.0005;
 
 ClosedLoop::ClosedLoop(sumo::Session& session, Machinery machinery, const LoopConfig& config,
                        metrics::Recorder& recorder, trace::StepListener* listener)
-    : session_(session), machinery_(std::move(machinery)), recorder_(recorder), listener_(listener) {
-    rules_.radius_m = config.link_radius_m;
-}
+    : session_(session),
+      machinery_(std::move(machinery)),
+      recorder_(recorder),
+      listener_(listener),
+      true_links_(graph::LinkRules{.radius_m = config.link_radius_m}) {}
 
 void ClosedLoop::run(core::Seconds horizon) {
     while (session_.expected_vehicles() > 0 && session_.time().value < horizon.value - time_tolerance_s) {
@@ -62,8 +64,8 @@ void ClosedLoop::step() {
 }
 
 void ClosedLoop::score(const truth::Snapshot& snapshot) {
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
-    recorder_.links(snapshot, true_graph_, machinery_.chain->belief());
+    true_links_.look(snapshot);
+    recorder_.links(snapshot, true_links_, machinery_.chain->belief());
 }
 
 void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {

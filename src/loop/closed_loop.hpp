@@ -9,7 +9,6 @@
 #include "core/units.hpp"
 #include "drivers/siren.hpp"
 #include "experiment/loop_config.hpp"
-#include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
 #include "sumo/session.hpp"
@@ -60,9 +59,7 @@ class ClosedLoop {
     metrics::Recorder& recorder_;
     trace::StepListener* listener_;
 
-    graph::LinkRules rules_;
-    graph::ProximityBuilder builder_;
-    graph::ProximityGraph true_graph_;
+    metrics::TrueLinks true_links_;
     std::vector<traffic::Command> commands_;
     LoopTiming timing_;
 };

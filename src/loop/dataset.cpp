@@ -7,27 +7,22 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "loop/detail/plain_run.hpp"
 #include "loop/detail/work_folder.hpp"
 #include "loop/unit_run.hpp"
+#include "prediction/features.hpp"
 #include "samples/recorders.hpp"
 #include "trace/listeners.hpp"
 
 namespace clearway::loop {
 namespace {
 
-/// Car-following alone: data sets show traffic that no policy has touched.
-experiment::ConditionSpec plain_traffic() {
-    experiment::ConditionSpec condition;
-    condition.name = "dataset";
-    return condition;
-}
-
 void record_published(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
     const prediction::FeatureSchema schema = order.feature_count == 2
                                                  ? prediction::as_published_position_schema()
                                                  : prediction::as_published_attributes_schema();
     samples::PairDatasetRecorder recorder(run.network(), rules, schema, order.pairs);
-    run.record(plain_traffic(), recorder);
+    run.record(detail::plain_traffic("dataset"), recorder);
     const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
         throw core::InputError({order.scenario,
@@ -39,71 +34,35 @@ void record_published(const experiment::DatasetOrder& order, UnitRun& run, const
                dataset.pair_count(), recorder.time().value);
 }
 
-bool exits_unknown(const experiment::DatasetOrder& order) {
-    return order.exits == "unknown";
-}
-
 /// The failure as data sets name it.
 std::string failure_name(const experiment::DatasetOrder& order, const std::string& failure) {
-    return failure + (exits_unknown(order) ? " exits unknown" : "");
+    return failure + (order.exits == "unknown" ? " exits unknown" : "");
 }
 
-std::unique_ptr<sensing::SensorModel> sensor_for(const experiment::DatasetOrder& order,
-                                                 const std::string& failure, const UnitRun& run,
-                                                 const graph::LinkRules& rules) {
-    sensing::FailureConfig config = sensing::failure_from(failure);
-    if (exits_unknown(order)) config.exits = sensing::Exits::unknown;
-    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
-    return sensing::make_sensor(config, random, {.network = run.network(), .rules = rules});
-}
-
-/// One recorder of a kind for each failure, all watching one run.
-template <class Recorder>
-void record_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules,
-                    const prediction::FeatureSchema& features) {
-    std::vector<std::unique_ptr<Recorder>> recorders;
+/// One recorder for each failure, all watching one run.
+void record_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
+    std::vector<std::unique_ptr<samples::SampleRecorder>> recorders;
     trace::Listeners all;
     for (const std::string& failure : order.failures) {
-        const samples::GraphSampleOrigin origin{.scenario = order.scenario,
-                                                .failure = failure_name(order, failure),
-                                                .features = features,
-                                                .study_seed = order.study_seed,
-                                                .replication = order.replication,
-                                                .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<Recorder>(run.network(), rules, origin,
-                                                       sensor_for(order, failure, run, rules),
-                                                       core::Seconds(order.interval_s)));
+        recorders.push_back(samples::make_sample_recorder(
+            order.kind, {.network = run.network(),
+                         .rules = rules,
+                         .origin = {.scenario = order.scenario,
+                                    .failure = failure_name(order, failure),
+                                    .features = {},
+                                    .study_seed = order.study_seed,
+                                    .replication = order.replication,
+                                    .link_radius_m = rules.radius_m},
+                         .sensor = detail::sensor_of(failure, order.exits, detail::random_of(order),
+                                                     {.network = run.network(), .rules = rules}),
+                         .interval = core::Seconds(order.interval_s)}));
         all.add(*recorders.back());
     }
-    run.record(plain_traffic(), all);
+    run.record(detail::plain_traffic("dataset"), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            experiment::sample_file(order, order.failures[i], samples::graph_sample_extension);
-        recorders[i]->writer().write(file);
-        fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
-    }
-}
-
-void record_pair_samples(const experiment::DatasetOrder& order, UnitRun& run, const graph::LinkRules& rules) {
-    std::vector<std::unique_ptr<samples::PairSampleRecorder>> recorders;
-    trace::Listeners all;
-    for (const std::string& failure : order.failures) {
-        const samples::PairSampleOrigin origin{.scenario = order.scenario,
-                                               .failure = failure_name(order, failure),
-                                               .study_seed = order.study_seed,
-                                               .replication = order.replication,
-                                               .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<samples::PairSampleRecorder>(
-            run.network(), rules, origin, sensor_for(order, failure, run, rules),
-            core::Seconds(order.interval_s)));
-        all.add(*recorders.back());
-    }
-    run.record(plain_traffic(), all);
-    for (std::size_t i = 0; i < recorders.size(); ++i) {
-        const std::filesystem::path file =
-            experiment::sample_file(order, order.failures[i], samples::pair_sample_ending);
-        samples::write_pair_samples(file, recorders[i]->samples());
-        fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
+            experiment::sample_file(order, order.failures[i], samples::sample_ending(order.kind));
+        fmt::print("{}: {}\n", file.string(), recorders[i]->write(file));
     }
 }
 
@@ -114,28 +73,12 @@ core::ExitCode record_dataset(const std::filesystem::path& order_file) {
     core::make_folder(order.output);
     const detail::WorkFolder work(order.output /
                                   fmt::format("work-{}-{}", order.scenario, order.replication));
-    experiment::UnitSpec unit;
-    unit.scenario = order.scenario;
-    unit.scenario_file = order.scenario_file;
-    unit.network_folder = order.network_folder;
-    unit.study_seed = order.study_seed;
-    unit.replication = order.replication;
-    UnitRun run(unit, work.path(), work.path());
-    graph::LinkRules rules;
-    rules.radius_m = LoopConfig{}.link_radius_m;
-    switch (order.kind) {
-        case experiment::DatasetKind::published:
-            record_published(order, run, rules);
-            break;
-        case experiment::DatasetKind::samples:
-            record_samples<samples::SampleRecorder>(order, run, rules, prediction::corrected_schema());
-            break;
-        case experiment::DatasetKind::repair:
-            record_samples<samples::RepairSampleRecorder>(order, run, rules, prediction::repair_schema());
-            break;
-        case experiment::DatasetKind::pair_samples:
-            record_pair_samples(order, run, rules);
-            break;
+    UnitRun run(detail::unit_of(order), work.path(), work.path());
+    const graph::LinkRules rules = detail::link_rules();
+    if (order.kind == experiment::DatasetKind::published) {
+        record_published(order, run, rules);
+    } else {
+        record_samples(order, run, rules);
     }
     return core::ExitCode::ok;
 }

@@ -9,19 +9,12 @@
 #include "core/files.hpp"
 #include "experiment/link_order.hpp"
 #include "links/link_evaluation.hpp"
+#include "loop/detail/plain_run.hpp"
 #include "loop/detail/work_folder.hpp"
 #include "loop/unit_run.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::loop {
 namespace {
-
-sensing::Exits exits_from(const std::string& word) {
-    for (const auto& [value, spelling] : sensing::spellings(sensing::Exits{})) {
-        if (word == spelling) return value;
-    }
-    throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
-}
 
 std::unique_ptr<prediction::Predictor> make(const experiment::LinkPredictorOrder& order,
                                             const roads::Network& network, const graph::LinkRules& rules) {
@@ -31,15 +24,13 @@ std::unique_ptr<prediction::Predictor> make(const experiment::LinkPredictorOrder
 
 void add_trials(const experiment::LinkOrder& order, const roads::Network& network,
                 const graph::LinkRules& rules, links::LinkEvaluator& evaluator) {
-    const core::KeyedRandom random(core::StudySeed{order.study_seed}, core::Replication{order.replication});
+    const core::KeyedRandom random = detail::random_of(order);
     for (const std::string& exits : order.exits) {
         for (const std::string& failure : order.failures) {
-            sensing::FailureConfig config = sensing::failure_from(failure);
-            config.exits = exits_from(exits);
             links::LinkTrial::Setup setup{
                 .failure = failure,
                 .exits = exits,
-                .sensor = sensing::make_sensor(config, random, {.network = network, .rules = rules}),
+                .sensor = detail::sensor_of(failure, exits, random, {.network = network, .rules = rules}),
                 .predictors = {}};
             for (const experiment::LinkPredictorOrder& predictor : order.predictors)
                 setup.predictors.push_back(make(predictor, network, rules));
@@ -84,20 +75,11 @@ void write_results(const experiment::LinkOrder& order, const std::string& config
 core::ExitCode evaluate_links(const std::filesystem::path& order_file) {
     const experiment::LinkOrder order = experiment::read_link_order(order_file);
     const detail::WorkFolder work(order.work_folder);
-    experiment::UnitSpec unit;
-    unit.scenario = order.scenario;
-    unit.scenario_file = order.scenario_file;
-    unit.network_folder = order.network_folder;
-    unit.study_seed = order.study_seed;
-    unit.replication = order.replication;
-    UnitRun run(unit, work.path(), work.path());
-    graph::LinkRules rules;
-    rules.radius_m = experiment::LoopConfig{}.link_radius_m;
+    UnitRun run(detail::unit_of(order), work.path(), work.path());
+    const graph::LinkRules rules = detail::link_rules();
     links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(order, run.network(), rules, evaluator);
-    experiment::ConditionSpec plain_traffic;
-    plain_traffic.name = "links";
-    run.record(plain_traffic, evaluator);
+    run.record(detail::plain_traffic("links"), evaluator);
     check_scored(order, evaluator);
     write_results(order, run.scenario_hash(), evaluator);
     return core::ExitCode::ok;
