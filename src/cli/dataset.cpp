@@ -10,15 +10,12 @@
 
 #include "cli/common_options.hpp"
 #include "cli/names.hpp"
+#include "cli/record_jobs.hpp"
 #include "cli/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "cli/worker_jobs.hpp"
-#include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "experiment/dataset_job.hpp"
-#include "samples/dataset_files.hpp"
-#include "samples/graph_sample.hpp"
-#include "samples/pair_samples.hpp"
+#include "samples/dataset_plan.hpp"
 #include "scenario/network.hpp"
 
 namespace clearway::cli {
@@ -27,8 +24,7 @@ namespace {
 struct Arguments {
     std::string scenario;
     std::string folder;
-    std::uint32_t first_seed = 0;
-    std::uint32_t seeds = 1;
+    samples::DatasetSeeds seeds;
     unsigned jobs = 0;
     Printing printing = Printing::text;
     experiment::DatasetJob job;  ///< What all jobs share.
@@ -45,83 +41,6 @@ void check_failures(const std::vector<std::string>& failures) {
                             "", "Give --exits known or --exits unknown"});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
-}
-
-/// Where a job is kept beside the data set.
-std::filesystem::path job_file(const experiment::DatasetJob& job) {
-    return job.scenario_file.parent_path() / "jobs" / fmt::format("{:04}.json", job.replication);
-}
-
-/// One job per replication, on a scenario and network below `origin/` of the data set.
-std::vector<experiment::DatasetJob> make_jobs(const Arguments& arguments, const std::string& scenario) {
-    experiment::DatasetJob job = arguments.job;
-    job.scenario = scenario;
-    job.output = arguments.folder;
-    const std::filesystem::path origin = job.output / "origin" / scenario;
-    job.scenario_file = origin / "scenario.toml";
-    job.network_folder = origin / "network";
-    std::vector<experiment::DatasetJob> jobs;
-    for (std::uint32_t i = 0; i < arguments.seeds; ++i) {
-        job.replication = arguments.first_seed + i;
-        jobs.push_back(job);
-    }
-    return jobs;
-}
-
-/// What a job will write.
-std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job) {
-    if (job.dataset == experiment::DatasetKind::published) {
-        return {job.output / samples::edge_list_file, job.output / samples::vehicle_features_file,
-                job.output / samples::target_file};
-    }
-    const char* const ending = job.dataset == experiment::DatasetKind::pair_samples
-                                   ? samples::pair_sample_ending
-                                   : samples::graph_sample_extension;
-    std::vector<std::filesystem::path> files;
-    for (const std::string& failure : job.failures)
-        files.push_back(experiment::sample_file(job, failure, ending));
-    return files;
-}
-
-bool holds(const std::filesystem::path& file, const std::string& text) {
-    return std::filesystem::exists(file) && core::read_file(file) == text;
-}
-
-/// Refuses a folder in which recordings of others would be lost. The same command may be given again.
-void check_folder(const std::vector<experiment::DatasetJob>& jobs, const std::string& scenario) {
-    const char* const cure = "Record into another --out, or remove what is there";
-    const std::filesystem::path& scenario_file = jobs.front().scenario_file;
-    if (std::filesystem::exists(scenario_file) && !holds(scenario_file, scenario)) {
-        throw core::InputError(
-            {scenario_file.string(),
-             fmt::format("another configuration of {} was recorded here", jobs.front().scenario),
-             "one for each scenario of a data set", cure});
-    }
-    std::vector<std::string> taken;
-    for (const experiment::DatasetJob& job : jobs) {
-        if (holds(job_file(job), experiment::to_json(job))) continue;
-        for (const std::filesystem::path& file : files_of(job)) {
-            if (std::filesystem::exists(file)) taken.push_back(file.string());
-        }
-    }
-    if (taken.empty()) return;
-    const std::string more = taken.size() == 1 ? "" : fmt::format(", and {} more", taken.size() - 1);
-    throw core::InputError({taken.front(), "is there already, of another recording" + more, "", cure});
-}
-
-/// The lines are what the workers said about their files, by replication. Job files and logs stand beside the
-/// scenario file.
-WorkerResult record_all(const std::vector<experiment::DatasetJob>& jobs, unsigned processes) {
-    std::vector<WorkerJob> work;
-    for (const experiment::DatasetJob& job : jobs) {
-        const std::filesystem::path file = job_file(job);
-        work.push_back({.label = fmt::format("{} replication {}", job.scenario, job.replication),
-                        .job = job,
-                        .file = file,
-                        .log = std::filesystem::path(file).replace_extension(".log"),
-                        .work = job.output / fmt::format("work-{}-{}", job.scenario, job.replication)});
-    }
-    return work_on(work, processes, "recordings");
 }
 
 void print_files(const std::vector<std::string>& lines, Printing printing) {
@@ -141,19 +60,21 @@ void print_files(const std::vector<std::string>& lines, Printing printing) {
 }
 
 core::ExitCode record(Arguments arguments, const Invocation& invocation) {
-    const bool samples = arguments.job.dataset != experiment::DatasetKind::published;
-    if (samples && arguments.job.failures.empty()) arguments.job.failures = {"B10"};
-    if (!samples && arguments.seeds > 1) {
-        throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds),
+    const bool many = arguments.job.dataset != experiment::DatasetKind::published;
+    if (many && arguments.job.failures.empty()) arguments.job.failures = {"B10"};
+    if (!many && arguments.seeds.count > 1) {
+        throw core::InputError({"--seeds", fmt::format("{} for one snapshot", arguments.seeds.count),
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.job.failures);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
-    const std::vector<experiment::DatasetJob> jobs = make_jobs(arguments, config.name);
-    check_folder(jobs, scenario::to_toml(config));
+    arguments.job.output = arguments.folder;
+    const std::vector<experiment::DatasetJob> jobs =
+        samples::dataset_jobs(arguments.job, config.name, arguments.seeds);
+    samples::check_folder(jobs, scenario::to_toml(config));
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);
-    const WorkerResult result = record_all(jobs, arguments.jobs);
+    const WorkerResult result = record_jobs(jobs, arguments.jobs);
     print_files(result.lines, arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,
@@ -228,10 +149,10 @@ Action configure_dataset(CLI::App& app) {
     app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
         ->required()
         ->option_text("DIR (required)");
-    app.add_option("--seeds", arguments->seeds, "Replications to record; more than one with --samples")
+    app.add_option("--seeds", arguments->seeds.count, "Replications to record; more than one with --samples")
         ->check(CLI::Range(1U, most_replications))
         ->option_text(fmt::format("N, 1 to {} [1]", most_replications));
-    app.add_option("--first-seed", arguments->first_seed, "Number of the first replication")
+    app.add_option("--first-seed", arguments->seeds.first, "Number of the first replication")
         ->check(CLI::Range(0U, 4000000000U))
         ->option_text("N, 0 to 4000000000 [0]");
     add_seed_option(app, arguments->job.study_seed);

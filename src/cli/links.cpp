@@ -11,12 +11,15 @@
 
 #include "cli/common_options.hpp"
 #include "cli/condition_options.hpp"
-#include "cli/link_plan.hpp"
 #include "cli/names.hpp"
+#include "cli/programs.hpp"
 #include "cli/scenario_options.hpp"
 #include "cli/shipped_files.hpp"
 #include "cli/verb.hpp"
+#include "cli/worker_jobs.hpp"
 #include "core/files.hpp"
+#include "experiment/link_job.hpp"
+#include "links/link_plan.hpp"
 #include "prediction/predictor.hpp"
 
 namespace clearway::cli {
@@ -36,7 +39,7 @@ struct Arguments {
     links::SeedRange test{0, 10};
     links::SeedRange validation{1000, 5};
     bool quick = false;
-    LinkSplit split = LinkSplit::test;
+    links::LinkSplit split = links::LinkSplit::test;
     std::string against;
     std::string folder;
     unsigned jobs = 0;
@@ -54,22 +57,22 @@ std::string number_text(const std::string& option, const std::string& text) {
     return core::setting_text(text);
 }
 
-LinkPredictor& predictor_named(const std::string& option, const std::string& name,
-                               std::vector<LinkPredictor>& predictors) {
-    const auto found = std::ranges::find(predictors, name, &LinkPredictor::name);
+links::LinkPredictor& predictor_named(const std::string& option, const std::string& name,
+                                      std::vector<links::LinkPredictor>& predictors) {
+    const auto found = std::ranges::find(predictors, name, &links::LinkPredictor::name);
     if (found != predictors.end()) return *found;
     std::vector<std::string> names;
-    for (const LinkPredictor& predictor : predictors)
+    for (const links::LinkPredictor& predictor : predictors)
         names.push_back(predictor.name);
     throw core::InputError(unknown_name(option, name, names));
 }
 
-std::vector<LinkPredictor> predictors_of(const Arguments& arguments) {
-    std::vector<LinkPredictor> predictors;
+std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments) {
+    std::vector<links::LinkPredictor> predictors;
     const std::vector<std::string> names =
         arguments.predictors.empty() ? prediction::predictor_names() : arguments.predictors;
     for (const std::string& name : names) {
-        if (std::ranges::find(predictors, name, &LinkPredictor::name) == predictors.end())
+        if (std::ranges::find(predictors, name, &links::LinkPredictor::name) == predictors.end())
             predictors.push_back({.name = name, .model_file = {}, .settings = {}});
     }
     for (const std::string& words : arguments.settings) {
@@ -77,7 +80,7 @@ std::vector<LinkPredictor> predictors_of(const Arguments& arguments) {
         const std::string value = number_text("--set " + target, text);
         const std::size_t dot = target.find('.');
         if (dot == std::string::npos) {
-            for (LinkPredictor& predictor : predictors)
+            for (links::LinkPredictor& predictor : predictors)
                 predictor.settings[target] = value;
         } else {
             predictor_named("--set", target.substr(0, dot), predictors).settings[target.substr(dot + 1)] =
@@ -155,8 +158,37 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     return benchmark;
 }
 
-LinkPlan plan_of(const Arguments& arguments) {
-    LinkPlan plan;
+/// Checks names and settings. Throws core::InputError with all problems.
+void check(const links::LinkPlan& plan) {
+    std::vector<core::Problem> problems;
+    const auto check_name = [&](const std::string& where, const std::string& name,
+                                const std::vector<std::string>& known) {
+        if (std::ranges::find(known, name) == known.end())
+            problems.push_back(unknown_name(where, name, known));
+    };
+    for (const std::string& failure : plan.benchmark.failures)
+        check_failure("--failure", failure, problems);
+    for (const std::string& exits : plan.benchmark.exits)
+        check_name("exits", exits, {"known", "unknown"});
+    std::vector<std::string> present;
+    for (const links::LinkPredictor& predictor : plan.predictors) {
+        check_name("--predictor", predictor.name, prediction::predictor_names());
+        present.push_back(predictor.name);
+        prediction::check_settings(predictor.name, predictor.settings, "--set " + predictor.name, problems);
+        if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
+            problems.push_back({"--model " + predictor.name,
+                                fmt::format("{} is no file", predictor.model_file),
+                                "a .weights file of clearway train", ""});
+        } else if (!predictor.model_file.empty()) {
+            prediction::check_model(predictor.name, predictor.model_file);
+        }
+    }
+    if (!plan.against.empty()) check_name("--against", plan.against, present);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+links::LinkPlan plan_of(const Arguments& arguments) {
+    links::LinkPlan plan;
     plan.benchmark = arguments.benchmark.empty() ? own_benchmark(arguments) : named_benchmark(arguments);
     if (!arguments.failures.empty()) plan.benchmark.failures = arguments.failures;
     if (arguments.exits != "both") plan.benchmark.exits = {arguments.exits};
@@ -170,21 +202,81 @@ LinkPlan plan_of(const Arguments& arguments) {
     const std::string name =
         arguments.benchmark.empty() ? "links" : fs::path(arguments.benchmark).stem().string();
     plan.folder = arguments.folder.empty() ? fs::path("runs") / name : fs::path(arguments.folder);
-    plan.jobs = arguments.jobs;
     check(plan);
     return plan;
 }
 
+std::string range_text(const links::SeedRange& range) {
+    return fmt::format("{} to {}", range.first, range.first + range.count - 1);
+}
+
+report::LinkFacts described(const links::LinkPlan& plan) {
+    const links::LinkBenchmark& benchmark = plan.benchmark;
+    report::LinkFacts facts;
+    facts.title = benchmark.name;
+    facts.split = plan.split == links::LinkSplit::test ? "test" : "validation";
+    facts.study_seed = benchmark.study_seed;
+    facts.seeds =
+        fmt::format("study seed {}, replications {}; thresholds of F1 chosen on {}", benchmark.study_seed,
+                    range_text(plan.own_seeds()), range_text(benchmark.validation));
+    facts.failures = benchmark.failures;
+    facts.exits = benchmark.exits;
+    facts.against = plan.opponent();
+    for (const scenario::ScenarioConfig& config : benchmark.scenarios)
+        facts.scenarios.push_back(config.name);
+    const study::Versions versions = installed_versions();
+    facts.provenance = {{"Clearway", versions.clearway}, {"SUMO", versions.sumo}};
+    for (const scenario::ScenarioConfig& config : benchmark.scenarios) {
+        facts.provenance.emplace_back("Configuration of " + config.name,
+                                      scenario::configuration_hash(config));
+    }
+    for (const links::LinkPredictor& predictor : plan.predictors) {
+        facts.predictors.push_back(predictor.name);
+        const std::string settings = links::settings_text(predictor);
+        if (!settings.empty()) facts.provenance.emplace_back("Settings of " + predictor.name, settings);
+        if (!predictor.model_file.empty())
+            facts.provenance.emplace_back("Model of " + predictor.name, predictor.model_file);
+    }
+    return facts;
+}
+
+/// Identity of the program that does the runs.
+std::string worker_hash() {
+    const std::string program = sister_program("clearway-run");
+    if (!fs::exists(program))
+        throw core::EnvironmentError(
+            fmt::format("{} is missing. `clearway doctor` shows what else is", program));
+    return core::content_hash(core::read_file(program));
+}
+
+/// Does the runs that the plan's folder lacks.
+core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFiles& files, unsigned jobs) {
+    std::vector<WorkerJob> work;
+    for (const experiment::LinkJob& job : links::missing_runs(plan, files)) {
+        const fs::path file = plan.folder / "jobs" / job.work_folder.filename();
+        work.push_back({.label = fmt::format("{} replication {}", job.scenario, job.replication),
+                        .job = job,
+                        .file = file.string() + ".json",
+                        .log = file.string() + ".log",
+                        .work = job.work_folder});
+    }
+    return work.empty() ? core::ExitCode::ok : work_on(work, jobs, "runs").exit_code;
+}
+
 core::ExitCode evaluate(const Arguments& arguments, const Invocation& invocation) {
-    const LinkPlan plan = plan_of(arguments);
+    const links::LinkPlan plan = plan_of(arguments);
     core::make_folder(plan.folder);
-    const core::ExitCode code = complete_runs(plan);
+    const links::LinkRunFiles files(plan, worker_hash());
+    const core::ExitCode code = complete_runs(plan, files, arguments.jobs);
     if (code != core::ExitCode::ok) {
         fmt::print(stderr, "clearway: incomplete; what is done is kept in {}. To go on:\n  {}\n",
                    plan.folder.string(), invocation.command);
         return code;
     }
-    report::LinkFacts facts = judge(plan);
+    report::LinkFacts facts = described(plan);
+    links::LinkVerdict verdict = links::judge(plan, files);
+    facts.results = std::move(verdict.results);
+    facts.gains = std::move(verdict.gains);
     facts.command = invocation.command;
     const std::string json = report::links_json(facts);
     core::write_atomically(plan.folder / "evaluation.json", json);
@@ -244,7 +336,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
     app.add_option_function<std::string>(
            "--split",
            [&arguments](const std::string& name) {
-               arguments.split = name == "test" ? LinkSplit::test : LinkSplit::validation;
+               arguments.split = name == "test" ? links::LinkSplit::test : links::LinkSplit::validation;
            },
            "Seeds to print figures of; tune settings on `validation` alone")
         ->check(CLI::IsMember({"test", "validation"}))

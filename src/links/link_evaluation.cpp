@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -16,24 +15,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr core::VehicleIndex nowhere = std::numeric_limits<core::VehicleIndex>::max();
 /// Pairs count as the policy's within this distance along the route: that of policy::ClearLane. (Candidates
 /// are nearer than that in any case.)
 constexpr core::Metres policy_horizon{150.0};
 /// Slack for step times that are sums of decimals, s.
 constexpr double time_slack_s = 1e-6;
-
-/// Rows of `into` by rows of `from`, both ascending by key; `nowhere` without a counterpart.
-template <class From, class Into>
-void match_by_key(const From& from, const Into& into, std::vector<core::VehicleIndex>& rows) {
-    rows.assign(from.size(), nowhere);
-    std::size_t at = 0;
-    for (std::size_t row = 0; row < from.size(); ++row) {
-        while (at < into.size() && into[at] < from[row])
-            ++at;
-        if (at < into.size() && into[at] == from[row]) rows[row] = static_cast<core::VehicleIndex>(at);
-    }
-}
 
 /// Distance from one vehicle to another ahead on its route; nothing where either has no place on it.
 std::optional<core::Metres> distance_ahead(const roads::Network& network, const traffic::Roster& roster,
@@ -56,23 +42,19 @@ bool is_emergency(traffic::VehicleClass vehicle_class) {
 }  // namespace
 
 LinkTruthView::LinkTruthView(const roads::Network& network, const graph::LinkRules& rules)
-    : network_(network), rules_(rules) {}
+    : network_(network), links_(rules) {}
 
 void LinkTruthView::look(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, graph_);
+    links_.look(snapshot);
     policy_links_.clear();
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
         if (!is_emergency(snapshot.vehicle_class[row])) continue;
-        for (const core::VehicleIndex other : graph_.neighbours_of(row)) {
+        for (const core::VehicleIndex other : links_.graph().neighbours_of(row)) {
             if (distance_ahead(network_, roster, snapshot.key[row], snapshot.motion(row),
                                snapshot.motion(other)))
                 policy_links_.push_back({row, other});
         }
     }
-}
-
-bool LinkTruthView::linked(core::VehicleIndex left, core::VehicleIndex right) const {
-    return std::ranges::binary_search(graph_.neighbours_of(left), right);
 }
 
 LinkTrial::LinkTrial(const roads::Network& network, const graph::LinkRules& rules, Setup setup)
@@ -100,7 +82,7 @@ void LinkTrial::ask(const truth::Snapshot& snapshot, const LinkTruthView& truth,
         const prediction::Scene& own = *contestant.predictor->scores().scene;
         if (scene == nullptr) {
             scene = &own;
-            match_rows(snapshot, own.tracks);
+            core::match_rows(own.tracks.key, snapshot.key, true_row_);
             describe_candidates(own, truth);
             count_truth(snapshot, own, truth);
         }
@@ -114,14 +96,8 @@ void LinkTrial::ask(const truth::Snapshot& snapshot, const LinkTruthView& truth,
     }
 }
 
-void LinkTrial::match_rows(const truth::Snapshot& snapshot, const prediction::Tracks& tracks) {
-    match_by_key(tracks.key, snapshot.key, snapshot_row_);
-}
-
 bool LinkTrial::truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const {
-    const core::VehicleIndex left = snapshot_row_[pair.left];
-    const core::VehicleIndex right = snapshot_row_[pair.right];
-    return left != nowhere && right != nowhere && truth.linked(left, right);
+    return truth.links().linked(true_row_[pair.left], true_row_[pair.right]);
 }
 
 void LinkTrial::describe_candidates(const prediction::Scene& scene, const LinkTruthView& truth) {
@@ -133,8 +109,8 @@ void LinkTrial::describe_candidates(const prediction::Scene& scene, const LinkTr
         const prediction::RowPair rows = pairs.rows[at];
         label_[at] = truly_linked(rows, truth) ? 1 : 0;
         const float age_s = std::max(scene.tracks.age_s[rows.left], scene.tracks.age_s[rows.right]);
-        traits_[at] = {metrics::age_class_of(age_s),
-                       metrics::is_hard(pairs.last_seen_m[at], pairs.dead_reckoned_m[at], radius_m),
+        traits_[at] = {age_class_of(age_s),
+                       is_hard(pairs.last_seen_m[at], pairs.dead_reckoned_m[at], radius_m),
                        is_ahead_of_emergency(scene.tracks, rows)};
     }
 }
@@ -151,7 +127,7 @@ bool LinkTrial::is_ahead_of_emergency(const prediction::Tracks& tracks, predicti
 
 void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,
                             const LinkTruthView& truth) {
-    sensor_->log_failures(snapshot, truth.graph(), log_);
+    sensor_->log_failures(snapshot, truth.links().graph(), log_);
     const auto never_seen = static_cast<std::uint64_t>(std::ranges::count(
         log_.lost_links, sensing::FailureLog::Cause::never_seen, &sensing::FailureLog::LostLink::cause));
     auto in_reach = static_cast<std::uint64_t>(std::ranges::count(label_, 1));
@@ -161,9 +137,9 @@ void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::S
     }
     ++truth_.reports;
     truth_.vehicles += snapshot.size();
-    truth_.true_links += truth.link_count();
+    truth_.true_links += truth.links().link_count();
     truth_.never_seen += never_seen;
-    truth_.outside += truth.link_count() - never_seen - in_reach;
+    truth_.outside += truth.links().link_count() - never_seen - in_reach;
     truth_.policy_links += truth.policy_links().size();
     observed_vehicles_ += observation_.vehicles.size();
 }
@@ -183,35 +159,17 @@ void LinkTrial::score(Contestant& contestant) const {
 void LinkTrial::count_belief(Contestant& contestant, const truth::Snapshot& snapshot,
                              const LinkTruthView& truth) {
     const traffic::BelievedGraph& belief = contestant.belief;
-    metrics::LinkBelief& counts = contestant.counts;
-    believed_snapshot_row_.assign(belief.vehicles.size(), nowhere);
-    row_believed_.assign(snapshot.size(), nowhere);
-    std::size_t row = 0;  // Both are ordered by key.
-    for (core::VehicleIndex believed = 0; believed < belief.vehicles.size(); ++believed) {
-        const core::VehicleKey key = belief.vehicles[believed].key;
-        while (row < snapshot.size() && snapshot.key[row] < key)
-            ++row;
-        if (row == snapshot.size() || snapshot.key[row] != key) {
-            ++counts.ghosts;
-            continue;
-        }
-        believed_snapshot_row_[believed] = static_cast<core::VehicleIndex>(row);
-        row_believed_[row] = believed;
-    }
+    LinkBelief& counts = contestant.counts;
+    match_.match(snapshot, belief);
     counts.believed_vehicles += belief.vehicles.size();
-    for (core::VehicleIndex left = 0; left < belief.vehicles.size(); ++left) {
-        for (const traffic::BelievedLink& link : belief.links_of(left)) {
-            if (link.neighbour <= left) continue;
-            const core::VehicleIndex from = believed_snapshot_row_[left];
-            const core::VehicleIndex to = believed_snapshot_row_[link.neighbour];
-            const bool is_true = from != nowhere && to != nowhere && truth.linked(from, to);
-            ++(is_true ? counts.listed_true : counts.listed_false);
-        }
-    }
+    counts.ghosts += static_cast<std::uint64_t>(std::ranges::count(match_.true_rows(), core::no_row));
+    match_.for_each_link(belief, truth.links(), [&](core::VehicleIndex, core::VehicleIndex, bool is_true) {
+        ++(is_true ? counts.listed_true : counts.listed_false);
+    });
     for (const prediction::RowPair pair : truth.policy_links()) {
-        const core::VehicleIndex emergency = row_believed_[pair.left];
-        const core::VehicleIndex other = row_believed_[pair.right];
-        if (emergency == nowhere || other == nowhere) continue;
+        const core::VehicleIndex emergency = match_.believed_rows()[pair.left];
+        const core::VehicleIndex other = match_.believed_rows()[pair.right];
+        if (emergency == core::no_row || other == core::no_row) continue;
         const auto links = belief.links_of(emergency);
         if (std::ranges::binary_search(links, other, {}, &traffic::BelievedLink::neighbour))
             ++counts.policy_found;

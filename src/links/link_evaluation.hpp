@@ -7,9 +7,10 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "graph/proximity.hpp"
 #include "links/link_run.hpp"
-#include "metrics/link_scores.hpp"
+#include "links/link_scores.hpp"
+#include "metrics/link_comparison.hpp"
+#include "metrics/true_links.hpp"
 #include "prediction/predictor.hpp"
 #include "sensing/sensor.hpp"
 #include "trace/step_listener.hpp"
@@ -24,19 +25,13 @@ class LinkTruthView {
     LinkTruthView(const roads::Network& network, const graph::LinkRules& rules);
     void look(const truth::Snapshot& snapshot, const traffic::Roster& roster);
 
-    /// Whether two rows of the snapshot are linked. O(log degree).
-    bool linked(core::VehicleIndex left, core::VehicleIndex right) const;
-    /// As metrics::LinkTruth counts them.
-    std::uint64_t link_count() const { return graph_.link_count(); }
-    const graph::ProximityGraph& graph() const { return graph_; }
+    const metrics::TrueLinks& links() const { return links_; }
     /// Links between an emergency vehicle (`left`) and one ahead on its route within the link radius.
     const std::vector<prediction::RowPair>& policy_links() const { return policy_links_; }
 
   private:
     const roads::Network& network_;
-    graph::LinkRules rules_;
-    graph::ProximityBuilder builder_;
-    graph::ProximityGraph graph_;
+    metrics::TrueLinks links_;
     std::vector<prediction::RowPair> policy_links_;
 };
 
@@ -66,11 +61,10 @@ class LinkTrial {
     struct Contestant {
         std::unique_ptr<prediction::Predictor> predictor;
         traffic::BelievedGraph belief;
-        metrics::LinkScores scores;
-        metrics::LinkBelief counts;
+        LinkScores scores;
+        LinkBelief counts;
         double predict_s = 0.0;
     };
-    void match_rows(const truth::Snapshot& snapshot, const prediction::Tracks& tracks);
     void describe_candidates(const prediction::Scene& scene, const LinkTruthView& truth);
     bool is_ahead_of_emergency(const prediction::Tracks& tracks, prediction::RowPair pair) const;
     bool truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const;
@@ -86,13 +80,13 @@ class LinkTrial {
     traffic::Observation observation_;
     sensing::FailureLog log_;
     std::vector<Contestant> contestants_;
-    metrics::LinkTruth truth_;
+    LinkTruth truth_;
     std::uint64_t observed_vehicles_ = 0;
 
-    std::vector<core::VehicleIndex> snapshot_row_;  ///< By row of the tracks; `nowhere` when it has left.
-    std::vector<std::uint8_t> label_;               ///< By candidate.
-    std::vector<metrics::PairTraits> traits_;       ///< By candidate.
-    std::vector<core::VehicleIndex> believed_snapshot_row_, row_believed_;
+    std::vector<core::VehicleIndex> true_row_;  ///< By row of the tracks; `core::no_row` when it has left.
+    std::vector<std::uint8_t> label_;           ///< By candidate.
+    std::vector<PairTraits> traits_;            ///< By candidate.
+    metrics::BeliefMatch match_;
 };
 
 /// Judges predictors by every report of a run: one trial for each failure and exits. Scores at most once a

@@ -19,15 +19,15 @@ std::vector<const LinkCase*> cases_of(std::span<const LinkRun> runs, std::size_t
 }
 
 double threshold_of(std::span<const LinkRun> validation, std::size_t number) {
-    metrics::LinkSummary pooled;
+    LinkSummary pooled;
     for (const LinkCase* const one : cases_of(validation, number))
-        pooled.add(one->scores.of(metrics::LinkSubset::all));
-    return metrics::best_f1_threshold(pooled);
+        pooled.add(one->scores.of(LinkSubset::all));
+    return best_f1_threshold(pooled);
 }
 
-detail::DrawnMeasures draw_subset(const std::vector<const LinkCase*>& cases, metrics::LinkSubset subset,
+detail::DrawnMeasures draw_subset(const std::vector<const LinkCase*>& cases, LinkSubset subset,
                                   double threshold, const analysis::RunResampling& resampling) {
-    std::vector<metrics::LinkSummary> runs;
+    std::vector<LinkSummary> runs;
     for (const LinkCase* const one : cases)
         runs.push_back(one->scores.of(subset));
     return detail::draw_measures(runs, threshold, resampling);
@@ -53,8 +53,8 @@ LinkEndToEnd end_to_end(const std::vector<const LinkCase*>& cases,
         return values;
     };
     for (const LinkCase* const one : cases) {
-        metrics::add_counts(result.truth, one->truth);
-        metrics::add_counts(result.belief, one->belief);
+        add_counts(result.truth, one->truth);
+        add_counts(result.belief, one->belief);
     }
     const auto listed_true = column([](const LinkCase& one) { return one.belief.listed_true; });
     const auto listed =
@@ -144,10 +144,10 @@ void LinkJudgement::add_pooled(const LinkRuns& runs, std::size_t number, double 
     const std::vector<const LinkCase*> cases = cases_of(runs.test, number);
     LinkResult result = result_for(runs.test.front(), number, threshold);
     if (runs_by_scenario_.size() == 1) result.scenario = runs.test.front().scenario;
-    for (const metrics::LinkSubset subset : metrics::link_subsets) {
+    for (const LinkSubset subset : link_subsets) {
         const detail::DrawnMeasures drawn = draw_subset(cases, subset, threshold, pooled_);
         result.subsets[static_cast<std::size_t>(subset)] = measures_from(drawn, pooled_);
-        if (subset == metrics::LinkSubset::all)
+        if (subset == LinkSubset::all)
             pooled_cases_.push_back({results_.size(), {drawn.ap.draws, drawn.f1.draws}});
     }
     for (const LinkCase* const one : cases)
@@ -168,7 +168,7 @@ void LinkJudgement::add_scenario(const LinkRuns& runs, std::size_t number, std::
     const std::vector<const LinkCase*> cases = cases_of(own, number);
     LinkResult result = result_for(own.front(), number, threshold);
     result.scenario = own.front().scenario;
-    for (const metrics::LinkSubset subset : metrics::link_subsets) {
+    for (const LinkSubset subset : link_subsets) {
         result.subsets[static_cast<std::size_t>(subset)] =
             measures_from(draw_subset(cases, subset, threshold, resampling), resampling);
     }
@@ -195,8 +195,8 @@ std::vector<LinkGain> LinkJudgement::gains(const std::string& against) const {
 LinkGain LinkJudgement::gain(const PooledCase& one, const PooledCase& other) const {
     const LinkResult& result = results_[one.result];
     const LinkResult& opponent = results_[other.result];
-    const LinkMeasures& own = result.of(metrics::LinkSubset::all);
-    const LinkMeasures& theirs = opponent.of(metrics::LinkSubset::all);
+    const LinkMeasures& own = result.of(LinkSubset::all);
+    const LinkMeasures& theirs = opponent.of(LinkSubset::all);
     const Drawn ap{own.ap.value, one.draws.ap};
     const Drawn other_ap{theirs.ap.value, other.draws.ap};
     const Drawn f1{own.f1.value, one.draws.f1};

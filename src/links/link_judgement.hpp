@@ -8,7 +8,7 @@
 
 #include "analysis/resampling.hpp"
 #include "links/link_run.hpp"
-#include "metrics/link_scores.hpp"
+#include "links/link_scores.hpp"
 
 namespace clearway::links {
 
@@ -22,8 +22,8 @@ struct LinkMeasures {
 /// The believed graph against the true one, at the predictor's own link threshold: true links outside the
 /// candidates and of vehicles never seen are misses.
 struct LinkEndToEnd {
-    metrics::LinkTruth truth;
-    metrics::LinkBelief belief;
+    LinkTruth truth;
+    LinkBelief belief;
     analysis::Measured precision, recall, f1;
     analysis::Measured policy_recall;  ///< Of links between an emergency vehicle and one ahead on its route.
 
@@ -42,16 +42,14 @@ struct LinkResult {
     std::string exits;
     std::string predictor;
     double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
-    std::array<LinkMeasures, metrics::link_subsets.size()> subsets;
+    std::array<LinkMeasures, link_subsets.size()> subsets;
     LinkEndToEnd end_to_end;
     double report_us = 0.0;        ///< Wall time of one prediction.
     double report_vehicles = 0.0;  ///< In an observation, on average.
 
-    const LinkMeasures& of(metrics::LinkSubset subset) const {
-        return subsets[static_cast<std::size_t>(subset)];
-    }
+    const LinkMeasures& of(LinkSubset subset) const { return subsets[static_cast<std::size_t>(subset)]; }
     /// The pairs themselves, for curves; of the pooled result alone.
-    metrics::LinkScoreSummary scores;
+    LinkScoreSummary scores;
 };
 
 /// Error of a predictor against an opponent's, pooled: 1 means that nothing is left, 0 no difference.

@@ -37,10 +37,10 @@ class Writer {
             bytes_ += static_cast<char>(value | 0x80U);
         bytes_ += static_cast<char>(value);
     }
-    void add(const metrics::LinkSummary& summary) {
+    void add(const LinkSummary& summary) {
         add(summary.bins.size());
         std::uint32_t last = 0;
-        for (const metrics::LinkSummary::Bin& bin : summary.bins) {
+        for (const LinkSummary::Bin& bin : summary.bins) {
             add(bin.bin - last);
             add(bin.linked);
             add(bin.unlinked);
@@ -48,14 +48,14 @@ class Writer {
         }
         if (summary.bins.empty()) return;
         add(summary.log_loss);
-        for (const metrics::LinkSummary::Calibration& bin : summary.calibration) {
+        for (const LinkSummary::Calibration& bin : summary.calibration) {
             add(bin.pairs);
             add(bin.linked);
             add(bin.probability);
         }
     }
-    void add(const metrics::LinkScoreSummary& scores) {
-        for (const metrics::LinkSummary& cell : scores.cells)
+    void add(const LinkScoreSummary& scores) {
+        for (const LinkSummary& cell : scores.cells)
             add(cell);
         add(scores.policy);
     }
@@ -79,31 +79,31 @@ class Reader {
         }
         refuse(file_, "holds a number that is too long");
     }
-    metrics::LinkSummary summary() {
-        metrics::LinkSummary summary;
+    LinkSummary summary() {
+        LinkSummary summary;
         const std::uint64_t bins = integer();
-        if (bins > metrics::LinkGrid::size) refuse(file_, fmt::format("lists {} bins", bins));
+        if (bins > LinkGrid::size) refuse(file_, fmt::format("lists {} bins", bins));
         std::uint64_t last = 0;
         for (std::uint64_t i = 0; i < bins; ++i) {
             last += integer();
-            if (last >= metrics::LinkGrid::size) refuse(file_, fmt::format("names bin {}", last));
-            metrics::LinkSummary::Bin& bin = summary.bins.emplace_back();
+            if (last >= LinkGrid::size) refuse(file_, fmt::format("names bin {}", last));
+            LinkSummary::Bin& bin = summary.bins.emplace_back();
             bin.bin = static_cast<std::uint32_t>(last);
             bin.linked = integer();
             bin.unlinked = integer();
         }
         if (bins == 0) return summary;
         summary.log_loss = integer();
-        for (metrics::LinkSummary::Calibration& bin : summary.calibration) {
+        for (LinkSummary::Calibration& bin : summary.calibration) {
             bin.pairs = integer();
             bin.linked = integer();
             bin.probability = integer();
         }
         return summary;
     }
-    metrics::LinkScoreSummary scores() {
-        metrics::LinkScoreSummary scores;
-        for (metrics::LinkSummary& cell : scores.cells)
+    LinkScoreSummary scores() {
+        LinkScoreSummary scores;
+        for (LinkSummary& cell : scores.cells)
             cell = summary();
         scores.policy = summary();
         return scores;

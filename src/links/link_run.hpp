@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/link_scores.hpp"
+#include "links/link_scores.hpp"
 
 namespace clearway::links {
 
@@ -13,9 +13,9 @@ namespace clearway::links {
 struct LinkCase {
     std::string failure;
     std::string exits;  ///< `known` or `unknown`.
-    metrics::LinkTruth truth;
-    metrics::LinkBelief belief;
-    metrics::LinkScoreSummary scores;
+    LinkTruth truth;
+    LinkBelief belief;
+    LinkScoreSummary scores;
 
     bool operator==(const LinkCase&) const = default;
 };

@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
 
 void ClosedLoop::begin(Machinery machinery, const LoopConfig& config) {
     machinery_ = std::move(machinery);
-    rules_.radius_m = config.link_radius_m;
+    true_links_ = metrics::TrueLinks(graph::LinkRules{.radius_m = config.link_radius_m});
     timing_ = {};
 }
 
@@ -80,8 +80,8 @@ void ClosedLoop::act(const truth::Snapshot& snapshot) {
 }
 
 void ClosedLoop::score(const truth::Snapshot& snapshot) {
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
-    recorder_.links(snapshot, true_graph_, machinery_->chain->belief());
+    true_links_.look(snapshot);
+    recorder_.links(snapshot, true_links_, machinery_->chain->belief());
 }
 
 void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {

@@ -10,7 +10,6 @@
 #include "core/units.hpp"
 #include "drivers/siren.hpp"
 #include "experiment/loop_config.hpp"
-#include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
 #include "sumo/session.hpp"
@@ -74,9 +73,7 @@ class ClosedLoop {
     std::optional<Machinery> machinery_;
     trace::StepListener* listener_ = nullptr;
 
-    graph::LinkRules rules_;
-    graph::ProximityBuilder builder_;
-    graph::ProximityGraph true_graph_;
+    metrics::TrueLinks true_links_;
     std::vector<traffic::Command> commands_;
     LoopTiming timing_;
 };

@@ -8,29 +8,25 @@
 
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
+#include "loop/detail/plain_run.hpp"
 #include "loop/unit_run.hpp"
+#include "prediction/features.hpp"
 #include "samples/recorders.hpp"
 #include "trace/listeners.hpp"
 
 namespace clearway::loop {
 namespace {
 
-/// Car-following alone: data sets show traffic that no policy has touched.
-experiment::ConditionSpec plain_traffic() {
-    experiment::ConditionSpec condition;
-    condition.name = "dataset";
-    return condition;
-}
-
 void record_published(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
     const prediction::FeatureSchema schema = job.feature_count == 2
                                                  ? prediction::as_published_position_schema()
                                                  : prediction::as_published_attributes_schema();
     samples::PairDatasetRecorder recorder(run.network(), rules, schema, job.pairs);
-    run.record(plain_traffic(), recorder);
+    run.record(detail::plain_traffic("dataset"), recorder);
     const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
-        throw core::InputError({job.scenario, "no two vehicles of linkable classes ever came near each other",
+        throw core::InputError({job.scenario,
+                                "no two vehicles of linkable classes ever came near each other",
                                 "at least one link", "Raise the density, or choose another seed"});
     }
     samples::write_pair_dataset(job.output, dataset);
@@ -38,71 +34,35 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
                dataset.pair_count(), recorder.time().value);
 }
 
-bool exits_unknown(const experiment::DatasetJob& job) {
-    return job.exits == "unknown";
-}
-
 /// The failure as data sets name it.
 std::string failure_name(const experiment::DatasetJob& job, const std::string& failure) {
-    return failure + (exits_unknown(job) ? " exits unknown" : "");
+    return failure + (job.exits == "unknown" ? " exits unknown" : "");
 }
 
-std::unique_ptr<sensing::SensorModel> sensor_for(const experiment::DatasetJob& job,
-                                                 const std::string& failure, const UnitRun& run,
-                                                 const graph::LinkRules& rules) {
-    sensing::FailureConfig config = sensing::failure_from(failure);
-    if (exits_unknown(job)) config.exits = sensing::Exits::unknown;
-    const core::KeyedRandom random(core::StudySeed{job.study_seed}, core::Replication{job.replication});
-    return sensing::make_sensor(config, random, {.network = run.network(), .rules = rules});
-}
-
-/// One recorder of a kind for each failure, all watching one run.
-template <class Recorder>
-void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules,
-                    const prediction::FeatureSchema& features) {
-    std::vector<std::unique_ptr<Recorder>> recorders;
+/// One recorder for each failure, all watching one run.
+void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
+    std::vector<std::unique_ptr<samples::SampleRecorder>> recorders;
     trace::Listeners all;
     for (const std::string& failure : job.failures) {
-        const samples::GraphSampleOrigin origin{.scenario = job.scenario,
-                                                .failure = failure_name(job, failure),
-                                                .features = features,
-                                                .study_seed = job.study_seed,
-                                                .replication = job.replication,
-                                                .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<Recorder>(run.network(), rules, origin,
-                                                       sensor_for(job, failure, run, rules),
-                                                       core::Seconds(job.interval_s)));
+        recorders.push_back(samples::make_sample_recorder(
+            job.dataset, {.network = run.network(),
+                         .rules = rules,
+                         .origin = {.scenario = job.scenario,
+                                    .failure = failure_name(job, failure),
+                                    .features = {},
+                                    .study_seed = job.study_seed,
+                                    .replication = job.replication,
+                                    .link_radius_m = rules.radius_m},
+                         .sensor = detail::sensor_of(failure, job.exits, detail::random_of(job),
+                                                     {.network = run.network(), .rules = rules}),
+                         .interval = core::Seconds(job.interval_s)}));
         all.add(*recorders.back());
     }
-    run.record(plain_traffic(), all);
+    run.record(detail::plain_traffic("dataset"), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
-            experiment::sample_file(job, job.failures[i], samples::graph_sample_extension);
-        recorders[i]->writer().write(file);
-        fmt::print("{}: {} samples\n", file.string(), recorders[i]->writer().sample_count());
-    }
-}
-
-void record_pair_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
-    std::vector<std::unique_ptr<samples::PairSampleRecorder>> recorders;
-    trace::Listeners all;
-    for (const std::string& failure : job.failures) {
-        const samples::PairSampleOrigin origin{.scenario = job.scenario,
-                                               .failure = failure_name(job, failure),
-                                               .study_seed = job.study_seed,
-                                               .replication = job.replication,
-                                               .link_radius_m = rules.radius_m};
-        recorders.push_back(std::make_unique<samples::PairSampleRecorder>(
-            run.network(), rules, origin, sensor_for(job, failure, run, rules),
-            core::Seconds(job.interval_s)));
-        all.add(*recorders.back());
-    }
-    run.record(plain_traffic(), all);
-    for (std::size_t i = 0; i < recorders.size(); ++i) {
-        const std::filesystem::path file =
-            experiment::sample_file(job, job.failures[i], samples::pair_sample_ending);
-        samples::write_pair_samples(file, recorders[i]->samples());
-        fmt::print("{}: {} pairs\n", file.string(), recorders[i]->samples().linked.size());
+            experiment::sample_file(job, job.failures[i], samples::sample_ending(job.dataset));
+        fmt::print("{}: {}\n", file.string(), recorders[i]->write(file));
     }
 }
 
@@ -110,23 +70,14 @@ void record_pair_samples(const experiment::DatasetJob& job, UnitRun& run, const 
 
 core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     core::make_folder(job.output);
-    const core::TemporaryFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
+    const core::TemporaryFolder work(job.output /
+                                  fmt::format("work-{}-{}", job.scenario, job.replication));
     UnitRun run(job, work.path());
-    graph::LinkRules rules;
-    rules.radius_m = LoopConfig{}.link_radius_m;
-    switch (job.dataset) {
-        case experiment::DatasetKind::published:
-            record_published(job, run, rules);
-            break;
-        case experiment::DatasetKind::samples:
-            record_samples<samples::SampleRecorder>(job, run, rules, prediction::corrected_schema());
-            break;
-        case experiment::DatasetKind::repair:
-            record_samples<samples::RepairSampleRecorder>(job, run, rules, prediction::repair_schema());
-            break;
-        case experiment::DatasetKind::pair_samples:
-            record_pair_samples(job, run, rules);
-            break;
+    const graph::LinkRules rules = detail::link_rules();
+    if (job.dataset == experiment::DatasetKind::published) {
+        record_published(job, run, rules);
+    } else {
+        record_samples(job, run, rules);
     }
     return core::ExitCode::ok;
 }

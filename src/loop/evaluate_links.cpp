@@ -8,19 +8,13 @@
 
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
+#include "experiment/link_job.hpp"
 #include "links/link_evaluation.hpp"
+#include "loop/detail/plain_run.hpp"
 #include "loop/unit_run.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::loop {
 namespace {
-
-sensing::Exits exits_from(const std::string& word) {
-    for (const auto& [value, spelling] : sensing::spellings(sensing::Exits{})) {
-        if (word == spelling) return value;
-    }
-    throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
-}
 
 std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& job,
                                             const roads::Network& network, const graph::LinkRules& rules) {
@@ -28,17 +22,15 @@ std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& j
         job.name, {.network = network, .rules = rules, .model_file = job.model_file}, job.settings);
 }
 
-void add_trials(const experiment::LinkJob& job, const roads::Network& network, const graph::LinkRules& rules,
-                links::LinkEvaluator& evaluator) {
-    const core::KeyedRandom random(core::StudySeed{job.study_seed}, core::Replication{job.replication});
+void add_trials(const experiment::LinkJob& job, const roads::Network& network,
+                const graph::LinkRules& rules, links::LinkEvaluator& evaluator) {
+    const core::KeyedRandom random = detail::random_of(job);
     for (const std::string& exits : job.exits) {
         for (const std::string& failure : job.failures) {
-            sensing::FailureConfig config = sensing::failure_from(failure);
-            config.exits = exits_from(exits);
             links::LinkTrial::Setup setup{
                 .failure = failure,
                 .exits = exits,
-                .sensor = sensing::make_sensor(config, random, {.network = network, .rules = rules}),
+                .sensor = detail::sensor_of(failure, exits, random, {.network = network, .rules = rules}),
                 .predictors = {}};
             for (const experiment::JudgedPredictor& predictor : job.predictors)
                 setup.predictors.push_back(make(predictor, network, rules));
@@ -83,13 +75,10 @@ void write_results(const experiment::LinkJob& job, const std::string& configurat
 core::ExitCode evaluate_links(const experiment::LinkJob& job) {
     const core::TemporaryFolder work(job.work_folder);
     UnitRun run(job, work.path());
-    graph::LinkRules rules;
-    rules.radius_m = experiment::LoopConfig{}.link_radius_m;
+    const graph::LinkRules rules = detail::link_rules();
     links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(job, run.network(), rules, evaluator);
-    experiment::ConditionSpec plain_traffic;
-    plain_traffic.name = "links";
-    run.record(plain_traffic, evaluator);
+    run.record(detail::plain_traffic("links"), evaluator);
     check_scored(job, evaluator);
     write_results(job, run.scenario_hash(), evaluator);
     return core::ExitCode::ok;

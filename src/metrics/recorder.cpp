@@ -12,9 +12,9 @@
 #include "metrics/detail/conflict_watch.hpp"
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
-#include "metrics/detail/link_comparison.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
+#include "metrics/link_comparison.hpp"
 #include "metrics/restricted_time.hpp"
 
 namespace clearway::metrics {
@@ -253,7 +253,7 @@ double driven_km(const std::vector<VehicleRow>& rows) {
 struct Recorder::State {
     RecorderConfig config;
     detail::TraceHash trace;
-    detail::LinkComparison links;
+    LinkComparison links;
     RunMetrics counted;  ///< What events and snapshots say so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
     RoadLayout layout;
@@ -303,9 +303,9 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         ++state_->teleports[vehicle];
 }
 
-void Recorder::links(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+void Recorder::links(const truth::Snapshot& snapshot, const TrueLinks& truth,
                      const traffic::BelievedGraph& belief) {
-    state_->links.add(snapshot, true_graph, belief, state_->config.fresh_age_s);
+    state_->links.add(snapshot, truth, belief, state_->config.fresh_age_s);
 }
 
 RunSummary Recorder::finish(const RunEnd& end) const {

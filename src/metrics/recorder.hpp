@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/units.hpp"
-#include "graph/proximity.hpp"
 #include "metrics/road_layout.hpp"
 #include "metrics/run_metrics.hpp"
+#include "metrics/true_links.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/departure.hpp"
 #include "traffic/lease.hpp"
@@ -80,10 +80,9 @@ class Recorder {
     /// of the snapshot.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster, const truth::Events& events,
               std::span<const traffic::Lease> leases);
-    /// Compares the believed links with the true ones of the same moment. A link counts as believed when the
-    /// belief lists it.
-    void links(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
-               const traffic::BelievedGraph& belief);
+    /// Compares the believed links with the true ones; `truth` is that of the snapshot. A link counts as
+    /// believed when the belief lists it.
+    void links(const truth::Snapshot& snapshot, const TrueLinks& truth, const traffic::BelievedGraph& belief);
 
     /// Reads the tripinfo files and puts everything together. Throws core::SimulatorError when a file is
     /// missing, cut off or lists a vehicle that nobody planned.

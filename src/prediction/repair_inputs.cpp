@@ -9,64 +9,48 @@
 namespace clearway::prediction {
 namespace {
 
-constexpr float speed_unit_mps = 15.0F;
-constexpr float length_unit_m = 50.0F;
 /// In place of a range where a vehicle does not detect the other.
 constexpr float not_detected = -2.0F;
 
-float flag(bool condition) {
-    return condition ? 1.0F : 0.0F;
-}
-
-float within(float value, float most) {
-    return std::clamp(value, -most, most);
-}
-
-/// Writes numbers one after the other into a row that is all zero at first.
-class RowWriter {
-  public:
-    explicit RowWriter(std::span<float> row) : row_(row) {}
-    void put(float value) {
-        assert(at_ < row_.size());
-        assert(std::isfinite(value));
-        row_[at_++] = value;
-    }
-    void put(bool condition) { put(flag(condition)); }
-    void skip(std::size_t count) { at_ += count; }
-
-  private:
-    std::span<float> row_;
-    std::size_t at_ = 0;
+/// Places of what is said of a stop line.
+struct LineInputs {
+    std::size_t exists, distance, green, signal_age;
 };
+constexpr LineInputs line_inputs = {node_input("line"), node_input("line_distance"), node_input("line_green"),
+                                    node_input("line_signal_age")};
+constexpr LineInputs next_line_inputs = {node_input("next_line"), node_input("next_line_distance"),
+                                         node_input("next_line_green"), node_input("next_line_signal_age")};
 
-void put_line_on_way(RowWriter& out, const LineOnWay& line) {
-    out.put(line.exists());
-    if (!line.exists()) {
-        out.skip(3);
-        return;
-    }
-    out.put(within(line.distance_m / 100.0F, 4.0F));
-    out.put(traffic::is_green(line.letter));
-    out.put(std::min(line.letter_age_s, 60.0F) / 20.0F);
+void write_line(const LineOnWay& line, const LineInputs& inputs, NetInputRow& row) {
+    if (!line.exists()) return;
+    row.set(inputs.exists, true);
+    row.set(inputs.distance, line.distance_m);
+    row.set(inputs.green, traffic::is_green(line.letter));
+    row.set(inputs.signal_age, line.letter_age_s);
 }
 
-void put_vehicle_on_way(RowWriter& out, const VehicleOnWay& vehicle, float displacement_m) {
-    out.put(vehicle.exists);
-    if (!vehicle.exists) {
-        out.skip(4);
-        return;
-    }
-    out.put(vehicle.known);
-    out.put(within(vehicle.distance_m / length_unit_m, 6.0F));
-    out.put(within((vehicle.distance_m - vehicle.length_m - displacement_m) / length_unit_m, 4.0F));
-    out.put(vehicle.speed_mps / speed_unit_mps);
+/// Places of what is said of another vehicle on the way.
+struct VehicleInputs {
+    std::size_t exists, known, distance, gap, speed;
+};
+constexpr VehicleInputs leader_inputs = {node_input("leader"), node_input("leader_known"),
+                                         node_input("leader_distance"), node_input("leader_gap"),
+                                         node_input("leader_speed")};
+constexpr VehicleInputs follower_inputs = {node_input("follower"), node_input("follower_known"),
+                                           node_input("follower_distance"), node_input("follower_gap"),
+                                           node_input("follower_speed")};
+
+void write_vehicle(const VehicleOnWay& vehicle, float displacement_m, const VehicleInputs& inputs,
+                   NetInputRow& row) {
+    if (!vehicle.exists) return;
+    row.set(inputs.exists, true);
+    row.set(inputs.known, vehicle.known);
+    row.set(inputs.distance, vehicle.distance_m);
+    row.set(inputs.gap, vehicle.distance_m - vehicle.length_m - displacement_m);
+    row.set(inputs.speed, vehicle.speed_mps);
 }
 
 }  // namespace
-
-FeatureSchema repair_schema() {
-    return {"repair", 2, node_width};
-}
 
 void RepairInputs::clear() {
     rows = 0;
@@ -105,7 +89,7 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
         x_m_[ahead.row] = place.x_m;
         y_m_[ahead.row] = place.y_m;
         inputs.place_sigma_m[ahead.row] = ahead.sigma_m;
-        inputs.receivers.push_back({ahead.row, ahead.displacement_m, ahead.reach_m, -1.0F, ahead.path});
+        inputs.receivers.push_back({ahead.row, ahead.displacement_m, ahead.reach_m, ahead.path});
     }
     list_detections(scene);
     write_nodes(observation, scene, inputs);
@@ -128,55 +112,62 @@ void RepairInputBuilder::write_nodes(const traffic::Observation& observation, co
                                      RepairInputs& inputs) {
     const Tracks& tracks = scene.tracks;
     inputs.nodes.assign(tracks.size() * node_width, 0.0F);
-    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
-        const std::span<float> numbers = std::span(inputs.nodes).subspan(row * node_width, node_width);
-        RowWriter out(numbers);
-        const traffic::MotionState& last = tracks.last[row];
-        out.put(tracks.known[row] != 0);
-        out.put(tracks.vehicle_class[row] == traffic::VehicleClass::automated);
-        out.put(tracks.vehicle_class[row] == traffic::VehicleClass::emergency);
-        out.put(within(last.speed_mps / speed_unit_mps, 4.0F));
-        out.put(within(roads_.smoothed_speed_mps(row) / speed_unit_mps, 4.0F));
-        out.put(within((last.speed_mps - roads_.smoothed_speed_mps(row)) / 5.0F, 3.0F));
-        if (ahead_of_row_[row] == ahead_.size()) continue;
-        write_receiver_features(observation, scene, ahead_[ahead_of_row_[row]], numbers.subspan(6));
+    for (std::uint32_t at = 0; at < tracks.size(); ++at) {
+        NetInputRow row(node_inputs, std::span(inputs.nodes).subspan(at * node_width, node_width));
+        const float speed_mps = tracks.last[at].speed_mps;
+        const float smoothed_mps = roads_.smoothed_speed_mps(at);
+        row.set(node_input("known"), tracks.known[at] != 0);
+        row.set(node_input("automated"), tracks.vehicle_class[at] == traffic::VehicleClass::automated);
+        row.set(node_input("emergency"), tracks.vehicle_class[at] == traffic::VehicleClass::emergency);
+        row.set(node_input("speed"), speed_mps);
+        row.set(node_input("smoothed_speed"), smoothed_mps);
+        row.set(node_input("speed_change"), speed_mps - smoothed_mps);
+        if (ahead_of_row_[at] == ahead_.size()) continue;
+        const RoadAhead& ahead = ahead_[ahead_of_row_[at]];
+        write_motion(scene, ahead, row);
+        write_line(ahead.line, line_inputs, row);
+        write_line(ahead.next_line, next_line_inputs, row);
+        write_vehicle(ahead.leader, ahead.displacement_m, leader_inputs, row);
+        write_vehicle(ahead.follower, ahead.displacement_m, follower_inputs, row);
+        write_surroundings(observation, scene, ahead, row);
     }
 }
 
-void RepairInputBuilder::write_receiver_features(const traffic::Observation& observation, const Scene& scene,
-                                                 const RoadAhead& ahead, std::span<float> numbers) {
-    const Tracks& tracks = scene.tracks;
-    const std::uint32_t row = ahead.row;
-    const float age_s = tracks.age_s[row];
-    const traffic::MotionState& last = tracks.last[row];
-    RowWriter out(numbers);
-    out.put(std::min(age_s / 10.0F, 6.0F));
-    out.put(std::log1p(age_s) / 3.0F);
+void RepairInputBuilder::write_motion(const Scene& scene, const RoadAhead& ahead, NetInputRow& row) const {
+    const float age_s = scene.tracks.age_s[ahead.row];
+    const traffic::MotionState& last = scene.tracks.last[ahead.row];
     const float limit_mps = last.lane.exists() ? network_.lane(last.lane).speed_limit_mps : last.speed_mps;
-    out.put(within(limit_mps / speed_unit_mps, 4.0F));
-    out.put(within(ahead.travelled_m / 100.0F, 4.0F));
-    out.put(within(ahead.displacement_m / 100.0F, 4.0F));
-    out.put(within(ahead.reach_m / 200.0F, 4.0F));
-    out.put(within(ahead.free_flow_m / 100.0F, 4.0F));
-    put_line_on_way(out, ahead.line);
-    put_line_on_way(out, ahead.next_line);
-    out.put(ahead.line.exists() ? within((age_s - ahead.line.letter_age_s) / 10.0F, 3.0F) : 0.0F);
-    out.put(ahead.line.exists() ? within((ahead.travelled_m - ahead.line.distance_m) / 100.0F, 3.0F) : 0.0F);
-    put_vehicle_on_way(out, ahead.leader, ahead.displacement_m);
-    put_vehicle_on_way(out, ahead.follower, ahead.displacement_m);
-    out.put(within((ahead.route_left_m - ahead.displacement_m) / 100.0F, 4.0F));
-    out.put(tracks.past_end_m[row] > 0.0F);
-    out.put(ahead.has_left);
-    out.put(observation.exits_known);
-    out.put(within(ahead.sigma_m / 5.0F, 4.0F));
-    out.put(std::min(static_cast<float>(ahead.detections) / 4.0F, 3.0F));
-    out.put(ahead.held_by_signal);
-    out.put(ahead.held_by_leader);
-    const float traffic_mps = roads_.lane_speed_mps()[row];
-    out.put(traffic_mps >= 0.0F);
-    out.put(std::max(0.0F, traffic_mps) / speed_unit_mps);
-    out.put(last.lane.exists() && network_.edge(network_.lane(last.lane).edge).internal);
-    out.put(tracks.freshness[row] == traffic::Freshness::fresh);
+    row.set(node_input("age"), age_s);
+    row.set(node_input("log_age"), std::log1p(age_s));
+    row.set(node_input("speed_limit"), limit_mps);
+    row.set(node_input("travelled"), ahead.travelled_m);
+    row.set(node_input("displacement"), ahead.displacement_m);
+    row.set(node_input("reach"), ahead.reach_m);
+    row.set(node_input("free_flow"), ahead.free_flow_m);
+    if (ahead.line.exists()) {
+        row.set(node_input("report_to_signal_change"), age_s - ahead.line.letter_age_s);
+        row.set(node_input("travelled_past_line"), ahead.travelled_m - ahead.line.distance_m);
+    }
+    row.set(node_input("route_left"), ahead.route_left_m - ahead.displacement_m);
+    row.set(node_input("place_sigma"), ahead.sigma_m);
+}
+
+void RepairInputBuilder::write_surroundings(const traffic::Observation& observation, const Scene& scene,
+                                            const RoadAhead& ahead, NetInputRow& row) const {
+    const Tracks& tracks = scene.tracks;
+    const traffic::MotionState& last = tracks.last[ahead.row];
+    row.set(node_input("past_end"), tracks.past_end_m[ahead.row] > 0.0F);
+    row.set(node_input("has_left"), ahead.has_left);
+    row.set(node_input("exits_known"), observation.exits_known);
+    row.set(node_input("detections"), static_cast<float>(ahead.detections));
+    row.set(node_input("held_by_signal"), ahead.held_by_signal);
+    row.set(node_input("held_by_leader"), ahead.held_by_leader);
+    const float traffic_mps = roads_.lane_speed_mps()[ahead.row];
+    row.set(node_input("lane_has_traffic"), traffic_mps >= 0.0F);
+    row.set(node_input("lane_speed"), std::max(0.0F, traffic_mps));
+    row.set(node_input("inside_junction"),
+            last.lane.exists() && network_.edge(network_.lane(last.lane).edge).internal);
+    row.set(node_input("fresh"), tracks.freshness[ahead.row] == traffic::Freshness::fresh);
 }
 
 void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
@@ -232,7 +223,6 @@ void RepairInputBuilder::add_edge(const Scene& scene, const RoadAhead& ahead, st
     const std::uint32_t row = ahead.row;
     inputs.source.push_back(source);
     inputs.edges.resize(inputs.source.size() * edge_width, 0.0F);
-    RowWriter out(std::span(inputs.edges).last(edge_width));
     const roads::Point along = ahead.direction_at(ahead.displacement_m);
     const float x_m = x_m_[source] - x_m_[row];
     const float y_m = y_m_[source] - y_m_[row];
@@ -240,31 +230,30 @@ void RepairInputBuilder::add_edge(const Scene& scene, const RoadAhead& ahead, st
     const float ahead_m = along.x_m * x_m + along.y_m * y_m;
     const float left_m = along.x_m * y_m - along.y_m * x_m;
     const traffic::MotionState& last = tracks.last[source];
-    const bool known = tracks.known[source] != 0;
     const float cosine = along.x_m * std::cos(last.heading_rad) + along.y_m * std::sin(last.heading_rad);
     const float sine = along.x_m * std::sin(last.heading_rad) - along.y_m * std::cos(last.heading_rad);
-    out.put(within(ahead_m / length_unit_m, 3.0F));
-    out.put(within(left_m / length_unit_m, 3.0F));
-    out.put(within(left_m / 5.0F, 2.0F));
-    out.put(std::min(distance_m / length_unit_m, 4.0F));
-    out.put(cosine);
-    out.put(sine);
-    out.put(within(last.speed_mps / speed_unit_mps, 4.0F));
-    out.put(within((last.speed_mps * cosine - tracks.last[row].speed_mps) / speed_unit_mps, 4.0F));
-    out.put(known);
-    out.put(std::min(tracks.age_s[source] / 10.0F, 6.0F));
-    out.put(ahead.leader.exists && ahead.leader.row == source);
-    out.put(ahead.follower.exists && ahead.follower.row == source);
-    out.put(range_m != not_detected);
-    out.put(range_m >= 0.0F);
-    out.put(range_m >= 0.0F ? within((distance_m - range_m) / length_unit_m, 3.0F) : 0.0F);
-    const bool same_lane = last.lane.exists() && last.lane == tracks.last[row].lane;
-    out.put(same_lane);
+    NetInputRow out(edge_inputs, std::span(inputs.edges).last(edge_width));
+    out.set(edge_input("ahead"), ahead_m);
+    out.set(edge_input("left"), left_m);
+    out.set(edge_input("left_near"), left_m);
+    out.set(edge_input("distance"), distance_m);
+    out.set(edge_input("cosine"), cosine);
+    out.set(edge_input("sine"), sine);
+    out.set(edge_input("speed"), last.speed_mps);
+    out.set(edge_input("relative_speed"), last.speed_mps * cosine - tracks.last[row].speed_mps);
+    out.set(edge_input("known"), tracks.known[source] != 0);
+    out.set(edge_input("age"), tracks.age_s[source]);
+    out.set(edge_input("is_leader"), ahead.leader.exists && ahead.leader.row == source);
+    out.set(edge_input("is_follower"), ahead.follower.exists && ahead.follower.row == source);
+    out.set(edge_input("detects"), range_m != not_detected);
+    out.set(edge_input("range_measured"), range_m >= 0.0F);
+    if (range_m >= 0.0F) out.set(edge_input("range_error"), distance_m - range_m);
     // Seen ahead of the place where the receiver was last seen: for those in one lane, who is first.
-    out.put(same_lane
-                ? within((last.lane_position_m - tracks.last[row].lane_position_m) / length_unit_m, 3.0F)
-                : 0.0F);
-    out.put(tracks.vehicle_class[source] == traffic::VehicleClass::emergency);
+    if (last.lane.exists() && last.lane == tracks.last[row].lane) {
+        out.set(edge_input("same_lane"), true);
+        out.set(edge_input("lane_lead"), last.lane_position_m - tracks.last[row].lane_position_m);
+    }
+    out.set(edge_input("emergency"), tracks.vehicle_class[source] == traffic::VehicleClass::emergency);
 }
 
 void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
@@ -272,39 +261,40 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
     const PairList& list = scene.candidates;
     inputs.pairs = list.rows;
     inputs.pair_features.assign(list.size() * pair_width, 0.0F);
+    const std::size_t judged = scene.detected.size() + list.size();
     for (std::size_t at = 0; at < list.size(); ++at) {
         const auto [left, right] = list.rows[at];
-        RowWriter out(std::span(inputs.pair_features).subspan(at * pair_width, pair_width));
+        NetInputRow out(pair_inputs, std::span(inputs.pair_features).subspan(at * pair_width, pair_width));
         const float x_m = x_m_[left] - x_m_[right];
         const float y_m = y_m_[left] - y_m_[right];
-        const float younger_s = std::min(tracks.age_s[left], tracks.age_s[right]);
-        const float older_s = std::max(tracks.age_s[left], tracks.age_s[right]);
-        const bool both_missing = tracks.known[left] == 0 && tracks.known[right] == 0;
-        out.put(std::min(list.last_seen_m[at] / length_unit_m, 4.0F));
-        out.put(std::min(list.dead_reckoned_m[at] / length_unit_m, 4.0F));
-        out.put(std::min(std::sqrt(x_m * x_m + y_m * y_m) / length_unit_m, 4.0F));
-        out.put(both_missing);
-        out.put(std::min(younger_s / 10.0F, 6.0F));
-        out.put(std::min(older_s / 10.0F, 6.0F));
-        out.put(std::cos(tracks.last[left].heading_rad - tracks.last[right].heading_rad));
+        out.set(pair_input("last_seen"), list.last_seen_m[at]);
+        out.set(pair_input("dead_reckoned"), list.dead_reckoned_m[at]);
+        out.set(pair_input("by_rule"), std::sqrt(x_m * x_m + y_m * y_m));
+        out.set(pair_input("both_missing"), tracks.known[left] == 0 && tracks.known[right] == 0);
+        out.set(pair_input("age_younger"), std::min(tracks.age_s[left], tracks.age_s[right]));
+        out.set(pair_input("age_older"), std::max(tracks.age_s[left], tracks.age_s[right]));
+        out.set(pair_input("heading_cosine"),
+                std::cos(tracks.last[left].heading_rad - tracks.last[right].heading_rad));
         const core::LaneIndex left_lane = tracks.last[left].lane;
         const core::LaneIndex right_lane = tracks.last[right].lane;
         const bool on_lanes = left_lane.exists() && right_lane.exists();
-        out.put(on_lanes && network_.lane(left_lane).edge == network_.lane(right_lane).edge);
-        out.put(on_lanes && left_lane == right_lane);
-        const auto follows = [&](std::uint32_t one, std::uint32_t other) {
-            if (ahead_of_row_[one] == ahead_.size()) return false;
-            const RoadAhead& ahead = ahead_[ahead_of_row_[one]];
-            return (ahead.leader.exists && ahead.leader.row == other) ||
-                   (ahead.follower.exists && ahead.follower.row == other);
-        };
-        out.put(follows(left, right) || follows(right, left));
+        out.set(pair_input("same_edge"),
+                on_lanes && network_.lane(left_lane).edge == network_.lane(right_lane).edge);
+        out.set(pair_input("same_lane"), on_lanes && left_lane == right_lane);
+        out.set(pair_input("follows"), follows(left, right) || follows(right, left));
         // Where links survive at all, a pair that no one detects is less likely to be one.
-        out.put(!scene.detected.rows.empty());
-        out.put(scene.detected.rows.empty() ? 0.0F
-                                            : static_cast<float>(scene.detected.size()) /
-                                                  static_cast<float>(scene.detected.size() + list.size()));
+        if (scene.detected.rows.empty()) continue;
+        out.set(pair_input("any_detection"), true);
+        out.set(pair_input("detected_share"),
+                static_cast<float>(scene.detected.size()) / static_cast<float>(judged));
     }
+}
+
+bool RepairInputBuilder::follows(std::uint32_t one, std::uint32_t other) const {
+    if (ahead_of_row_[one] == ahead_.size()) return false;
+    const RoadAhead& ahead = ahead_[ahead_of_row_[one]];
+    return (ahead.leader.exists && ahead.leader.row == other) ||
+           (ahead.follower.exists && ahead.follower.row == other);
 }
 
 }  // namespace clearway::prediction

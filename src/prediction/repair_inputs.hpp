@@ -6,21 +6,12 @@
 
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
+#include "prediction/repair_schema.hpp"
 #include "prediction/road_ahead.hpp"
-#include "prediction/weights.hpp"
 
 namespace clearway::prediction {
 
-// Inputs of the improved net, `graphsage`. Training and inference call the same functions; a change of any
-// number below is a new version of the schema. All lengths in units that keep the numbers near 1; no
-// coordinates of the map, no truth, nothing of the future.
-
-/// Numbers of a vehicle, of an edge that carries a message, and of a pair.
-inline constexpr std::size_t node_width = 45;
-inline constexpr std::size_t edge_width = 18;
-inline constexpr std::size_t pair_width = 12;
-/// Name and version of all of this; its width is `node_width`.
-FeatureSchema repair_schema();
+// Computes what repair_schema.hpp lists. Training and inference call the same functions.
 
 /// Messages come from at most this many vehicles nearest to the believed place, within the distance; leader,
 /// follower and detecting vehicles come on top.
@@ -33,7 +24,6 @@ struct Receiver {
     std::uint32_t row = 0;
     float displacement_m = 0.0F;  ///< By the rule.
     float reach_m = 0.0F;
-    float true_displacement_m = -1.0F;  ///< For training; negative where there is no label.
     Path path;
 };
 
@@ -77,8 +67,9 @@ class RepairInputBuilder {
     };
 
     void write_nodes(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
-    void write_receiver_features(const traffic::Observation& observation, const Scene& scene,
-                                 const RoadAhead& ahead, std::span<float> numbers);
+    void write_motion(const Scene& scene, const RoadAhead& ahead, NetInputRow& row) const;
+    void write_surroundings(const traffic::Observation& observation, const Scene& scene,
+                            const RoadAhead& ahead, NetInputRow& row) const;
     void write_edges(const Scene& scene, RepairInputs& inputs);
     static bool detects(std::span<const Detector> detectors, std::uint32_t row);
     void add_nearest(const Scene& scene, const RoadAhead& ahead, std::span<const Detector> detectors,
@@ -86,6 +77,8 @@ class RepairInputBuilder {
     void add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source, float range_m,
                   RepairInputs& inputs);
     void write_pairs(const Scene& scene, RepairInputs& inputs);
+    /// Whether `other` is leader or follower of `one`.
+    bool follows(std::uint32_t one, std::uint32_t other) const;
     void list_detections(const Scene& scene);
 
     const roads::Network& network_;

@@ -14,8 +14,6 @@ namespace {
 
 /// Pairs that are decoded together: their inputs stay in the processor's cache.
 constexpr std::size_t block_pairs = 48;
-/// Features that every vehicle has; the others are zero for known ones (repair_inputs.cpp).
-constexpr std::size_t common_features = 6;
 constexpr float root_half = 0.70710678F;
 
 float softplus(float x) {
@@ -60,6 +58,9 @@ RepairNet::RepairNet(const Weights& weights, Kernel kernel) : source_(weights.so
     weights.require(repair_architecture, repair_schema());
     require_size(weights, "edge", edge_width);
     require_size(weights, "pair", pair_width);
+    weights.require_inputs("node", node_inputs);
+    weights.require_inputs("edge", edge_inputs);
+    weights.require_inputs("pair", pair_inputs);
     dimensions_ = {weights.dimension("hidden"),    weights.dimension("layers"),  weights.dimension("motion"),
                    weights.dimension("embedding"), weights.dimension("decoder"), weights.dimension("last")};
     const std::uint32_t hidden = dimensions_.hidden;
@@ -155,7 +156,7 @@ void RepairNet::encode(const RepairInputs& inputs) {
     detail::DenseTask task;
     task.input = inputs.nodes.data();
     task.input_stride = node_width;
-    task.inputs = common_features;
+    task.inputs = common_width;
     task.rows = known_rows_.data();
     task.row_count = known_rows_.size();
     task.weight = encoder_.weight.data();

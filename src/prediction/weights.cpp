@@ -155,6 +155,11 @@ bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
         const std::string name(next_word(line));
         weights.dimensions.push_back({name, parse_count(next_word(line), reader)});
         refuse_twice(weights.dimensions, reader);
+    } else if (word == "inputs") {
+        weights.inputs.push_back({std::string(next_word(line)), {}});
+        for (std::string_view name = next_word(line); !name.empty(); name = next_word(line))
+            weights.inputs.back().inputs.emplace_back(name);
+        refuse_twice(weights.inputs, reader);
     } else if (word == "note") {
         weights.notes.emplace_back(line.empty() ? line : line.substr(1));
     } else if (word == "tensor") {
@@ -162,7 +167,7 @@ bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
         refuse_twice(weights.tensors, reader);
     } else {
         reader.fail(fmt::format("'{}' is unknown here", word),
-                    "architecture, features, dimension, note, tensor, end");
+                    "architecture, features, dimension, inputs, note, tensor, end");
     }
     return true;
 }
@@ -211,6 +216,22 @@ void Weights::require(std::string_view wanted_architecture, const FeatureSchema&
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
+void Weights::require_inputs(std::string_view kind, std::span<const NetInput> wanted) const {
+    const auto found = std::ranges::find(inputs, kind, &InputNames::name);
+    if (found == inputs.end()) return;
+    const std::size_t count = std::min(found->inputs.size(), wanted.size());
+    for (std::size_t at = 0; at < count; ++at) {
+        if (found->inputs[at] == wanted[at].name) continue;
+        throw core::InputError(
+            {source, fmt::format("input {} of a {} is {}", at + 1, kind, found->inputs[at]),
+             std::string(wanted[at].name), "train it again, or use a model file of this version"});
+    }
+    if (found->inputs.size() == wanted.size()) return;
+    throw core::InputError({source, fmt::format("{} inputs of a {}", found->inputs.size(), kind),
+                            fmt::format("{}", wanted.size()),
+                            "train it again, or use a model file of this version"});
+}
+
 void Weights::require_tensors(std::size_t wanted) const {
     if (tensors.size() == wanted) return;
     throw core::InputError({source, fmt::format("{} tensors", tensors.size()),
@@ -223,6 +244,9 @@ std::string format_weights(const Weights& weights) {
                                    weights.features.version, weights.features.width);
     for (const Dimension& dimension : weights.dimensions) {
         text += fmt::format("dimension {} {}\n", dimension.name, dimension.value);
+    }
+    for (const InputNames& names : weights.inputs) {
+        text += fmt::format("inputs {} {}\n", names.name, fmt::join(names.inputs, " "));
     }
     for (const std::string& note : weights.notes) {
         assert(note.find('\n') == std::string::npos);

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "prediction/net_input.hpp"
 
 namespace clearway::prediction {
 
@@ -32,6 +35,13 @@ struct Dimension {
     bool operator==(const Dimension&) const = default;
 };
 
+/// Names of the numbers that a net is given, in order: of a `node`, an `edge`, a `pair`.
+struct InputNames {
+    std::string name;
+    std::vector<std::string> inputs;
+    bool operator==(const InputNames&) const = default;
+};
+
 /// A trained net as a file: what it is, for which inputs, and its tensors under PyTorch Geometric's names
 /// (`graphsage.conv1.lin_l.weight` ... `nn.fc2.bias`). The text format `clearway-weights 1`, one item a line:
 ///
@@ -39,6 +49,7 @@ struct Dimension {
 ///     architecture graphsage_net
 ///     features corrected 1 5
 ///     dimension input 5
+///     inputs node cos_x sin_x cos_y sin_y freshness     (may be absent)
 ///     note trained on merge, intersection and city, seeds 1 to 8
 ///     tensor graphsage.conv1.lin_l.weight 10 5
 ///     0.1 -0.25 ...            (one line for each row of a matrix, one line for a vector)
@@ -50,6 +61,7 @@ struct Weights {
     std::string architecture;
     FeatureSchema features;
     std::vector<Dimension> dimensions;
+    std::vector<InputNames> inputs;  ///< Files written before names were kept have none.
     std::vector<std::string> notes;  ///< Where the net comes from; a line each, no line breaks inside.
     std::vector<Tensor> tensors;
 
@@ -61,6 +73,10 @@ struct Weights {
     /// Throws core::InputError naming both when the net is of another architecture or was trained on other
     /// features.
     void require(std::string_view wanted_architecture, const FeatureSchema& wanted_features) const;
+
+    /// Throws core::InputError, naming the first input that differs, when the file names other inputs of this
+    /// kind, or the same in another order. Passes files without names.
+    void require_inputs(std::string_view kind, std::span<const NetInput> wanted) const;
 
     /// Throws core::InputError when there are more or fewer tensors: one that no layer reads means another
     /// net.

@@ -19,7 +19,7 @@ using analysis::Measured;
 using detail::DataTable;
 using links::LinkGain;
 using links::LinkResult;
-using metrics::LinkSubset;
+using links::LinkSubset;
 
 std::string decimal(const std::optional<double>& value, int decimals) {
     return value ? number(*value, {decimals, Script::typeset}) : missing(Script::typeset);

@@ -17,7 +17,7 @@ using links::LinkGain;
 using links::LinkMeasures;
 using links::LinkResult;
 using Json = nlohmann::ordered_json;
-using metrics::LinkSubset;
+using links::LinkSubset;
 
 constexpr std::size_t failure_width = 9;
 

@@ -75,7 +75,7 @@ GraphSample read_sample(ByteReader& reader, std::uint32_t feature_count) {
 
 }  // namespace
 
-GraphSampleWriter::GraphSampleWriter(const GraphSampleOrigin& origin)
+GraphSampleWriter::GraphSampleWriter(const SampleOrigin& origin)
     : origin_(origin), bytes_(detail::file_start(first_line, origin)) {}
 
 void GraphSampleWriter::add(const GraphSample& sample) {
@@ -125,20 +125,9 @@ GraphSampleFile read_graph_samples(const std::filesystem::path& file) {
 }
 
 std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        if (entry.path().extension() == graph_sample_extension) files.push_back(entry.path());
-    }
-    if (error || files.empty()) {
-        throw core::InputError(
-            {folder.string(), error ? error.message() : "holds no file of graph samples",
-             fmt::format("a folder with *{} files", graph_sample_extension),
-             "Record them with `clearway dataset SCENARIO --samples --out DIR`, for `train "
-             "graphsage` with `--net graphsage`"});
-    }
-    std::ranges::sort(files);
-    return files;
+    return detail::find_files(folder, graph_sample_extension, "graph samples",
+                              "Record them with `clearway dataset SCENARIO --samples --out DIR`, for `train "
+                              "graphsage` with `--net graphsage`");
 }
 
 }  // namespace clearway::samples

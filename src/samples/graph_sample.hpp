@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "prediction/weights.hpp"
+#include "samples/sample_origin.hpp"
 
 namespace clearway::samples {
 
@@ -38,20 +38,8 @@ struct GraphSample {
     bool operator==(const GraphSample&) const = default;
 };
 
-/// What all samples of a file share: one file holds one run of one failure model.
-struct GraphSampleOrigin {
-    std::string scenario;
-    std::string failure;                 ///< Name of the sensing preset, for example `B10`.
-    prediction::FeatureSchema features;  ///< Of the node features; width [1, 256].
-    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
-    std::uint32_t replication = 0;
-    double link_radius_m = 50.0;
-
-    bool operator==(const GraphSampleOrigin&) const = default;
-};
-
 struct GraphSampleFile {
-    GraphSampleOrigin origin;
+    SampleOrigin origin;
     std::vector<GraphSample> samples;
     std::string content_hash;  ///< 32 hex digits, over the whole file before its last line.
 };
@@ -67,7 +55,7 @@ inline constexpr const char* graph_sample_extension = ".samples";
 /// candidates 2 u32 + f32 + u8), and `end <number of samples> <content hash>` as the last line.
 class GraphSampleWriter {
   public:
-    explicit GraphSampleWriter(const GraphSampleOrigin& origin);
+    explicit GraphSampleWriter(const SampleOrigin& origin);
     /// Throws std::logic_error when the sample does not fit the origin or its own counts, or holds a value
     /// that is not finite: a fault of the recorder.
     void add(const GraphSample& sample);
@@ -76,7 +64,7 @@ class GraphSampleWriter {
     void write(const std::filesystem::path& file) const;
 
   private:
-    GraphSampleOrigin origin_;
+    SampleOrigin origin_;
     std::string bytes_;
     std::size_t sample_count_ = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "samples/detail/sample_file.hpp"
 
 namespace clearway::samples {
 namespace {
@@ -23,7 +24,7 @@ std::string header_line() {
     return fmt::format("{},linked", fmt::join(prediction::pair_feature_names, ","));
 }
 
-std::string origin_line(const PairSampleOrigin& origin) {
+std::string origin_line(const SampleOrigin& origin) {
     const nlohmann::ordered_json json = {{"scenario", origin.scenario},
                                          {"failure", origin.failure},
                                          {"features", prediction::pair_feature_schema().name},
@@ -34,7 +35,7 @@ std::string origin_line(const PairSampleOrigin& origin) {
     return std::string(first_words) + json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-PairSampleOrigin parse_origin(std::string_view line, const std::string& file) {
+SampleOrigin parse_origin(std::string_view line, const std::string& file) {
     if (!line.starts_with(first_words)) {
         throw core::InputError({file + ":1", "not a file of pair samples of this version",
                                 fmt::format("a first line that begins `{}`", first_words), cure_remake});
@@ -48,7 +49,8 @@ PairSampleOrigin parse_origin(std::string_view line, const std::string& file) {
             throw core::InputError({file + ":1", fmt::format("features {} version {}", name, version),
                                     fmt::format("{} version {}", schema.name, schema.version), cure_remake});
         }
-        PairSampleOrigin origin;
+        SampleOrigin origin;
+        origin.features = schema;
         json.at("scenario").get_to(origin.scenario);
         json.at("failure").get_to(origin.failure);
         json.at("study_seed").get_to(origin.study_seed);
@@ -127,19 +129,9 @@ PairSampleFile read_pair_samples(const std::filesystem::path& file) {
 }
 
 std::vector<std::filesystem::path> find_pair_samples(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        if (entry.path().filename().string().ends_with(pair_sample_ending)) files.push_back(entry.path());
-    }
-    if (error || files.empty()) {
-        throw core::InputError(
-            {folder.string(), error ? error.message() : "holds no file of pair samples",
-             fmt::format("a folder with *{} files", pair_sample_ending),
-             "Record them with `clearway dataset SCENARIO --samples --net logistic --out DIR`"});
-    }
-    std::ranges::sort(files);
-    return files;
+    return detail::find_files(
+        folder, pair_sample_ending, "pair samples",
+        "Record them with `clearway dataset SCENARIO --samples --net logistic --out DIR`");
 }
 
 }  // namespace clearway::samples

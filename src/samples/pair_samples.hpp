@@ -7,25 +7,16 @@
 #include <vector>
 
 #include "prediction/pair_features.hpp"
-#include "prediction/weights.hpp"
+#include "samples/sample_origin.hpp"
 
 namespace clearway::samples {
 
 /// Name ending of files of pair samples.
 inline constexpr const char* pair_sample_ending = ".pairs.csv";
 
-/// What all pairs of a file share: one file holds one run of one failure model.
-struct PairSampleOrigin {
-    std::string scenario;
-    std::string failure;
-    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
-    std::uint32_t replication = 0;
-    double link_radius_m = 50.0;
-};
-
 /// Candidate pairs with features (pair_features.hpp) and the answer.
 struct PairSampleFile {
-    PairSampleOrigin origin;
+    SampleOrigin origin;
     std::vector<prediction::PairFeatures> features;
     std::vector<std::uint8_t> linked;  ///< 1: the true distance is below the link radius. One a pair.
 };

@@ -1,157 +1,216 @@
 #include "samples/recorders.hpp"
 
-#include <cmath>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/match_rows.hpp"
+#include "prediction/features.hpp"
+#include "prediction/pair_features.hpp"
+#include "prediction/predictor.hpp"
+#include "prediction/repair_inputs.hpp"
 #include "roads/route.hpp"
+#include "samples/graph_sample.hpp"
+#include "samples/pair_samples.hpp"
+#include "samples/repair_sample.hpp"
 
 namespace clearway::samples {
 namespace {
 
-/// Whether the true distance of two observed vehicles is below the radius; a vehicle that has left is linked
-/// to nobody.
-bool truly_linked(const truth::Snapshot& snapshot, core::VehicleKey left, core::VehicleKey right,
-                  double radius_m) {
-    const auto left_row = snapshot.row_of(left);
-    const auto right_row = snapshot.row_of(right);
-    if (!left_row || !right_row) return false;
-    return std::hypot(snapshot.x_m[*left_row] - snapshot.x_m[*right_row],
-                      snapshot.y_m[*left_row] - snapshot.y_m[*right_row]) < radius_m;
+SampleOrigin with_features(SampleOrigin origin, const prediction::FeatureSchema& features) {
+    origin.features = features;
+    return origin;
 }
 
-}  // namespace
+/// For graphsage_corrected.
+class GraphSampleRecorder final : public SampleRecorder {
+  public:
+    explicit GraphSampleRecorder(Setup setup)
+        : SampleRecorder(std::move(setup)),
+          writer_(with_features(origin(), prediction::corrected_schema())) {}
+    std::string write(const std::filesystem::path& file) const override {
+        writer_.write(file);
+        return fmt::format("{} samples", writer_.sample_count());
+    }
 
-SampleRecorder::SampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                               const GraphSampleOrigin& origin, std::unique_ptr<sensing::SensorModel> sensor,
-                               core::Seconds interval)
-    : rules_(rules),
-      sensor_(std::move(sensor)),
-      scenes_(network, rules),
-      writer_(origin),
-      interval_s_(interval.value) {}
+  private:
+    void record(const truth::Snapshot& snapshot) override;
 
-void SampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
-    sensor_->observe(snapshot, roster, observation_);
-    if (!observation_.is_report || observation_.time.value < next_s_) return;
-    scenes_.build(observation_, scene_);
-    if (scene_.candidates.size() == 0) return;
-    messages_.build(scene_, rules_, observed_);
-    prediction::corrected_features(scene_.tracks, features_);
-    writer_.add(sample_of(snapshot));
-    next_s_ = observation_.time.value + interval_s_;
-}
+    prediction::ObservedMessages messages_;
+    prediction::MessageGraph observed_;
+    GraphSampleWriter writer_;
+};
 
-GraphSample SampleRecorder::sample_of(const truth::Snapshot& snapshot) const {
+void GraphSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
+    messages_.build(scene(), rules(), observed_);
     GraphSample sample;
-    sample.time_s = observation_.time.value;
-    sample.vehicle_count = static_cast<std::uint32_t>(scene_.tracks.size());
-    sample.features = features_;
+    sample.time_s = observation().time.value;
+    sample.vehicle_count = static_cast<std::uint32_t>(scene().tracks.size());
+    prediction::corrected_features(scene().tracks, sample.features);
     for (std::uint32_t row = 0; row < sample.vehicle_count; ++row) {
         for (std::uint32_t at = observed_.first[row]; at < observed_.first[row + 1]; ++at) {
             if (row < observed_.source[at]) sample.observed_edges.push_back({row, observed_.source[at]});
         }
     }
-    const prediction::PairList& pairs = scene_.candidates;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const prediction::RowPair rows = pairs.rows[i];
-        const bool linked = truly_linked(snapshot, scene_.tracks.key[rows.left],
-                                         scene_.tracks.key[rows.right], rules_.radius_m);
-        sample.candidates.push_back(
-            {rows.left, rows.right, pairs.dead_reckoned_m[i], static_cast<std::uint8_t>(linked)});
+    const prediction::PairList& pairs = scene().candidates;
+    for (std::size_t at = 0; at < pairs.size(); ++at) {
+        const prediction::RowPair rows = pairs.rows[at];
+        sample.candidates.push_back({rows.left, rows.right, pairs.dead_reckoned_m[at], label(rows)});
     }
-    return sample;
+    writer_.add(sample);
 }
 
-RepairSampleRecorder::RepairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                                           const GraphSampleOrigin& origin,
-                                           std::unique_ptr<sensing::SensorModel> sensor,
-                                           core::Seconds interval)
-    : network_(network),
-      rules_(rules),
-      sensor_(std::move(sensor)),
-      scenes_(network, rules),
-      inputs_(network, rules),
-      rule_(prediction::make_predictor("route_rule", {.network = network, .rules = rules, .model_file = ""})),
-      writer_(origin),
-      interval_s_(interval.value) {}
-
-void RepairSampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
-    sensor_->observe(snapshot, roster, observation_);
-    if (!observation_.is_report) return;
-    scenes_.build(observation_, scene_);
-    // Both remember, so they see every report.
-    rule_->predict(observation_, belief_);
-    if (observation_.time.value < next_s_) {
-        inputs_.remember(observation_, scene_);
-        return;
+/// For graphsage: what it is given, the true displacements, and what the route rule says of the same pairs.
+/// Both remember, so they see every report.
+class RepairSampleRecorder final : public SampleRecorder {
+  public:
+    explicit RepairSampleRecorder(Setup setup)
+        : SampleRecorder(std::move(setup)),
+          inputs_(network(), rules()),
+          rule_(prediction::make_predictor("route_rule",
+                                           {.network = network(), .rules = rules(), .model_file = ""})),
+          writer_(with_features(origin(), prediction::repair_schema())) {}
+    std::string write(const std::filesystem::path& file) const override {
+        writer_.write(file);
+        return fmt::format("{} samples", writer_.sample_count());
     }
-    inputs_.build(observation_, scene_, sample_.inputs);
-    if (sample_.inputs.pairs.empty()) return;
-    label(snapshot);
-    writer_.add(sample_);
-    next_s_ = observation_.time.value + interval_s_;
+
+  private:
+    void record(const truth::Snapshot& snapshot) override;
+    void pass() override;
+    float true_displacement_m(const truth::Snapshot& snapshot, const prediction::Receiver& receiver) const;
+
+    prediction::RepairInputBuilder inputs_;
+    std::unique_ptr<prediction::Predictor> rule_;
+    traffic::BelievedGraph belief_;
+    RepairSample sample_;
+    RepairSampleWriter writer_;
+};
+
+void RepairSampleRecorder::pass() {
+    build_scene();
+    rule_->predict(observation(), belief_);
+    inputs_.remember(observation(), scene());
 }
 
-void RepairSampleRecorder::label(const truth::Snapshot& snapshot) {
-    const prediction::Tracks& tracks = scene_.tracks;
-    sample_.time_s = observation_.time.value;
+void RepairSampleRecorder::record(const truth::Snapshot& snapshot) {
+    rule_->predict(observation(), belief_);
+    inputs_.build(observation(), scene(), sample_.inputs);
+    sample_.time_s = observation().time.value;
     sample_.linked.clear();
-    for (const prediction::RowPair pair : sample_.inputs.pairs) {
-        const bool linked =
-            truly_linked(snapshot, tracks.key[pair.left], tracks.key[pair.right], rules_.radius_m);
-        sample_.linked.push_back(static_cast<std::uint8_t>(linked));
-    }
+    for (const prediction::RowPair pair : sample_.inputs.pairs)
+        sample_.linked.push_back(label(pair));
     const std::span<const float> rule = rule_->scores().probability;
     sample_.rule.assign(rule.begin(), rule.end());
-    for (prediction::Receiver& receiver : sample_.inputs.receivers) {
-        const auto row = snapshot.row_of(tracks.key[receiver.row]);
-        const traffic::VehicleInfo* const info = observation_.roster->find(tracks.key[receiver.row]);
-        const bool on_route =
-            row && info != nullptr && info->route.exists() && tracks.last[receiver.row].lane.exists();
-        if (!on_route) continue;
-        const auto displacement = roads::distance_ahead(network_, observation_.roster->route(info->route),
-                                                        tracks.last[receiver.row], snapshot.motion(*row),
-                                                        core::Metres(receiver.reach_m));
-        if (displacement) receiver.true_displacement_m = static_cast<float>(displacement->value);
+    sample_.true_displacement_m.clear();
+    for (const prediction::Receiver& receiver : sample_.inputs.receivers)
+        sample_.true_displacement_m.push_back(true_displacement_m(snapshot, receiver));
+    writer_.add(sample_);
+}
+
+/// Along the route from where the vehicle was last seen; negative where that is not defined.
+float RepairSampleRecorder::true_displacement_m(const truth::Snapshot& snapshot,
+                                                const prediction::Receiver& receiver) const {
+    constexpr float no_label = -1.0F;
+    const core::VehicleKey key = scene().tracks.key[receiver.row];
+    const traffic::MotionState& last = scene().tracks.last[receiver.row];
+    const auto row = snapshot.row_of(key);
+    const traffic::VehicleInfo* const info = observation().roster->find(key);
+    if (!row || info == nullptr || !info->route.exists() || !last.lane.exists()) return no_label;
+    const auto displacement = roads::distance_ahead(network(), observation().roster->route(info->route), last,
+                                                    snapshot.motion(*row), core::Metres(receiver.reach_m));
+    return displacement ? static_cast<float>(displacement->value) : no_label;
+}
+
+/// For the logistic pair model.
+class PairSampleRecorder final : public SampleRecorder {
+  public:
+    explicit PairSampleRecorder(Setup setup) : SampleRecorder(std::move(setup)) {
+        samples_.origin = with_features(origin(), prediction::pair_feature_schema());
+    }
+    std::string write(const std::filesystem::path& file) const override {
+        write_pair_samples(file, samples_);
+        return fmt::format("{} pairs", samples_.linked.size());
+    }
+
+  private:
+    void record(const truth::Snapshot& snapshot) override;
+
+    PairSampleFile samples_;
+};
+
+void PairSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
+    for (std::size_t at = 0; at < scene().candidates.size(); ++at) {
+        samples_.features.push_back(
+            prediction::pair_features(scene(), at, static_cast<float>(rules().radius_m)));
+        samples_.linked.push_back(label(scene().candidates.rows[at]));
     }
 }
 
-PairSampleRecorder::PairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                                       const PairSampleOrigin& origin,
-                                       std::unique_ptr<sensing::SensorModel> sensor, core::Seconds interval)
-    : rules_(rules),
-      sensor_(std::move(sensor)),
-      scenes_(network, rules),
-      samples_{.origin = origin, .features = {}, .linked = {}},
-      interval_s_(interval.value) {}
+}  // namespace
 
-void PairSampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+SampleRecorder::SampleRecorder(Setup setup)
+    : network_(setup.network),
+      origin_(std::move(setup.origin)),
+      sensor_(std::move(setup.sensor)),
+      scenes_(setup.network, setup.rules),
+      truth_(setup.rules),
+      interval_s_(setup.interval.value) {}
+
+void SampleRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     sensor_->observe(snapshot, roster, observation_);
-    if (!observation_.is_report || observation_.time.value < next_s_) return;
-    scenes_.build(observation_, scene_);
-    if (scene_.candidates.size() == 0) return;
-    for (std::size_t at = 0; at < scene_.candidates.size(); ++at) {
-        const prediction::RowPair rows = scene_.candidates.rows[at];
-        samples_.features.push_back(
-            prediction::pair_features(scene_, at, static_cast<float>(rules_.radius_m)));
-        samples_.linked.push_back(truly_linked(snapshot, scene_.tracks.key[rows.left],
-                                               scene_.tracks.key[rows.right], rules_.radius_m)
-                                      ? 1
-                                      : 0);
+    if (!observation_.is_report) return;
+    if (observation_.time.value < next_s_) {
+        pass();
+        return;
     }
+    build_scene();
+    if (scene_.candidates.size() == 0) {
+        pass();
+        return;
+    }
+    truth_.look(snapshot);
+    core::match_rows(scene_.tracks.key, snapshot.key, true_row_);
+    record(snapshot);
     next_s_ = observation_.time.value + interval_s_;
+}
+
+std::uint8_t SampleRecorder::label(prediction::RowPair pair) const {
+    return truth_.linked(true_row_[pair.left], true_row_[pair.right]) ? 1 : 0;
+}
+
+std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kind,
+                                                     SampleRecorder::Setup setup) {
+    switch (kind) {
+        case experiment::DatasetKind::samples:
+            return std::make_unique<GraphSampleRecorder>(std::move(setup));
+        case experiment::DatasetKind::repair:
+            return std::make_unique<RepairSampleRecorder>(std::move(setup));
+        case experiment::DatasetKind::pair_samples:
+            return std::make_unique<PairSampleRecorder>(std::move(setup));
+        case experiment::DatasetKind::published:
+            break;
+    }
+    throw std::logic_error("the published data set is no file of samples");
+}
+
+const char* sample_ending(experiment::DatasetKind kind) {
+    return kind == experiment::DatasetKind::pair_samples ? pair_sample_ending : graph_sample_extension;
 }
 
 PairDatasetRecorder::PairDatasetRecorder(const roads::Network& network, const graph::LinkRules& rules,
                                          const prediction::FeatureSchema& features,
                                          experiment::ListedPairs pairs)
-    : network_(network), rules_(rules), feature_count_(features.width), pairs_(pairs) {}
+    : network_(network), feature_count_(features.width), truth_(rules), listed_(rules) {
+    if (pairs == experiment::ListedPairs::candidates) listed_.radius_m = prediction::candidate_radius_m;
+}
 
 void PairDatasetRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& /*roster*/) {
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, links_);
-    if (links_.link_count() <= most_links_) return;
-    most_links_ = links_.link_count();
+    truth_.look(snapshot);
+    if (truth_.link_count() <= most_links_) return;
+    most_links_ = truth_.link_count();
     take(snapshot);
 }
 
@@ -165,17 +224,13 @@ void PairDatasetRecorder::take(const truth::Snapshot& snapshot) {
             snapshot.motion(row), snapshot.vehicle_class[row], network_,
             std::span(dataset_.features).subspan(std::size_t{row} * feature_count_, feature_count_));
     }
-    graph::LinkRules listed = rules_;
-    if (pairs_ == experiment::ListedPairs::candidates) listed.radius_m = prediction::candidate_radius_m;
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, listed, near_);
+    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, listed_, near_);
     for (std::uint32_t row = 0; row < snapshot.size(); ++row) {
-        const auto neighbours = near_.neighbours_of(row);
-        const auto distances = near_.distances_of(row);
-        for (std::size_t i = 0; i < neighbours.size(); ++i) {
-            if (neighbours[i] < row) continue;
+        for (const core::VehicleIndex other : near_.neighbours_of(row)) {
+            if (other < row) continue;
             dataset_.source.push_back(row);
-            dataset_.target.push_back(neighbours[i]);
-            dataset_.label.push_back(distances[i] < rules_.radius_m ? 1.0F : 0.0F);
+            dataset_.target.push_back(other);
+            dataset_.label.push_back(truth_.linked(row, other) ? 1.0F : 0.0F);
         }
     }
 }

@@ -1,105 +1,74 @@
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "experiment/dataset_job.hpp"
 #include "graph/proximity.hpp"
+#include "metrics/true_links.hpp"
 #include "prediction/candidates.hpp"
-#include "prediction/features.hpp"
-#include "prediction/predictor.hpp"
-#include "prediction/repair_inputs.hpp"
 #include "samples/dataset_files.hpp"
-#include "samples/graph_sample.hpp"
-#include "samples/pair_samples.hpp"
-#include "samples/repair_sample.hpp"
+#include "samples/sample_origin.hpp"
 #include "sensing/sensor.hpp"
 #include "trace/step_listener.hpp"
 
 namespace clearway::samples {
 
 /// Records what a predictor was given at report rounds, with the true answer beside it: data to train and to
-/// judge with.
+/// judge with. Watches through one sensor, and takes one sample every `interval` of simulation time, at the
+/// first report round then at which there is a pair to predict.
 class SampleRecorder : public trace::StepListener {
   public:
-    /// Watches through `sensor`. One sample every `interval` of simulation time, at the first report round
-    /// then. `network` outlives the recorder.
-    SampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                   const GraphSampleOrigin& origin, std::unique_ptr<sensing::SensorModel> sensor,
-                   core::Seconds interval);
+    struct Setup {
+        const roads::Network& network;  ///< Outlives the recorder.
+        graph::LinkRules rules;
+        SampleOrigin origin;  ///< Its features are filled in.
+        std::unique_ptr<sensing::SensorModel> sensor;
+        core::Seconds interval;
+    };
 
-    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
-    const GraphSampleWriter& writer() const { return writer_; }
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) final;
+    /// Writes the file whole or not at all, and says what is in it: `12 samples`. Throws
+    /// core::EnvironmentError.
+    virtual std::string write(const std::filesystem::path& file) const = 0;
 
-  private:
-    GraphSample sample_of(const truth::Snapshot& snapshot) const;
-
-    graph::LinkRules rules_;
-    std::unique_ptr<sensing::SensorModel> sensor_;
-    traffic::Observation observation_;
-    prediction::SceneBuilder scenes_;
-    prediction::Scene scene_;
-    prediction::ObservedMessages messages_;
-    prediction::MessageGraph observed_;
-    std::vector<float> features_;
-    GraphSampleWriter writer_;
-    double interval_s_;
-    double next_s_ = 0.0;
-};
-
-/// Records what the improved net is given, with the true links and displacements, and what the route rule
-/// says of the same pairs.
-class RepairSampleRecorder : public trace::StepListener {
-  public:
-    /// As SampleRecorder.
-    RepairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                         const GraphSampleOrigin& origin, std::unique_ptr<sensing::SensorModel> sensor,
-                         core::Seconds interval);
-
-    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
-    const RepairSampleWriter& writer() const { return writer_; }
+  protected:
+    explicit SampleRecorder(Setup setup);
+    const roads::Network& network() const { return network_; }
+    const graph::LinkRules& rules() const { return truth_.rules(); }
+    const SampleOrigin& origin() const { return origin_; }
+    const traffic::Observation& observation() const { return observation_; }
+    /// Of the observation, once `build_scene` was called; in `record` it was.
+    const prediction::Scene& scene() const { return scene_; }
+    void build_scene() { scenes_.build(observation_, scene_); }
+    /// The label of a pair of rows of the scene's tracks: 1 when the two are truly linked. In `record` alone.
+    std::uint8_t label(prediction::RowPair pair) const;
 
   private:
-    void label(const truth::Snapshot& snapshot);
+    /// Adds a sample of the scene, which has candidates.
+    virtual void record(const truth::Snapshot& snapshot) = 0;
+    /// A report round at which no sample is taken: for recorders that must see them all.
+    virtual void pass() {}
 
     const roads::Network& network_;
-    graph::LinkRules rules_;
+    SampleOrigin origin_;
     std::unique_ptr<sensing::SensorModel> sensor_;
     traffic::Observation observation_;
     prediction::SceneBuilder scenes_;
     prediction::Scene scene_;
-    prediction::RepairInputBuilder inputs_;
-    std::unique_ptr<prediction::Predictor> rule_;
-    traffic::BelievedGraph belief_;
-    RepairSample sample_;
-    RepairSampleWriter writer_;
+    metrics::TrueLinks truth_;
+    std::vector<core::VehicleIndex> true_row_;  ///< By row of the tracks.
     double interval_s_;
     double next_s_ = 0.0;
 };
 
-/// Records the features of every candidate pair at report rounds (prediction/pair_features.hpp), with the
-/// true answer: data for the logistic pair model.
-class PairSampleRecorder : public trace::StepListener {
-  public:
-    /// As SampleRecorder.
-    PairSampleRecorder(const roads::Network& network, const graph::LinkRules& rules,
-                       const PairSampleOrigin& origin, std::unique_ptr<sensing::SensorModel> sensor,
-                       core::Seconds interval);
-
-    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
-    const PairSampleFile& samples() const { return samples_; }
-
-  private:
-    graph::LinkRules rules_;
-    std::unique_ptr<sensing::SensorModel> sensor_;
-    traffic::Observation observation_;
-    prediction::SceneBuilder scenes_;
-    prediction::Scene scene_;
-    PairSampleFile samples_;
-    double interval_s_;
-    double next_s_ = 0.0;
-};
+/// The recorder of a kind of samples: any kind but `published`.
+std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kind,
+                                                     SampleRecorder::Setup setup);
+/// How the names of its files end.
+const char* sample_ending(experiment::DatasetKind kind);
 
 /// Records one snapshot as chapter 5.4 of the dissertation stores it: the one with the most links of the run.
 class PairDatasetRecorder : public trace::StepListener {
@@ -116,11 +85,10 @@ class PairDatasetRecorder : public trace::StepListener {
     void take(const truth::Snapshot& snapshot);
 
     const roads::Network& network_;
-    graph::LinkRules rules_;
     std::uint32_t feature_count_;
-    experiment::ListedPairs pairs_;
+    metrics::TrueLinks truth_;
+    graph::LinkRules listed_;  ///< Which pairs the list names.
     graph::ProximityBuilder builder_;
-    graph::ProximityGraph links_;
     graph::ProximityGraph near_;
     std::size_t most_links_ = 0;
     PairDataset dataset_;

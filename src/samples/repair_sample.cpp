@@ -18,14 +18,13 @@ using detail::append;
 using detail::append_all;
 using detail::ByteReader;
 using detail::cure_remake;
+using prediction::common_width;
 
 constexpr std::string_view first_line = "clearway repair samples 1\n";
-/// Features that a vehicle has although it is no receiver; see RepairInputBuilder.
-constexpr std::size_t common_features = 6;
-constexpr std::size_t receiver_features = prediction::node_width - common_features;
+constexpr std::size_t receiver_width = prediction::node_width - prediction::common_width;
 
 static_assert(sizeof(prediction::RowPair) == 8);
-static_assert(sizeof(roads::Point) == 8);
+static_assert(sizeof(prediction::Path) == 8 * prediction::path_points);
 
 bool all_finite(const std::vector<float>& numbers) {
     return std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); });
@@ -52,6 +51,9 @@ std::string fault(const RepairSample& sample) {
         sample.linked.size() != inputs.pairs.size() || sample.rule.size() != inputs.pairs.size()) {
         return "pairs that do not fit their features or labels";
     }
+    if (sample.true_displacement_m.size() != inputs.receivers.size()) {
+        return "true displacements that do not fit the receivers";
+    }
     if (!all_below(inputs.source, inputs.rows)) return "an edge from a vehicle that is not there";
     const bool pairs_fit = std::ranges::all_of(
         inputs.pairs, [&](prediction::RowPair pair) { return pair.left < pair.right && pair.right < rows; });
@@ -59,14 +61,14 @@ std::string fault(const RepairSample& sample) {
     const bool receivers_fit =
         std::ranges::all_of(inputs.receivers, [&](const prediction::Receiver& receiver) {
             return receiver.row < rows && receiver.reach_m > 0.0F && std::isfinite(receiver.reach_m) &&
-                   std::isfinite(receiver.displacement_m) && std::isfinite(receiver.true_displacement_m);
+                   std::isfinite(receiver.displacement_m);
         });
     if (!receivers_fit) return "a receiver that is not there, or without reach";
     if (std::ranges::any_of(sample.linked, [](std::uint8_t label) { return label > 1; })) {
         return "a label other than 0 and 1";
     }
     if (!all_finite(inputs.nodes) || !all_finite(inputs.edges) || !all_finite(inputs.pair_features) ||
-        !all_finite(sample.rule)) {
+        !all_finite(sample.rule) || !all_finite(sample.true_displacement_m)) {
         return "a number that is not finite";
     }
     return {};
@@ -81,21 +83,24 @@ RepairSample read_sample(ByteReader& reader) {
     const auto edges = reader.next_count(sizeof(std::uint32_t));
     const auto pairs = reader.next_count(sizeof(prediction::RowPair));
     std::vector<float> common, own;
-    reader.next_all(inputs.rows * common_features, common);
+    reader.next_all(inputs.rows * common_width, common);
     reader.next_all(inputs.rows, inputs.x_m);
     reader.next_all(inputs.rows, inputs.y_m);
     reader.next_all(inputs.rows, inputs.place_sigma_m);
     inputs.nodes.assign(std::size_t{inputs.rows} * prediction::node_width, 0.0F);
     for (std::size_t row = 0; row < inputs.rows; ++row) {
-        std::copy_n(&common[row * common_features], common_features,
-                    &inputs.nodes[row * prediction::node_width]);
+        std::copy_n(&common[row * common_width], common_width, &inputs.nodes[row * prediction::node_width]);
     }
     inputs.receivers.resize(receivers);
     for (prediction::Receiver& receiver : inputs.receivers) {
-        receiver = reader.next<prediction::Receiver>();
-        reader.next_all(receiver_features, own);
+        receiver.row = reader.next<std::uint32_t>();
+        receiver.displacement_m = reader.next<float>();
+        receiver.reach_m = reader.next<float>();
+        sample.true_displacement_m.push_back(reader.next<float>());
+        receiver.path = reader.next<prediction::Path>();
+        reader.next_all(receiver_width, own);
         if (receiver.row < inputs.rows) {
-            std::ranges::copy(own, &inputs.nodes[receiver.row * prediction::node_width + common_features]);
+            std::ranges::copy(own, &inputs.nodes[receiver.row * prediction::node_width + common_width]);
         }
     }
     reader.next_all(receivers + std::size_t{1}, inputs.first_edge);
@@ -110,7 +115,7 @@ RepairSample read_sample(ByteReader& reader) {
 
 }  // namespace
 
-RepairSampleWriter::RepairSampleWriter(const GraphSampleOrigin& origin)
+RepairSampleWriter::RepairSampleWriter(const SampleOrigin& origin)
     : bytes_(detail::file_start(first_line, origin)) {}
 
 void RepairSampleWriter::add(const RepairSample& sample) {
@@ -125,15 +130,20 @@ void RepairSampleWriter::add(const RepairSample& sample) {
     append(bytes_, static_cast<std::uint32_t>(inputs.pairs.size()));
     const std::span<const float> nodes = inputs.nodes;
     for (std::size_t row = 0; row < inputs.rows; ++row) {
-        append_all(bytes_, nodes.subspan(row * prediction::node_width, common_features));
+        append_all(bytes_, nodes.subspan(row * prediction::node_width, common_width));
     }
     append_all<float>(bytes_, inputs.x_m);
     append_all<float>(bytes_, inputs.y_m);
     append_all<float>(bytes_, inputs.place_sigma_m);
-    for (const prediction::Receiver& receiver : inputs.receivers) {
-        append(bytes_, receiver);
+    for (std::size_t at = 0; at < inputs.receivers.size(); ++at) {
+        const prediction::Receiver& receiver = inputs.receivers[at];
+        append(bytes_, receiver.row);
+        append(bytes_, receiver.displacement_m);
+        append(bytes_, receiver.reach_m);
+        append(bytes_, sample.true_displacement_m[at]);
+        append(bytes_, receiver.path);
         append_all(bytes_,
-                   nodes.subspan(receiver.row * prediction::node_width + common_features, receiver_features));
+                   nodes.subspan(receiver.row * prediction::node_width + common_width, receiver_width));
     }
     append_all<std::uint32_t>(bytes_, inputs.first_edge);
     append_all<std::uint32_t>(bytes_, inputs.source);

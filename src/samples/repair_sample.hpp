@@ -6,20 +6,21 @@
 #include <vector>
 
 #include "prediction/repair_inputs.hpp"
-#include "samples/graph_sample.hpp"
+#include "samples/sample_origin.hpp"
 
 namespace clearway::samples {
 
 /// One moment of one run: what the improved net was given, and the answers.
 struct RepairSample {
     double time_s = 0.0;
-    prediction::RepairInputs inputs;   ///< Receivers carry their true displacements.
+    prediction::RepairInputs inputs;
+    std::vector<float> true_displacement_m;  ///< One a receiver, along its path; negative without a label.
     std::vector<std::uint8_t> linked;  ///< One a pair: 1 when the true distance is below the link radius.
     std::vector<float> rule;           ///< One a pair: probability by the route rule, to compare with.
 };
 
 struct RepairSampleFile {
-    GraphSampleOrigin origin;
+    SampleOrigin origin;
     std::vector<RepairSample> samples;
     std::string content_hash;
 };
@@ -29,7 +30,7 @@ struct RepairSampleFile {
 /// left out: features of receivers, of vehicles that are none.
 class RepairSampleWriter {
   public:
-    explicit RepairSampleWriter(const GraphSampleOrigin& origin);
+    explicit RepairSampleWriter(const SampleOrigin& origin);
     /// Throws std::logic_error when counts do not fit each other.
     void add(const RepairSample& sample);
     std::size_t sample_count() const { return sample_count_; }

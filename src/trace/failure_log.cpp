@@ -9,20 +9,20 @@
 namespace clearway::trace {
 
 FailureLogger::FailureLogger(const RecordingInfo& info, const std::string& failure,
-                             const roads::Network& network) {
-    rules_.radius_m = info.settings.link_radius_m;
+                             const roads::Network& network)
+    : true_links_(graph::LinkRules{.radius_m = info.settings.link_radius_m}) {
     const core::KeyedRandom random(core::StudySeed{info.provenance.study_seed},
                                    core::Replication{info.key.replication});
-    sensor_ =
-        sensing::make_sensor(sensing::failure_from(failure), random, {.network = network, .rules = rules_});
+    sensor_ = sensing::make_sensor(sensing::failure_from(failure), random,
+                                   {.network = network, .rules = true_links_.rules()});
 }
 
 const sensing::FailureLog* FailureLogger::step(const RecordedStep& step) {
     const truth::Snapshot& snapshot = *step.snapshot;
     sensor_->observe(snapshot, *step.roster, observation_);
     if (!observation_.is_report) return nullptr;
-    builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
-    sensor_->log_failures(snapshot, true_graph_, log_);
+    true_links_.look(snapshot);
+    sensor_->log_failures(snapshot, true_links_.graph(), log_);
     return &log_;
 }
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "graph/proximity.hpp"
+#include "metrics/true_links.hpp"
 #include "roads/network.hpp"
 #include "sensing/sensor.hpp"
 #include "trace/recording.hpp"
@@ -23,11 +23,9 @@ class FailureLogger {
     const sensing::FailureLog* step(const RecordedStep& step);
 
   private:
-    graph::LinkRules rules_;
     std::unique_ptr<sensing::SensorModel> sensor_;
     traffic::Observation observation_;
-    graph::ProximityBuilder builder_;
-    graph::ProximityGraph true_graph_;
+    metrics::TrueLinks true_links_;
     sensing::FailureLog log_;
 };
 

@@ -1,12 +1,10 @@
 #include "trace/replay.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "experiment/settings.hpp"
-#include "graph/proximity.hpp"
 #include "metrics/recorder.hpp"
+#include "metrics/true_links.hpp"
 #include "pipeline/decision_chain.hpp"
 #include "trace/difference.hpp"
 
@@ -16,13 +14,13 @@ namespace {
 /// Scores beliefs against the truth of their moment.
 class Scorer {
   public:
-    void decision(const truth::Snapshot& snapshot, const graph::ProximityGraph* true_graph,
+    void decision(const truth::Snapshot& snapshot, const metrics::TrueLinks* truth,
                   const traffic::BelievedGraph& belief, std::size_t leases) {
         ++score_.decisions;
         score_.leases += leases;
-        if (true_graph == nullptr) return;
+        if (truth == nullptr) return;
         ++score_.scored;
-        recorder_.links(snapshot, *true_graph, belief);
+        recorder_.links(snapshot, *truth, belief);
     }
     LinkScore score() const {
         LinkScore score = score_;
@@ -39,21 +37,19 @@ class Scorer {
 /// Gathers what a predictor said of every candidate, and what was true.
 class CandidateGatherer {
   public:
-    void add(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
+    void add(const truth::Snapshot& snapshot, const metrics::TrueLinks& truth,
              const prediction::CandidateScores& scores) {
+        core::match_rows(scores.scene->tracks.key, snapshot.key, true_row_);
         for (std::size_t at = 0; at < scores.probability.size(); ++at) {
             const prediction::RowPair pair = scores.scene->candidates.rows[at];
-            const auto left = snapshot.row_of(scores.scene->tracks.key[pair.left]);
-            const auto right = snapshot.row_of(scores.scene->tracks.key[pair.right]);
-            const bool linked =
-                left && right && std::ranges::binary_search(true_graph.neighbours_of(*left), *right);
             probability_.push_back(scores.probability[at]);
-            linked_.push_back(linked ? 1 : 0);
+            linked_.push_back(truth.linked(true_row_[pair.left], true_row_[pair.right]) ? 1 : 0);
         }
     }
     metrics::LinkQuality quality() const { return metrics::link_quality({probability_, linked_}); }
 
   private:
+    std::vector<core::VehicleIndex> true_row_;
     std::vector<double> probability_;
     std::vector<std::uint8_t> linked_;
 };
@@ -66,22 +62,21 @@ class Replay {
                              .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
                                                          core::Replication{info.key.replication}),
                              .policy_period_s = loop.policy_period_s,
-                             .link_radius_m = loop.link_radius_m}) {
-        rules_.radius_m = loop.link_radius_m;
-    }
+                             .link_radius_m = loop.link_radius_m}),
+          true_links_(graph::LinkRules{.radius_m = loop.link_radius_m}) {}
 
     void step(const RecordedStep& step) {
         const truth::Snapshot& snapshot = *step.snapshot;
         if (result_.steps++ == 0) result_.begin_s = snapshot.time.value;
         result_.end_s = snapshot.time.value;
         result_.vehicle_steps += snapshot.size();
-        has_true_graph_ = false;
+        has_looked_ = false;
 
         chain_.observe(snapshot, *step.roster);
         const bool decides = chain_.decision_is_due();
         if (decides) decide(snapshot);
         if (step.belief != nullptr)
-            recorded_.decision(snapshot, true_graph_if(step.observation->is_report, snapshot), *step.belief,
+            recorded_.decision(snapshot, truth_if(step.observation->is_report, snapshot), *step.belief,
                                step.leases.size());
         compare(step, decides);
     }
@@ -96,17 +91,16 @@ class Replay {
   private:
     void decide(const truth::Snapshot& snapshot) {
         chain_.decide();
-        const graph::ProximityGraph* const links = true_graph_if(chain_.observation().is_report, snapshot);
-        replayed_.decision(snapshot, links, chain_.belief(), chain_.leases().size());
-        if (links != nullptr) candidates_.add(snapshot, *links, chain_.predictor().scores());
+        const metrics::TrueLinks* const truth = truth_if(chain_.observation().is_report, snapshot);
+        replayed_.decision(snapshot, truth, chain_.belief(), chain_.leases().size());
+        if (truth != nullptr) candidates_.add(snapshot, *truth, chain_.predictor().scores());
     }
 
-    const graph::ProximityGraph* true_graph_if(bool wanted, const truth::Snapshot& snapshot) {
+    const metrics::TrueLinks* truth_if(bool wanted, const truth::Snapshot& snapshot) {
         if (!wanted) return nullptr;
-        if (!has_true_graph_)
-            builder_.build({snapshot.x_m, snapshot.y_m, snapshot.vehicle_class}, rules_, true_graph_);
-        has_true_graph_ = true;
-        return &true_graph_;
+        if (!has_looked_) true_links_.look(snapshot);
+        has_looked_ = true;
+        return &true_links_;
     }
 
     void compare(const RecordedStep& step, bool decided) {
@@ -132,10 +126,8 @@ class Replay {
     }
 
     pipeline::DecisionChain chain_;
-    graph::LinkRules rules_;
-    graph::ProximityBuilder builder_;
-    graph::ProximityGraph true_graph_;
-    bool has_true_graph_ = false;  ///< Of the present step.
+    metrics::TrueLinks true_links_;
+    bool has_looked_ = false;  ///< Of the present step.
     Scorer recorded_, replayed_;
     CandidateGatherer candidates_;
     ReplayResult result_;

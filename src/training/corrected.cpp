@@ -24,7 +24,7 @@ void check_origins(const std::vector<GraphSampleFile>& files) {
     if (files.empty())
         throw core::InputError(
             {"--data", "no graph samples", "", "Record some with clearway dataset SCENARIO --samples"});
-    const samples::GraphSampleOrigin& first = files.front().origin;
+    const samples::SampleOrigin& first = files.front().origin;
     for (const GraphSampleFile& file : files) {
         if (file.origin.features != first.features || file.origin.link_radius_m != first.link_radius_m) {
             throw core::InputError({fmt::format("--data: {}, {}, replication {}", file.origin.scenario,

@@ -7,9 +7,6 @@ using prediction::edge_width;
 using prediction::node_width;
 using prediction::RepairInputs;
 
-/// Place of "a neighbour detects it" among the numbers of an edge (RepairInputBuilder::add_edge).
-constexpr std::size_t detected_feature = 12;
-
 bool is_easy(float rule_probability) {
     return rule_probability < 0.02F || rule_probability > 0.98F;
 }
@@ -47,7 +44,8 @@ void append_edges(const RepairInputs& inputs, const std::vector<std::int64_t>& n
     for (std::size_t i = 0; i < inputs.receivers.size(); ++i) {
         for (std::uint32_t edge = inputs.first_edge[i]; edge < inputs.first_edge[i + 1]; ++edge) {
             const float* const numbers_of_edge = &inputs.edges[std::size_t{edge} * edge_width];
-            if (edges == MessageEdges::observed && numbers_of_edge[detected_feature] == 0.0F) continue;
+            if (edges == MessageEdges::observed && numbers_of_edge[prediction::edge_input("detects")] == 0.0F)
+                continue;
             batch.edge_source.push_back(numbers[inputs.source[edge]]);
             batch.edge_receiver.push_back(numbers[inputs.receivers[i].row]);
             batch.edges.insert(batch.edges.end(), numbers_of_edge, numbers_of_edge + edge_width);
@@ -94,12 +92,14 @@ RepairBatch batch_of(std::span<const samples::RepairSample* const> samples, Mess
         for (const prediction::Receiver& receiver : inputs.receivers) {
             batch.displacement_m.push_back(receiver.displacement_m);
             batch.reach_m.push_back(receiver.reach_m);
-            batch.true_displacement_m.push_back(receiver.true_displacement_m);
             for (const roads::Point& point : receiver.path.points) {
                 batch.path.push_back(point.x_m);
                 batch.path.push_back(point.y_m);
             }
         }
+        batch.true_displacement_m.insert(batch.true_displacement_m.end(),
+                                         samples[i]->true_displacement_m.begin(),
+                                         samples[i]->true_displacement_m.end());
         append_edges(inputs, numbers[i], edges, batch);
         append_pairs(*samples[i], numbers[i], sampling, batch);
     }

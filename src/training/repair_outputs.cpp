@@ -39,6 +39,7 @@ prediction::Weights repair_weights(const StateDict& state, const prediction::Rep
                           {"motion", dimensions.motion},    {"embedding", dimensions.embedding},
                           {"decoder", dimensions.decoder},  {"last", dimensions.last},
                           {"edge", prediction::edge_width}, {"pair", prediction::pair_width}};
+    weights.inputs = prediction::repair_input_names();
     weights.tensors = state;
     return weights;
 }

@@ -93,7 +93,7 @@ class LinkTrialTest : public testing::Test {
 TEST_F(LinkTrialTest, counts_what_there_was_to_find_and_what_was_found) {
     LinkTruthView truth(scene_.network(), rules_);
     truth.look(scene_.snapshot(), scene_.roster());
-    ASSERT_EQ(truth.link_count(), 5U);
+    ASSERT_EQ(truth.links().link_count(), 5U);
     ASSERT_EQ(truth.policy_links().size(), 1U);
 
     LinkTrial trial(scene_.network(), rules_, setup({"none", "dead_reckoning"}));
@@ -131,13 +131,13 @@ TEST_F(LinkTrialTest, scores_every_candidate_in_its_subsets) {
     trial.ask(scene_.snapshot(), truth, true);
 
     // Candidates: e1-h3 (40 m, the only true one), and the ghost with e1 (15 m), h3 (25 m) and h2 (55 m).
-    const metrics::LinkScoreSummary scores = trial.result(0).scores;
-    EXPECT_EQ(scores.of(metrics::LinkSubset::all).pairs(), 4U);
-    EXPECT_EQ(scores.of(metrics::LinkSubset::all).true_links(), 1U);
-    EXPECT_EQ(scores.of(metrics::LinkSubset::hard).pairs(), 3U) << "all but the ghost at 15 m";
-    EXPECT_EQ(scores.of(metrics::LinkSubset::policy).pairs(), 2U) << "h3 and the ghost are ahead of e1";
-    EXPECT_EQ(scores.of_age(metrics::age_class_of(3.0F)).pairs(), 1U);
-    EXPECT_EQ(scores.of_age(metrics::age_class_of(10.0F)).pairs(), 3U);
+    const LinkScoreSummary scores = trial.result(0).scores;
+    EXPECT_EQ(scores.of(LinkSubset::all).pairs(), 4U);
+    EXPECT_EQ(scores.of(LinkSubset::all).true_links(), 1U);
+    EXPECT_EQ(scores.of(LinkSubset::hard).pairs(), 3U) << "all but the ghost at 15 m";
+    EXPECT_EQ(scores.of(LinkSubset::policy).pairs(), 2U) << "h3 and the ghost are ahead of e1";
+    EXPECT_EQ(scores.of_age(age_class_of(3.0F)).pairs(), 1U);
+    EXPECT_EQ(scores.of_age(age_class_of(10.0F)).pairs(), 3U);
     EXPECT_EQ(trial.timing(0).vehicles, 6U);
     EXPECT_GT(trial.timing(0).predict_s, 0.0);
 }
@@ -148,8 +148,8 @@ TEST_F(LinkTrialTest, asks_without_scoring_while_sensors_warm_up) {
     LinkTrial trial(scene_.network(), rules_, setup({"last_seen"}));
     trial.observe(scene_.snapshot(), scene_.roster());
     trial.ask(scene_.snapshot(), truth, false);
-    EXPECT_EQ(trial.result(0).truth, metrics::LinkTruth{});
-    EXPECT_EQ(trial.result(0).scores, metrics::LinkScoreSummary{});
+    EXPECT_EQ(trial.result(0).truth, LinkTruth{});
+    EXPECT_EQ(trial.result(0).scores, LinkScoreSummary{});
 }
 
 TEST_F(LinkTrialTest, is_scored_once_a_second_from_the_time_given) {

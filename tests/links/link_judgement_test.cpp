@@ -11,14 +11,12 @@
 namespace clearway::links {
 namespace {
 
-using metrics::LinkSubset;
-
 /// One run with one case. Scores of links are `skill` logits above those of others.
 LinkRun run_of(const std::string& scenario, std::uint32_t replication, const std::string& predictor,
                double skill, std::uint32_t pairs = 400) {
     std::mt19937 engine(replication * 7919U + static_cast<std::uint32_t>(scenario.size()));
     std::normal_distribution<double> noise(0.0, 1.0);
-    metrics::LinkScores scores;
+    LinkScores scores;
     for (std::uint32_t i = 0; i < pairs; ++i) {
         const bool linked = i % 4 == 0;
         const double logit = noise(engine) + (linked ? skill : -skill);
@@ -59,17 +57,17 @@ TEST(LinkJudgement, pools_runs_and_lists_every_scenario) {
     const LinkRuns runs = runs_of("kalman", 1.0);
     judgement.add(runs);
     ASSERT_EQ(judgement.results().size(), 3U);
-    metrics::LinkSummary all;
-    metrics::LinkSummary city;
-    metrics::LinkSummary validation;
+    LinkSummary all;
+    LinkSummary city;
+    LinkSummary validation;
     for (const LinkRun& run : runs.test) {
         all.add(run.cases[0].scores.of(LinkSubset::all));
         if (run.scenario == "city") city.add(run.cases[0].scores.of(LinkSubset::all));
     }
     for (const LinkRun& run : runs.validation)
         validation.add(run.cases[0].scores.of(LinkSubset::all));
-    const double threshold = metrics::best_f1_threshold(validation);
-    const metrics::LinkQuality expected = metrics::link_quality(all, threshold);
+    const double threshold = best_f1_threshold(validation);
+    const metrics::LinkQuality expected = link_quality(all, threshold);
     const LinkResult& pooled = find(judgement, "kalman", "");
     EXPECT_DOUBLE_EQ(pooled.threshold, threshold);
     EXPECT_DOUBLE_EQ(pooled.of(LinkSubset::all).ap.value.value(), expected.ap.value());
@@ -79,7 +77,7 @@ TEST(LinkJudgement, pools_runs_and_lists_every_scenario) {
     EXPECT_EQ(pooled.of(LinkSubset::hard).pairs, 0U);
     EXPECT_FALSE(pooled.of(LinkSubset::hard).ap.value.has_value());
     EXPECT_DOUBLE_EQ(find(judgement, "kalman", "city").of(LinkSubset::all).ap.value.value(),
-                     metrics::link_quality(city).ap.value());
+                     link_quality(city).ap.value());
     EXPECT_EQ(pooled.end_to_end.truth.true_links, 500U);
     EXPECT_EQ(pooled.end_to_end.predicted_away(), 130U);
     EXPECT_DOUBLE_EQ(pooled.end_to_end.recall.value.value(), 0.6);

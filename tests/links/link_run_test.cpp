@@ -13,10 +13,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 LinkRun sample_run() {
-    metrics::LinkScores scores;
+    LinkScores scores;
     for (int i = 0; i < 300; ++i) {
         scores.add(static_cast<float>(i) / 299.0F, i % 3 == 0,
-                   {.age_class = static_cast<std::size_t>(i) % metrics::age_classes,
+                   {.age_class = static_cast<std::size_t>(i) % age_classes,
                     .hard = i % 2 == 0,
                     .ahead_of_emergency = i % 5 == 0});
     }

@@ -174,14 +174,16 @@ TEST(Recorder, CountsEventsOverAllSteps) {
 struct LinkScene {
     LinkScene() {
         snapshot.resize(4);
-        for (std::uint32_t row = 0; row < 4; ++row)
+        for (std::uint32_t row = 0; row < 4; ++row) {
             snapshot.key[row] = VehicleKey{row + 1};
-        graph.first = {0, 1, 3, 5, 6};
-        graph.neighbour = {1, 0, 2, 1, 3, 2};
-        graph.distance_m.resize(6);
+            snapshot.x_m[row] = 40.0F * static_cast<float>(row);
+            snapshot.vehicle_class[row] =
+                row % 2 == 0 ? traffic::VehicleClass::human : traffic::VehicleClass::automated;
+        }
+        links.look(snapshot);
     }
     truth::Snapshot snapshot;
-    graph::ProximityGraph graph;
+    TrueLinks links{graph::LinkRules{}};
 };
 
 TEST(RecorderLinks, AreComparedByKeyWithDarkEndsApart) {
@@ -199,10 +201,10 @@ TEST(RecorderLinks, AreComparedByKeyWithDarkEndsApart) {
         belief.links.push_back({neighbour, 10.0F, 1.0F});
 
     Recorder recorder;
-    recorder.links(scene.snapshot, scene.graph, belief);
+    recorder.links(scene.snapshot, scene.links, belief);
     EXPECT_EQ(recorder.link_counts(), (LinkCounts{1, 2, 2}));
     EXPECT_EQ(recorder.dark_link_counts(), (LinkCounts{0, 2, 2}));  // Lost: 2-3 and 3-4, both ends of 3.
-    recorder.links(scene.snapshot, scene.graph, belief);
+    recorder.links(scene.snapshot, scene.links, belief);
     EXPECT_EQ(recorder.link_counts(), (LinkCounts{2, 4, 4}));
     EXPECT_DOUBLE_EQ(*recorder.link_counts().f1(), 4.0 / (4.0 + 4.0 + 4.0));
     EXPECT_DOUBLE_EQ(*recorder.link_counts().precision(), 1.0 / 3.0);
@@ -220,10 +222,10 @@ TEST(RecorderLinks, OlderReportsAreFreshWhereTheSensorIsLate) {
         belief.vehicles.push_back(vehicle);
     }
     Recorder strict;
-    strict.links(scene.snapshot, scene.graph, belief);
+    strict.links(scene.snapshot, scene.links, belief);
     EXPECT_EQ(strict.dark_link_counts().false_negative, 3U);
     Recorder late(RecorderConfig{2.01F});
-    late.links(scene.snapshot, scene.graph, belief);
+    late.links(scene.snapshot, scene.links, belief);
     EXPECT_EQ(late.dark_link_counts().false_negative, 0U);
     EXPECT_EQ(late.link_counts().false_negative, 3U);
 }

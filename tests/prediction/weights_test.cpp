@@ -18,6 +18,7 @@ Weights small() {
     weights.architecture = "graphsage_net";
     weights.features = {"corrected", 1, 5};
     weights.dimensions = {{"input", 5}, {"hidden", 2}};
+    weights.inputs = {{"node", {"x", "y"}}, {"pair", {"distance"}}};
     weights.notes = {"trained by hand; 2 lines", ""};
     weights.tensors = {{"a.weight", {2, 3}, {0.1F, -2.5e-30F, 3.0F, 1.0F / 3.0F, 5e20F, -0.0F}},
                        {"a.bias", {2}, {std::numeric_limits<float>::denorm_min(), 1.0F}}};
@@ -50,6 +51,7 @@ TEST(Weights, ReadBackExactly) {
     EXPECT_EQ(read.architecture, written.architecture);
     EXPECT_EQ(read.features, written.features);
     EXPECT_EQ(read.dimensions, written.dimensions);
+    EXPECT_EQ(read.inputs, written.inputs);
     EXPECT_EQ(read.notes, written.notes);
     ASSERT_EQ(read.tensors.size(), 2u);
     for (std::size_t at = 0; at < 2; ++at) {

@@ -19,7 +19,7 @@ Measured measured(double value) {
 }
 
 links::LinkResult result_of(const std::string& predictor, const std::string& scenario, double ap) {
-    metrics::LinkScores scores;
+    links::LinkScores scores;
     for (int i = 0; i < 2000; ++i) {
         const float probability = static_cast<float>(i) / 1999.0F;
         scores.add(probability, i % 2 == 0 && i > 600, {.age_class = static_cast<std::size_t>(i % 3)});

@@ -31,7 +31,7 @@ class GraphSampleTest : public testing::Test {
     std::filesystem::path folder_;
 };
 
-samples::GraphSampleOrigin origin() {
+samples::SampleOrigin origin() {
     return {"merge", "B10", {"corrected", 1, 2}, 7, 3, 50.0};
 }
 

@@ -13,10 +13,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 PairSampleFile two_pairs() {
-    return {
-        .origin = {.scenario = "city", .failure = "B10,dark_share=0.5", .study_seed = 7, .replication = 3},
-        .features = {{1, 2, 3, 4, 5, 6, 7, 8}, {-0.5F, 0, 0, 0, 0, 0, 0, 1e-3F}},
-        .linked = {1, 0}};
+    return {.origin = {.scenario = "city",
+                       .failure = "B10,dark_share=0.5",
+                       .features = prediction::pair_feature_schema(),
+                       .study_seed = 7,
+                       .replication = 3},
+            .features = {{1, 2, 3, 4, 5, 6, 7, 8}, {-0.5F, 0, 0, 0, 0, 0, 0, 1e-3F}},
+            .linked = {1, 0}};
 }
 
 class PairSamples : public ::testing::Test {
@@ -45,10 +48,7 @@ TEST_F(PairSamples, ReadBackAsWritten) {
     const PairSampleFile read = read_pair_samples(file_);
     EXPECT_EQ(read.features, two_pairs().features);
     EXPECT_EQ(read.linked, two_pairs().linked);
-    EXPECT_EQ(read.origin.failure, "B10,dark_share=0.5");
-    EXPECT_EQ(read.origin.study_seed, 7u);
-    EXPECT_EQ(read.origin.replication, 3u);
-    EXPECT_EQ(read.origin.link_radius_m, 50.0);
+    EXPECT_EQ(read.origin, two_pairs().origin);
 }
 
 TEST_F(PairSamples, AreRefusedWithFileAndLine) {

@@ -38,22 +38,23 @@ class SyntheticRepair {
             inputs.place_sigma_m.push_back(0.7F * static_cast<float>(row % 4));
             float* const numbers = &inputs.nodes[row * prediction::node_width];
             const bool known = row % 3 != 0;
-            numbers[0] = known ? 1.0F : 0.0F;
-            numbers[3] = speed;
+            numbers[prediction::node_input("known")] = known ? 1.0F : 0.0F;
+            numbers[prediction::node_input("speed")] = speed;
             true_x_m[row] = x_m;
             if (known) continue;
             prediction::Receiver receiver;
             receiver.row = row;
             receiver.reach_m = 150.0F;
             receiver.displacement_m = 140.0F * uniform();
-            receiver.true_displacement_m = receiver.displacement_m * (speed < 0.5F ? 0.5F : 1.0F);
+            const float true_displacement_m = receiver.displacement_m * (speed < 0.5F ? 0.5F : 1.0F);
+            sample.true_displacement_m.push_back(true_displacement_m);
             for (std::size_t i = 0; i < prediction::path_points; ++i) {
                 receiver.path.points[i] = {x_m + 10.0F * static_cast<float>(i), 0.0F};
             }
-            for (std::uint32_t number = 6; number < prediction::node_width; ++number)
+            for (std::size_t number = prediction::common_width; number < prediction::node_width; ++number)
                 numbers[number] = uniform() - 0.5F;
-            numbers[10] = receiver.displacement_m / 100.0F;
-            true_x_m[row] = x_m + receiver.true_displacement_m;
+            numbers[prediction::node_input("displacement")] = receiver.displacement_m / 100.0F;
+            true_x_m[row] = x_m + true_displacement_m;
             inputs.receivers.push_back(receiver);
             add_edges(row, inputs);
         }

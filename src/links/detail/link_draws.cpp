@@ -39,17 +39,17 @@ struct CoarseCounts {
     Table unlinked;
 };
 
-CoarseCounts coarse_counts(const std::vector<metrics::LinkSummary>& runs) {
+CoarseCounts coarse_counts(const std::vector<LinkSummary>& runs) {
     std::vector<std::uint32_t> used;
-    for (const metrics::LinkSummary& run : runs) {
-        for (const metrics::LinkSummary::Bin& bin : run.bins)
+    for (const LinkSummary& run : runs) {
+        for (const LinkSummary::Bin& bin : run.bins)
             used.push_back(bin.bin / coarseness);
     }
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
     CoarseCounts counts{Table(runs.size(), used.size()), Table(runs.size(), used.size())};
     for (std::size_t run = 0; run < runs.size(); ++run) {
-        for (const metrics::LinkSummary::Bin& bin : runs[run].bins) {
+        for (const LinkSummary::Bin& bin : runs[run].bins) {
             const auto column =
                 static_cast<std::size_t>(std::ranges::lower_bound(used, bin.bin / coarseness) - used.begin());
             counts.linked.at(run, column) += static_cast<double>(bin.linked);
@@ -67,7 +67,7 @@ void move_to(Drawn& drawn, const std::optional<double>& exact, const std::option
         draw += *exact - *sample;
 }
 
-void draw_rankings(const std::vector<metrics::LinkSummary>& runs, const analysis::RunResampling& resampling,
+void draw_rankings(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling,
                    const metrics::LinkQuality& exact, DrawnMeasures& measures) {
     const CoarseCounts counts = coarse_counts(runs);
     std::vector<double> linked;
@@ -75,26 +75,26 @@ void draw_rankings(const std::vector<metrics::LinkSummary>& runs, const analysis
     const auto ranked = [&](std::span<const double> weights) {
         counts.linked.sum(weights, linked);
         counts.unlinked.sum(weights, unlinked);
-        return metrics::RankedCounts{linked, unlinked};
+        return RankedCounts{linked, unlinked};
     };
     for (std::size_t number = 0; number < resampling.resamples(); ++number) {
-        const metrics::RankedCounts drawn = ranked(resampling.weights(number));
-        measures.ap.draws.push_back(metrics::average_precision(drawn).value_or(undefined));
-        measures.auc.draws.push_back(metrics::area_under_roc(drawn).value_or(undefined));
+        const RankedCounts drawn = ranked(resampling.weights(number));
+        measures.ap.draws.push_back(average_precision(drawn).value_or(undefined));
+        measures.auc.draws.push_back(area_under_roc(drawn).value_or(undefined));
     }
     const std::vector<double> once(runs.size(), 1.0);
-    const metrics::RankedCounts sample = ranked(once);
-    move_to(measures.ap, exact.ap, metrics::average_precision(sample));
-    move_to(measures.auc, exact.auc, metrics::area_under_roc(sample));
+    const RankedCounts sample = ranked(once);
+    move_to(measures.ap, exact.ap, average_precision(sample));
+    move_to(measures.auc, exact.auc, area_under_roc(sample));
 }
 
-Drawn draw_f1(const std::vector<metrics::LinkSummary>& runs, double threshold,
+Drawn draw_f1(const std::vector<LinkSummary>& runs, double threshold,
               const analysis::RunResampling& resampling) {
-    const std::uint32_t first = metrics::LinkGrid::bin_of(static_cast<float>(threshold));
+    const std::uint32_t first = LinkGrid::bin_of(static_cast<float>(threshold));
     std::vector<double> twice_found(runs.size(), 0.0);
     std::vector<double> predicted_and_true(runs.size(), 0.0);
     for (std::size_t run = 0; run < runs.size(); ++run) {
-        for (const metrics::LinkSummary::Bin& bin : runs[run].bins) {
+        for (const LinkSummary::Bin& bin : runs[run].bins) {
             const auto linked = static_cast<double>(bin.linked);
             predicted_and_true[run] += linked;
             if (bin.bin < first) continue;
@@ -105,26 +105,25 @@ Drawn draw_f1(const std::vector<metrics::LinkSummary>& runs, double threshold,
     return draw_ratio(twice_found, predicted_and_true, resampling);
 }
 
-Drawn draw_log_loss(const std::vector<metrics::LinkSummary>& runs,
-                    const analysis::RunResampling& resampling) {
+Drawn draw_log_loss(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
     std::vector<double> losses;
     std::vector<double> pairs;
-    for (const metrics::LinkSummary& run : runs) {
-        losses.push_back(static_cast<double>(run.log_loss) * metrics::LinkSummary::log_loss_unit);
+    for (const LinkSummary& run : runs) {
+        losses.push_back(static_cast<double>(run.log_loss) * LinkSummary::log_loss_unit);
         pairs.push_back(static_cast<double>(run.pairs()));
     }
     return draw_ratio(losses, pairs, resampling);
 }
 
-Drawn draw_ece(const std::vector<metrics::LinkSummary>& runs, const analysis::RunResampling& resampling) {
-    Table excess(runs.size(), metrics::calibration_bins + 1);  // the last column counts pairs
+Drawn draw_ece(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
+    Table excess(runs.size(), calibration_bins + 1);  // the last column counts pairs
     for (std::size_t run = 0; run < runs.size(); ++run) {
-        for (std::size_t bin = 0; bin < metrics::calibration_bins; ++bin) {
-            const metrics::LinkSummary::Calibration& calibration = runs[run].calibration[bin];
+        for (std::size_t bin = 0; bin < calibration_bins; ++bin) {
+            const LinkSummary::Calibration& calibration = runs[run].calibration[bin];
             excess.at(run, bin) =
-                static_cast<double>(calibration.probability) * metrics::LinkSummary::probability_unit -
+                static_cast<double>(calibration.probability) * LinkSummary::probability_unit -
                 static_cast<double>(calibration.linked);
-            excess.at(run, metrics::calibration_bins) += static_cast<double>(calibration.pairs);
+            excess.at(run, calibration_bins) += static_cast<double>(calibration.pairs);
         }
     }
     std::vector<double> total;
@@ -146,12 +145,12 @@ Drawn draw_ece(const std::vector<metrics::LinkSummary>& runs, const analysis::Ru
 
 }  // namespace
 
-DrawnMeasures draw_measures(const std::vector<metrics::LinkSummary>& runs, double threshold,
+DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double threshold,
                             const analysis::RunResampling& resampling) {
     DrawnMeasures measures;
-    for (const metrics::LinkSummary& run : runs)
+    for (const LinkSummary& run : runs)
         measures.sum.add(run);
-    const metrics::LinkQuality exact = metrics::link_quality(measures.sum, threshold);
+    const metrics::LinkQuality exact = link_quality(measures.sum, threshold);
     draw_rankings(runs, resampling, exact, measures);
     measures.f1 = draw_f1(runs, threshold, resampling);
     measures.log_loss = draw_log_loss(runs, resampling);

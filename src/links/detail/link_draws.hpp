@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "analysis/resampling.hpp"
+#include "links/link_histogram.hpp"
 #include "links/link_judgement.hpp"
-#include "metrics/link_histogram.hpp"
 
 namespace clearway::links::detail {
 
@@ -20,13 +20,13 @@ struct Drawn {
 
 /// The measures of one kind of pairs.
 struct DrawnMeasures {
-    metrics::LinkSummary sum;
+    LinkSummary sum;
     Drawn ap, auc, f1, log_loss, ece;
 };
 
 /// `runs` has one summary a run. Ranking measures of resamples come from a grid eight times as coarse, moved
 /// by the difference between both grids on the whole sample.
-DrawnMeasures draw_measures(const std::vector<metrics::LinkSummary>& runs, double threshold,
+DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double threshold,
                             const analysis::RunResampling& resampling);
 
 /// numerator / denominator of sums over runs.

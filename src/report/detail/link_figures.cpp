@@ -56,30 +56,29 @@ Points thinned(const Points& points, const Axis& x, const Axis& y) {
 }
 
 /// Greatest precision among thresholds that find at least `recall` of the links.
-std::string precision_at(const std::vector<metrics::PrecisionRecall>& curve, double recall) {
+std::string precision_at(const std::vector<links::PrecisionRecall>& curve, double recall) {
     double best = -1.0;
-    for (const metrics::PrecisionRecall& point : curve) {
+    for (const links::PrecisionRecall& point : curve) {
         if (point.recall >= recall) best = std::max(best, point.precision);
     }
     return best < 0.0 ? missing(Script::typeset) : decimal(best, 3);
 }
 
-Points gaps_of(const metrics::LinkSummary& summary) {
+Points gaps_of(const links::LinkSummary& summary) {
     Points points;
-    for (const metrics::LinkSummary::Calibration& bin : summary.calibration) {
+    for (const links::LinkSummary::Calibration& bin : summary.calibration) {
         if (bin.pairs < fewest_pairs) continue;
         const auto pairs = static_cast<double>(bin.pairs);
         const double stated =
-            static_cast<double>(bin.probability) * metrics::LinkSummary::probability_unit / pairs;
+            static_cast<double>(bin.probability) * links::LinkSummary::probability_unit / pairs;
         points.emplace_back(stated, static_cast<double>(bin.linked) / pairs - stated);
     }
     return points;
 }
 
 std::string age_label(std::size_t age_class) {
-    if (age_class + 1 == metrics::age_classes)
-        return fmt::format("> {:g}", metrics::age_ends_s[age_class - 1]);
-    return fmt::format("\u2264 {:g}", metrics::age_ends_s[age_class]);
+    if (age_class + 1 == links::age_classes) return fmt::format("> {:g}", links::age_ends_s[age_class - 1]);
+    return fmt::format("\u2264 {:g}", links::age_ends_s[age_class]);
 }
 
 }  // namespace
@@ -92,15 +91,15 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
     DataTable data{{"Predictor", "AP", "precision at recall .80", ".90", ".95", ".98", ".99"}, {}};
     bool any = false;
     for (const DrawnResult& one : drawn) {
-        const auto curve = metrics::precision_recall(one.result->scores.of(metrics::LinkSubset::all));
+        const auto curve = links::precision_recall(one.result->scores.of(links::LinkSubset::all));
         Points points;
-        for (const metrics::PrecisionRecall& point : curve) {
+        for (const links::PrecisionRecall& point : curve) {
             if (point.recall >= 0.5 && point.precision >= 0.5)
                 points.emplace_back(point.recall, point.precision);
         }
         any = any || !curve.empty();
         if (!points.empty()) plot.line(thinned(points, plot.x(), plot.y()), one.series);
-        const auto& ap = one.result->of(metrics::LinkSubset::all).ap.value;
+        const auto& ap = one.result->of(links::LinkSubset::all).ap.value;
         std::vector<std::string> row = {one.result->predictor,
                                         ap ? decimal(*ap, 4) : missing(Script::typeset)};
         for (const double recall : {0.80, 0.90, 0.95, 0.98, 0.99})
@@ -117,7 +116,7 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
     Range gaps = range_of(-0.05, 0.05);
     std::vector<Points> curves;
     for (const DrawnResult& one : drawn) {
-        curves.push_back(gaps_of(one.result->scores.of(metrics::LinkSubset::all)));
+        curves.push_back(gaps_of(one.result->scores.of(links::LinkSubset::all)));
         for (const auto& [stated, gap] : curves.back())
             gaps.include(gap);
     }
@@ -135,14 +134,14 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
     return to_html(Figure{"Reliability", plot.finish(), legend_of(drawn),
                           fmt::format("Perfect calibration is 0. {} bins of one width; those with fewer than "
                                       "{} pairs are left out.",
-                                      metrics::calibration_bins, fewest_pairs),
+                                      links::calibration_bins, fewest_pairs),
                           data});
 }
 
 std::string age_figure(const std::vector<DrawnResult>& drawn) {
     Range values = range_of(0.95, 1.0);
     DataTable data{{"Predictor"}, {}};
-    for (std::size_t age_class = 0; age_class < metrics::age_classes; ++age_class)
+    for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class)
         data.head.push_back(age_label(age_class) + " s");
     std::vector<Points> curves;
     bool any = false;
@@ -150,8 +149,8 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
         Points& points = curves.emplace_back();
         std::vector<std::string>& row = data.rows.emplace_back();
         row.push_back(one.result->predictor);
-        for (std::size_t age_class = 0; age_class < metrics::age_classes; ++age_class) {
-            const auto ap = metrics::link_quality(one.result->scores.of_age(age_class)).ap;
+        for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class) {
+            const auto ap = links::link_quality(one.result->scores.of_age(age_class)).ap;
             row.push_back(ap ? decimal(*ap, 4) : missing(Script::typeset));
             if (!ap) continue;
             any = true;
@@ -160,12 +159,12 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
         }
     }
     if (!any) return {};
-    const double last = static_cast<double>(metrics::age_classes) - 1.0;
+    const double last = static_cast<double>(links::age_classes) - 1.0;
     Plot plot("Average precision by age", height,
               {range_of(-0.3, last + 0.3), "age of the older report, s", left_edge, right_edge},
               {padded(values, 0.02), "average precision", bottom_edge, top_edge});
     plot.grid_y();
-    for (std::size_t age_class = 0; age_class < metrics::age_classes; ++age_class) {
+    for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class) {
         plot.text(plot.x().place(static_cast<double>(age_class)), bottom_edge + 16.0, age_label(age_class),
                   Plot::Anchor::middle, "tick");
     }

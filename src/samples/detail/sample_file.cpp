@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t most_features = 256;
 
-std::string header(const GraphSampleOrigin& origin) {
+std::string header(const SampleOrigin& origin) {
     const nlohmann::ordered_json json = {{"scenario", origin.scenario},
                                          {"failure", origin.failure},
                                          {"feature_name", origin.features.name},
@@ -27,10 +27,10 @@ std::string header(const GraphSampleOrigin& origin) {
     return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-GraphSampleOrigin read_origin(std::string_view line, const std::string& where) {
+SampleOrigin read_origin(std::string_view line, const std::string& where) {
     try {
         const nlohmann::json json = nlohmann::json::parse(line);
-        GraphSampleOrigin origin;
+        SampleOrigin origin;
         json.at("scenario").get_to(origin.scenario);
         json.at("failure").get_to(origin.failure);
         json.at("feature_name").get_to(origin.features.name);
@@ -88,7 +88,7 @@ void ByteReader::end_reached() const {
     throw core::InputError({where_, "a sample ends before its data", "", cure_remake});
 }
 
-std::string file_start(std::string_view first_line, const GraphSampleOrigin& origin) {
+std::string file_start(std::string_view first_line, const SampleOrigin& origin) {
     if (origin.features.width == 0 || origin.features.width > most_features) {
         throw std::logic_error(fmt::format("graph samples of {} features", origin.features.width));
     }
@@ -119,6 +119,22 @@ void check_sample_count(const std::filesystem::path& file, std::size_t found, st
     if (found == stated) return;
     throw core::InputError(
         {file.string(), fmt::format("{} samples, its last line says {}", found, stated), "", cure_remake});
+}
+
+std::vector<std::filesystem::path> find_files(const std::filesystem::path& folder, std::string_view ending,
+                                              std::string_view what, std::string_view cure) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (entry.path().filename().string().ends_with(ending)) files.push_back(entry.path());
+    }
+    if (error || files.empty()) {
+        throw core::InputError({folder.string(),
+                                error ? error.message() : fmt::format("holds no file of {}", what),
+                                fmt::format("a folder with *{} files", ending), std::string(cure)});
+    }
+    std::ranges::sort(files);
+    return files;
 }
 
 }  // namespace clearway::samples::detail

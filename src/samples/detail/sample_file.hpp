@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "samples/graph_sample.hpp"
+#include "samples/sample_origin.hpp"
 
 namespace clearway::samples::detail {
 
@@ -61,7 +61,7 @@ class ByteReader {
 };
 
 /// First line and origin: how a file starts. Throws std::logic_error for an impossible schema.
-std::string file_start(std::string_view first_line, const GraphSampleOrigin& origin);
+std::string file_start(std::string_view first_line, const SampleOrigin& origin);
 /// How it ends.
 std::string file_end(std::string_view bytes, std::size_t sample_count);
 
@@ -69,7 +69,7 @@ std::string file_end(std::string_view bytes, std::size_t sample_count);
 struct SampleBytes {
     std::string content;
     std::string_view samples;  ///< Part of `content`: keep the struct where it is.
-    GraphSampleOrigin origin;
+    SampleOrigin origin;
     std::size_t sample_count = 0;
     std::string content_hash;
 };
@@ -77,6 +77,11 @@ struct SampleBytes {
 void read_sample_bytes(const std::filesystem::path& file, std::string_view first_line, SampleBytes& bytes);
 /// Throws core::InputError when the file holds another number of samples than its last line says.
 void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
+
+/// The files directly in `folder` whose names end so, by name. Throws core::InputError, with `what` they are
+/// and the `cure`, when there is none.
+std::vector<std::filesystem::path> find_files(const std::filesystem::path& folder, std::string_view ending,
+                                              std::string_view what, std::string_view cure);
 
 inline constexpr const char* cure_remake =
     "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` with "

@@ -1,4 +1,4 @@
-#include "metrics/link_histogram.hpp"
+#include "links/link_histogram.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "metrics/link_scores.hpp"
+#include "links/link_scores.hpp"
 
-namespace clearway::metrics {
+namespace clearway::links {
 namespace {
 
 /// Scored pairs both ways: one by one, and counted on the grid.
@@ -23,7 +23,9 @@ struct Sample {
         linked.push_back(is_linked ? 1 : 0);
         histogram.add(value, is_linked);
     }
-    LinkQuality exact(double threshold) const { return link_quality({probability, linked}, threshold); }
+    metrics::LinkQuality exact(double threshold) const {
+        return metrics::link_quality({probability, linked}, threshold);
+    }
 };
 
 /// Probabilities whose logits are normal around `centre`; links as likely as stated, or less so.
@@ -80,8 +82,8 @@ TEST_P(HistogramAgainstExact, gives_the_same_measures) {
     const Sample sample = GetParam()();
     const LinkSummary summary = sample.histogram.summary();
     const double threshold = best_f1_threshold(summary);
-    const LinkQuality exact = sample.exact(threshold);
-    const LinkQuality counted = link_quality(summary, threshold);
+    const metrics::LinkQuality exact = sample.exact(threshold);
+    const metrics::LinkQuality counted = link_quality(summary, threshold);
     EXPECT_EQ(counted.pairs, exact.pairs);
     EXPECT_EQ(counted.true_links, exact.true_links);
     // Pairs of one bin are tied, which can only lower AP.
@@ -91,7 +93,7 @@ TEST_P(HistogramAgainstExact, gives_the_same_measures) {
     EXPECT_DOUBLE_EQ(counted.f1.value(), exact.f1.value());
     EXPECT_NEAR(counted.log_loss.value(), exact.log_loss.value(), 1e-7);
     EXPECT_NEAR(counted.ece.value(), exact.ece.value(), 1e-7);
-    const double best = best_f1_threshold({sample.probability, sample.linked});
+    const double best = metrics::best_f1_threshold({sample.probability, sample.linked});
     EXPECT_NEAR(counted.f1.value(), sample.exact(best).f1.value(), 1e-3);
 }
 
@@ -107,8 +109,8 @@ TEST(LinkHistogram, counts_certainties_and_ties) {
          {std::pair(1.0F, true), std::pair(1.0F, false), std::pair(0.0F, false), std::pair(0.0F, true),
           std::pair(0.25F, true), std::pair(0.25F, false), std::pair(1e-10F, false)})
         sample.add(value, linked);
-    const LinkQuality exact = sample.exact(0.5);
-    const LinkQuality counted = link_quality(sample.histogram.summary(), 0.5);
+    const metrics::LinkQuality exact = sample.exact(0.5);
+    const metrics::LinkQuality counted = link_quality(sample.histogram.summary(), 0.5);
     EXPECT_DOUBLE_EQ(counted.ap.value(), exact.ap.value());
     EXPECT_DOUBLE_EQ(counted.auc.value(), exact.auc.value());
     EXPECT_DOUBLE_EQ(counted.f1.value(), exact.f1.value());
@@ -117,7 +119,7 @@ TEST(LinkHistogram, counts_certainties_and_ties) {
 
 TEST(LinkSummary, of_nothing_has_no_measures) {
     const LinkSummary empty = LinkHistogram().summary();
-    const LinkQuality quality = link_quality(empty);
+    const metrics::LinkQuality quality = link_quality(empty);
     EXPECT_EQ(quality.pairs, 0U);
     EXPECT_FALSE(quality.ap || quality.auc || quality.f1 || quality.log_loss || quality.ece);
     EXPECT_EQ(best_f1_threshold(empty), 0.5);
@@ -192,4 +194,4 @@ TEST(LinkScores, hard_is_near_the_radius_or_contested) {
 }
 
 }  // namespace
-}  // namespace clearway::metrics
+}  // namespace clearway::links

@@ -1,8 +1,8 @@
-#include "metrics/link_scores.hpp"
+#include "links/link_scores.hpp"
 
 #include <algorithm>
 
-namespace clearway::metrics {
+namespace clearway::links {
 namespace {
 
 std::size_t cell_of(std::size_t age_class, bool hard) {
@@ -67,4 +67,4 @@ LinkScoreSummary LinkScores::summary() const {
     return summary;
 }
 
-}  // namespace clearway::metrics
+}  // namespace clearway::links

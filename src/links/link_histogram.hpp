@@ -8,7 +8,7 @@
 
 #include "metrics/link_quality.hpp"
 
-namespace clearway::metrics {
+namespace clearway::links {
 
 /// The grid on which probabilities of links are counted: fine in the odds at both ends, where rankings are
 /// decided. Bins are ordered by probability. From 2^-24 to 1 - 2^-24 a bin spans at most 1/64 of the smaller
@@ -84,7 +84,7 @@ std::optional<double> f1_score(RankedCounts counts, std::size_t first);
 /// As link_quality.hpp defines them, from a summary; log loss and ECE to rounding, F1 exactly for a threshold
 /// on the grid (others are taken down to the lower edge of their bin), AUC and AP up to the order within
 /// bins.
-LinkQuality link_quality(const LinkSummary& summary, double threshold = 0.5);
+metrics::LinkQuality link_quality(const LinkSummary& summary, double threshold = 0.5);
 
 /// Threshold on the grid with the greatest F1, the highest such; 0.5 without true links.
 double best_f1_threshold(const LinkSummary& summary);
@@ -98,4 +98,4 @@ struct PrecisionRecall {
 /// One point a non-empty bin, from the highest probability down. Empty without true links.
 std::vector<PrecisionRecall> precision_recall(const LinkSummary& summary);
 
-}  // namespace clearway::metrics
+}  // namespace clearway::links

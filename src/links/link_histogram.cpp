@@ -1,4 +1,4 @@
-#include "metrics/link_histogram.hpp"
+#include "links/link_histogram.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace clearway::metrics {
+namespace clearway::links {
 namespace {
 
 // The parts of the grid, by ascending probability.
@@ -199,11 +199,11 @@ std::optional<double> f1_score(RankedCounts counts, std::size_t first) {
     return 2.0 * found / all;
 }
 
-LinkQuality link_quality(const LinkSummary& summary, double threshold) {
+metrics::LinkQuality link_quality(const LinkSummary& summary, double threshold) {
     const Columns columns = columns_of(summary);
     const auto first = std::ranges::lower_bound(summary.bins, LinkGrid::bin_of(static_cast<float>(threshold)),
                                                 {}, &LinkSummary::Bin::bin);
-    LinkQuality quality;
+    metrics::LinkQuality quality;
     quality.pairs = summary.pairs();
     quality.true_links = summary.true_links();
     quality.auc = area_under_roc(columns.ranked());
@@ -251,4 +251,4 @@ std::vector<PrecisionRecall> precision_recall(const LinkSummary& summary) {
     return curve;
 }
 
-}  // namespace clearway::metrics
+}  // namespace clearway::links

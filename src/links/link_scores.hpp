@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "core/fields.hpp"
-#include "metrics/link_histogram.hpp"
+#include "links/link_histogram.hpp"
 
-namespace clearway::metrics {
+namespace clearway::links {
 
 /// Which candidate pairs are scored.
 enum class LinkSubset : std::uint8_t {
@@ -116,4 +116,4 @@ void add_counts(Counts& total, const Counts& other) {
     core::for_each_field<Counts>([&](const auto& field) { total.*field.member += other.*field.member; });
 }
 
-}  // namespace clearway::metrics
+}  // namespace clearway::links

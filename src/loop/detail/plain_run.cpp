@@ -1,0 +1,28 @@
+#include "loop/detail/plain_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "sensing/failure_config.hpp"
+
+namespace clearway::loop::detail {
+namespace {
+
+sensing::Exits exits_from(const std::string& word) {
+    for (const auto& [value, spelling] : sensing::spellings(sensing::Exits{})) {
+        if (word == spelling) return value;
+    }
+    throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
+}
+
+}  // namespace
+
+std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, const std::string& exits,
+                                                const core::KeyedRandom& random,
+                                                const sensing::SensorContext& context) {
+    sensing::FailureConfig config = sensing::failure_from(failure);
+    config.exits = exits_from(exits);
+    return sensing::make_sensor(config, random, context);
+}
+
+}  // namespace clearway::loop::detail

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/random.hpp"
+#include "experiment/loop_config.hpp"
+#include "experiment/condition.hpp"
+#include "experiment/simulation.hpp"
+#include "graph/proximity.hpp"
+#include "sensing/sensor.hpp"
+
+namespace clearway::loop::detail {
+
+// What runs without a policy share whose traffic is only watched: for data sets and to judge predictors.
+// `Order` is experiment::DatasetJob or experiment::LinkJob.
+
+/// Car-following alone.
+inline experiment::ConditionSpec plain_traffic(const std::string& name) {
+    experiment::ConditionSpec condition;
+    condition.name = name;
+    return condition;
+}
+
+inline graph::LinkRules link_rules() {
+    return {.radius_m = experiment::LoopConfig{}.link_radius_m};
+}
+
+/// The draws of a job's failures.
+template <class Order>
+core::KeyedRandom random_of(const Order& job) {
+    return core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{job.replication});
+}
+
+/// The sensor of a failure (sensing::failure_from) with exits `known` or `unknown`. Throws core::InputError
+/// for other words.
+std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, const std::string& exits,
+                                                const core::KeyedRandom& random,
+                                                const sensing::SensorContext& context);
+
+}  // namespace clearway::loop::detail

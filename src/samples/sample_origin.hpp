@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "prediction/weights.hpp"
+
+namespace clearway::samples {
+
+/// What all samples of a file share: one file holds one run of one failure model.
+struct SampleOrigin {
+    std::string scenario;
+    std::string failure;                 ///< Name of the sensing preset, for example `B10`.
+    prediction::FeatureSchema features;  ///< What the numbers are; width [1, 256].
+    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
+    std::uint32_t replication = 0;
+    double link_radius_m = 50.0;
+
+    bool operator==(const SampleOrigin&) const = default;
+};
+
+}  // namespace clearway::samples
