@@ -150,10 +150,10 @@ TEST(Settings, NameAConditionAfterWhatItIs) {
     set(condition, "preempt_signals.lead_s", "12");
     EXPECT_EQ(described_name(condition), "corridor_B10_graphsage_lead_s_12");
     EXPECT_EQ(settings_text(condition), "preempt_signals.lead_s=12");
-    set(condition, "clear_lane.horizon_m", "100");
-    set(condition, "preempt_signals.horizon_m", "300");
-    EXPECT_THAT(described_name(condition),
-                HasSubstr("clear_lane.horizon_m_100_preempt_signals.horizon_m_300"));
+    ConditionSpec alike = corridor();
+    set(alike, "clear_lane.horizon_m", "100");
+    set(alike, "preempt_signals.horizon_m", "300");
+    EXPECT_EQ(described_name(alike), "corridor_clear_lane.horizon_m_100_preempt_signals.horizon_m_300");
     set(condition, "failure.dark_share", "0.5");
     EXPECT_THAT(described_name(condition), testing::StartsWith("corridor_B10_dark_share_0.5_"));
     for (const char* const name : {"lead_per_halted_s", "longest_lead_s", "slowest_share", "halted_mps"})

@@ -124,7 +124,7 @@ TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_
     belief.vehicles.clear();
     belief.first_link = {0};
     std::vector<traffic::Lease> leases;
-    policy.act(belief, leases);
+    part.act(belief, leases);
     EXPECT_EQ(leases.size(), 1U);
 }
 
