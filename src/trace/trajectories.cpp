@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "roads/geography.hpp"
 
 namespace clearway::trace {
@@ -32,15 +33,6 @@ struct Track {
     traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
     std::vector<Line> lines;
 };
-
-/// A text cell of CSV (RFC 4180).
-std::string cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char letter : text)
-        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
-}
 
 struct Nearest {
     std::uint32_t emergency = 0;  ///< Row of the snapshot.
@@ -107,13 +99,14 @@ class Writer {
             place = geography_->coordinates(snapshot.x_m[row], snapshot.y_m[row]);
             coordinates = fmt::format("{:.7f},{:.7f}", place->longitude_deg, place->latitude_deg);
         }
-        const std::string near = nearest ? cell(roster.find(snapshot.key[nearest->emergency])->id) : "";
+        const std::string near =
+            nearest ? core::csv_text(roster.find(snapshot.key[nearest->emergency])->id) : "";
         const core::LaneIndex lane = snapshot.lane[row];
         csv_.write(fmt::format("{:.2f},{},{},{},{},{},{:.2f},{:.2f},{:.2f},{}\n", snapshot.time.value,
-                               cell(info.id), traffic::name(snapshot.vehicle_class[row]), near,
+                               core::csv_text(info.id), traffic::name(snapshot.vehicle_class[row]), near,
                                nearest ? fmt::format("{:.1f}", nearest->metres) : "", coordinates,
                                snapshot.x_m[row], snapshot.y_m[row], snapshot.speed_mps[row],
-                               lane.exists() ? cell(network_.lane(lane).id) : ""));
+                               lane.exists() ? core::csv_text(network_.lane(lane).id) : ""));
         ++counts_.places;
         Track& track = tracks_[snapshot.key[row]];
         track.id = info.id;
