@@ -1,5 +1,7 @@
 // Recordings and runs made again, as a user meets them.
+#include <cstdlib>
 #include <sstream>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +112,37 @@ TEST_F(ReplayTest, the_failure_log_tells_who_was_dark_and_what_links_that_cost) 
     const Ended refused = clearway({"replay", recording, "--csv", "links", "--failure", "B20"});
     EXPECT_EQ(refused.code, 3);
     EXPECT_THAT(refused.err, HasSubstr("--csv failures"));
+}
+
+/// `time_s,vehicle,x_m,y_m` of each line, by the columns' names; reals as the floats that they name.
+std::vector<std::tuple<double, std::string, float, float>> positions(
+    const std::string& csv, const std::vector<std::size_t>& columns) {
+    std::vector<std::tuple<double, std::string, float, float>> found;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> cells;
+        std::istringstream stream(line);
+        for (std::string cell; std::getline(stream, cell, ',');)
+            cells.push_back(cell);
+        if (cells.front() == "time_s") continue;
+        found.emplace_back(std::stod(cells.at(columns[0])), cells.at(columns[1]),
+                           std::stof(cells.at(columns[2])), std::stof(cells.at(columns[3])));
+    }
+    return found;
+}
+
+TEST_F(ReplayTest, a_recording_is_read_by_python) {
+    if (std::system("/usr/bin/python3 -c 'import h5py' 2> /dev/null") != 0)
+        GTEST_SKIP() << "python3-h5py is not installed";
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const std::string out = (folder() / "positions.csv").string();
+    ASSERT_EQ(std::system(("/usr/bin/python3 " CLEARWAY_SOURCE_DIR "/tests/trace/read_with_h5py.py " +
+                           (folder() / recording).string() + " > " + out)
+                              .c_str()),
+              0);
+    const auto expected = positions(clearway({"replay", recording, "--csv", "snapshot"}).out, {0, 1, 4, 5});
+    ASSERT_GT(expected.size(), 100U);
+    EXPECT_EQ(positions(read("positions.csv"), {0, 1, 2, 3}), expected);
 }
 
 TEST_F(ReplayTest, bad_input_of_replay_is_told) {

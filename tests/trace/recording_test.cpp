@@ -105,7 +105,7 @@ class Recording : public testing::Test {
 
 TEST_F(Recording, GivesBackEveryBitOfEveryStep) {
     for (const bool own_roster : {false, true}) {
-        const std::filesystem::path file = folder_.path() / "any.recording";
+        const std::filesystem::path file = folder_.path() / "any.h5";
         trace::RecordingWriter writer(file, RandomRun::info());
         RandomRun run(5, own_roster);
         for (int step = 0; step < 400; ++step)
