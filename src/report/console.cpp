@@ -82,6 +82,10 @@ std::string split_cell(const Estimate& value, NumberStyle style, double factor) 
                                                   : "(no interval)");
 }
 
+bool is_about_emergency(const MeasureInfo& measure) {
+    return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
+}
+
 std::string effect_word(const ConditionFacts& condition, Measure measure) {
     switch (effect_of(condition, measure)) {
         case Effect::better:
@@ -93,8 +97,9 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
         case Effect::none_shown:
             return "no effect shown";
         case Effect::ruled_out: {
-            const std::string word = analysis::emergency_objection_word(condition.objections);
-            return word.empty() ? "others lost" : word;
+            if (is_about_emergency(info(measure)) || condition.objections.unchecked)
+                return analysis::emergency_objection_word(condition.objections);
+            return "others lost";
         }
         case Effect::too_few:
         case Effect::undecided:
@@ -211,10 +216,6 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
             "The demand has no emergency vehicle (emergency = 0): rows about EVs are left out, and there is "
             "nothing to judge a policy by. Set emergency to 1 or more.",
             text);
-}
-
-bool is_about_emergency(const MeasureInfo& measure) {
-    return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
 }
 
 void append_scenario(const ScenarioFacts& scenario, std::string& text) {
