@@ -35,7 +35,7 @@ std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& 
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
-/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (to 2.1)` where the bound at 0 makes it
+/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (<2.1)` where the bound at 0 makes it
 /// lopsided.
 std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.mean) return missing(style.script);
@@ -43,7 +43,7 @@ std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.has_interval()) return text;
     const double above = *value.high - *value.mean;
     const bool is_lopsided = above > 1.001 * (*value.mean - *value.low) + 1e-9;
-    if (is_lopsided) return text + fmt::format(" (to {})", number(*value.high, style));
+    if (is_lopsided) return text + fmt::format(" (<{})", number(*value.high, style));
     return text + fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
 }
 
@@ -272,7 +272,7 @@ std::string console_tables(const StudyFacts& study) {
     text += safe_table(failure_table(study.failure_curves));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval; (to x): its upper end where it is lopsided, for "
+        "here: mean and half width of its 95 % interval; (<x): its upper end where it is lopsided, for "
         "none "
         "reaches below 0. EV travel time, all, of which verdicts speak: an EV that did not arrive counts "
         "with "
