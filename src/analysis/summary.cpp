@@ -171,14 +171,19 @@ TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
     return {pooled_quantile(clusters, 0.5, drawn), pooled_quantile(clusters, 0.95, drawn)};
 }
 
+/// Whether a run has emergency vehicles but no restricted travel time: see
+/// ConditionSummary::runs_without_horizon.
+bool lacks_horizon(const results::RunRecord* run) {
+    return run != nullptr && !run->metrics.emergency_restricted_travel_time_s &&
+           emergency_outcomes(*run).total() > 0;
+}
+
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         ++summary.complete_runs;
-        const OutcomeCounts emergency = emergency_outcomes(*run);
-        if (emergency.total() > 0 && !run->metrics.emergency_restricted_travel_time_s)
-            ++summary.runs_without_horizon;
-        summary.emergency += emergency;
+        summary.emergency += emergency_outcomes(*run);
+        if (lacks_horizon(run)) ++summary.runs_without_horizon;
         summary.others += other_outcomes(*run);
     }
 }
@@ -223,6 +228,7 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
         const auto has_value = [](const results::RunRecord* run) {
             return run != nullptr && run->metrics.emergency_restricted_travel_time_s;
         };
+        if (std::ranges::any_of(runs, lacks_horizon)) return;
         if (!std::ranges::all_of(runs, has_value)) continue;
         with.push_back(*runs[0]->metrics.emergency_restricted_travel_time_s);
         without.push_back(*runs[1]->metrics.emergency_restricted_travel_time_s);
@@ -320,8 +326,12 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     summary.travel_time = tail_of(runs, resamples);
     std::vector<Values> values = values_of(runs);
     const std::vector<MetricInfo> metrics = all_metrics();
-    for (std::size_t metric = 0; metric < metrics.size(); ++metric)
+    for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
+        // The runs that have a value would be those that lost nobody.
+        if (summary.runs_without_horizon > 0 && metrics[metric].name == primary_metric)
+            values[metric].assign(values[metric].size(), std::nullopt);
         summary.metrics.push_back(describe(metrics[metric], std::move(values[metric]), resamples.level()));
+    }
     return summary;
 }
 

@@ -36,7 +36,7 @@ std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& 
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
-/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (to 2.1)` where the bound at 0 makes it
+/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (<2.1)` where the bound at 0 makes it
 /// lopsided.
 std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.mean) return missing(style.script);
@@ -44,7 +44,7 @@ std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.has_interval()) return text;
     const double above = *value.high - *value.mean;
     const bool is_lopsided = above > 1.001 * (*value.mean - *value.low) + 1e-9;
-    if (is_lopsided) return text + fmt::format(" (to {})", number(*value.high, style));
+    if (is_lopsided) return text + fmt::format(" (<{})", number(*value.high, style));
     return text + fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
 }
 
@@ -83,6 +83,10 @@ std::string split_cell(const Estimate& value, NumberStyle style, double factor) 
                                                   : "(no interval)");
 }
 
+bool is_about_emergency(const MeasureInfo& measure) {
+    return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
+}
+
 std::string effect_word(const ConditionFacts& condition, Measure measure) {
     switch (effect_of(condition, measure)) {
         case Effect::better:
@@ -94,8 +98,9 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
         case Effect::none_shown:
             return "none shown";
         case Effect::ruled_out: {
-            const std::string word = analysis::emergency_objection_word(condition.objections);
-            return word.empty() ? "others lost" : word;
+            if (is_about_emergency(info(measure)) || condition.objections.unchecked)
+                return analysis::emergency_objection_word(condition.objections);
+            return "others lost";
         }
         case Effect::too_few:
         case Effect::undecided:
@@ -214,10 +219,6 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
             text);
 }
 
-bool is_about_emergency(const MeasureInfo& measure) {
-    return measure.relevance == Relevance::least || measure.measure == Measure::gap_closed;
-}
-
 bool is_essential(Measure measure) {
     return measure == Measure::emergency_restricted_time || measure == Measure::other_time_loss;
 }
@@ -284,7 +285,7 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval; (to x): its upper end where it is lopsided, for "
+        "here: mean and half width of its 95 % interval; (<x): its upper end where it is lopsided, for "
         "none "
         "reaches below 0. EV travel time, all, of which verdicts speak: an EV that did not arrive counts "
         "with "

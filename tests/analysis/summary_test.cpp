@@ -137,6 +137,22 @@ TEST_F(SmallStudy, ObjectsToCollisionsAndLossesOfOthersBeyondTheirInterval) {
     EXPECT_FALSE(scenario().find("treated")->objections.collisions) << "one may be chance";
 }
 
+TEST_F(SmallStudy, TakesNoRestrictedTimeFromTheRunsOfAnOldFolderThatLostNobody) {
+    add_all();
+    lose_the_second("treated", 1);
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition == "treated" && run.key.replication == 0)
+            run.metrics.emergency_restricted_travel_time_s.reset();
+    }
+    const ScenarioSummary summary = scenario();
+    const ConditionSummary& treated = *summary.find("treated");
+    EXPECT_EQ(treated.runs_without_horizon, 1U);
+    EXPECT_FALSE(treated.metric(primary_metric).estimate);
+    EXPECT_FALSE(treated.metric(primary_metric).comparison->difference);
+    EXPECT_FALSE(treated.gap_closed);
+    EXPECT_TRUE(treated.objections.loses_emergency()) << "that much old records tell";
+}
+
 TEST_F(SmallStudy, AddsLeasesUpByPartAndAction) {
     add_all();
     for (RunRecord& run : results_.runs) {

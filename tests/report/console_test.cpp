@@ -99,7 +99,7 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
 
 TEST(ConsoleTables, say_emergency_vehicle_before_they_say_ev) {
     const std::string text = console_tables(tests::study({"city"}));
-    EXPECT_EQ(text.find("EV"), text.find("60 emergency vehicles (EV)") + 24);
+    EXPECT_EQ(text.find("EV"), text.find("60 emergency vehicles (EV)") + 23);
 }
 
 TEST(ConsoleTables, warn_of_a_demand_without_emergency_vehicles) {
@@ -121,8 +121,8 @@ TEST(ConsoleTables, print_the_upper_end_of_an_interval_that_the_bound_at_zero_ma
     StudyFacts study = tests::study({"merge"});
     study.scenarios[0].conditions[0].outcome(Measure::emergency_depart_delay).value = {0.5, 0.03, 8.0, 20};
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, HasSubstr(" 0.50 (to 8.00)"));
-    EXPECT_THAT(text, HasSubstr("(to x)"));
+    EXPECT_THAT(text, HasSubstr("  0.50 (<8.00)"));
+    EXPECT_THAT(text, HasSubstr("(<x)"));
 }
 
 TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_arrived) {
