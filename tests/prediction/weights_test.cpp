@@ -71,7 +71,7 @@ TEST(Weights, NameBothVersionsOfTheFormat) {
 }
 
 TEST(Weights, RefuseWhatIsNotTheFormatWithItsLine) {
-    EXPECT_THAT(refusal(with("0.1 ", "0.1x ")), AllOf(HasSubstr("net.weights:9"), HasSubstr("0.1x")));
+    EXPECT_THAT(refusal(with("0.1 ", "0.1x ")), AllOf(HasSubstr("net.weights:11"), HasSubstr("0.1x")));
     EXPECT_THAT(refusal(with("0.1 ", "nan ")), HasSubstr("'nan' is not a finite number"));
     EXPECT_THAT(refusal(with("0.1 ", "inf ")), HasSubstr("finite"));
     EXPECT_THAT(refusal(with("0.1 ", "")), HasSubstr("2 values in a row of tensor a.weight"));
