@@ -36,7 +36,7 @@ constexpr std::array<std::pair<DarkCommands, const char*>, 2> spellings(DarkComm
 }
 
 /// How sensors report and how they fail. The parts combine freely; each is off at its default.
-/// docs/sensing.md explains them.
+/// docs/reference/sensing.md explains them.
 struct FailureConfig {
     double report_interval_s = 1.0;
     double loss_rate = 0.0;
