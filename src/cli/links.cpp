@@ -99,7 +99,7 @@ fs::path benchmark_file(const std::string& name) {
     const auto found = shipped(fs::path("studies") / "links" / (name + ".toml"));
     if (found) return *found;
     throw core::InputError({"--benchmark", fmt::format("`{}` is neither a benchmark nor a file", name),
-                            "eval_v1, or a TOML file", "docs/link-prediction.md describes both"});
+                            "eval_v1, or a TOML file", "docs/reference/link-prediction.md describes both"});
 }
 
 /// The benchmark's scenarios of these names; all of them for none.

@@ -85,10 +85,10 @@ Json parameters_of(const sensing::FailureConfig& config) {
 }
 
 Section failures() {
-    Section section{
-        "failures",
-        "Sensor failures (run --failure NAME, NAME,FIELD=VALUE,... or FIELD=VALUE,...; docs/sensing.md)",
-        {}};
+    Section section{"failures",
+                    "Sensor failures (run --failure NAME, NAME,FIELD=VALUE,... or FIELD=VALUE,...; "
+                    "docs/reference/sensing.md)",
+                    {}};
     for (const sensing::FailurePreset& preset : sensing::failure_presets()) {
         section.entries.push_back(
             {preset.name,

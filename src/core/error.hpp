@@ -6,7 +6,7 @@
 
 namespace clearway::core {
 
-/// Exit codes of every program, as `docs/command-line.md` lists them.
+/// Exit codes of every program, as `docs/reference/command-line.md` lists them.
 enum class ExitCode : int {
     ok = 0,
     runs_failed = 1,

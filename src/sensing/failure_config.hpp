@@ -37,7 +37,7 @@ constexpr core::Spellings<DarkCommands, 2> spellings(DarkCommands) {
 }
 
 /// How sensors report and how they fail. The parts combine freely; each is off at its default.
-/// docs/sensing.md explains them.
+/// docs/reference/sensing.md explains them.
 struct FailureConfig {
     double report_interval_s = 1.0;
     double loss_rate = 0.0;
