@@ -54,11 +54,11 @@ class Stages {
 
 /// Imports, saying what is done, until it is interrupted.
 scenario_import::Findings import_watched(const scenario_import::ImportRequest& request) {
-    const InterruptionWatch interruption;
+    const core::InterruptionWatch interruption;
     Stages stages;
     return scenario_import::import(request, [&](const std::string& stage, double) {
-        if (const int signal = interruption.received(); signal != 0)
-            throw core::Error(signal == SIGINT ? core::ExitCode::interrupted : core::ExitCode::terminated,
+        if (interruption.signal() != 0)
+            throw core::Error(interruption.exit_code(core::ExitCode::ok),
                               "interrupted; nothing is left behind");
         stages.show(stage);
     });

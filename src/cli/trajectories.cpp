@@ -54,7 +54,7 @@ core::ExitCode write(const Arguments& arguments) {
                counts.neighbours, counts.places);
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
                counts.has_coordinates ? fmt::format("  {}/trajectories.geojson\n", folder.string()) : "",
-               condition.parts.empty()
+               condition.policies.empty()
                    ? "this run for any SUMO"
                    : "its demand, engine and devices for any SUMO; what the policy did is not in it");
     if (!counts.has_coordinates)

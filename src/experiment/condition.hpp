@@ -45,7 +45,8 @@ struct ConditionSpec {
     core::Settings settings = {};
     std::string model_file = {};  ///< Of a learned predictor; absolute; empty: the model in the program.
     std::string model_hash = {};  ///< Of that file's content, so that a changed model is another condition.
-    /// Factors of the study that made it, `failure.dark_share` -> `0.3`; they say what the rest already holds.
+    /// Factors of the study that made it, `failure.dark_share` -> `0.3`; they say what the rest already
+    /// holds.
     core::Settings factors = {};
     traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
 

@@ -29,7 +29,7 @@ std::vector<BuiltInCondition> make_conditions() {
     solo.engine = Engine::solo;
     ConditionSpec corridor;
     corridor.name = usual_condition;
-    corridor.parts = {"corridor"};
+    corridor.policies = {"corridor"};
     return {
         {"The car-following model alone (IDM); what all others are compared with", baseline},
         {"Signals preempted, the lane cleared and the crossing traffic recovered, with perfect sensing; what "

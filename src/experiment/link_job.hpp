@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/settings.hpp"
 #include "experiment/simulation.hpp"
 
 namespace clearway::experiment {

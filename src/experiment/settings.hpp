@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/settings.hpp"
 #include "drivers/siren.hpp"
-#include "experiment/loop_config.hpp"
 #include "experiment/condition.hpp"
+#include "experiment/loop_config.hpp"
 
 namespace clearway::experiment {
 

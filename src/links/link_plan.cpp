@@ -36,10 +36,9 @@ std::vector<std::uint32_t> replications(const LinkPlan& plan) {
     return numbers;
 }
 
-std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan,
-                                                               const LinkRunFiles& files,
-                                                               const scenario::ScenarioConfig& config,
-                                                               std::uint32_t replication) {
+std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan, const LinkRunFiles& files,
+                                                            const scenario::ScenarioConfig& config,
+                                                            std::uint32_t replication) {
     std::vector<experiment::JudgedPredictor> jobs;
     for (const LinkPredictor& predictor : plan.predictors) {
         const fs::path file = files.file(config, replication, predictor);
@@ -52,7 +51,7 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
 
 /// The runs of a scenario that are missing.
 std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunFiles& files,
-                                              const scenario::ScenarioConfig& config) {
+                                            const scenario::ScenarioConfig& config) {
     const fs::path folder = files.scenario_folder(config);
     std::vector<experiment::LinkJob> jobs;
     for (const std::uint32_t replication : replications(plan)) {

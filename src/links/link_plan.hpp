@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/settings.hpp"
 #include "experiment/link_job.hpp"
 #include "links/link_benchmark.hpp"
 #include "links/link_judgement.hpp"

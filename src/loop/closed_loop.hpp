@@ -73,7 +73,7 @@ class ClosedLoop {
     std::optional<Machinery> machinery_;
     trace::StepListener* listener_ = nullptr;
 
-    metrics::TrueLinks true_links_;
+    metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;
     LoopTiming timing_;
 };

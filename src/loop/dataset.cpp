@@ -25,8 +25,7 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
     run.record(detail::plain_traffic("dataset"), recorder);
     const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
-        throw core::InputError({job.scenario,
-                                "no two vehicles of linkable classes ever came near each other",
+        throw core::InputError({job.scenario, "no two vehicles of linkable classes ever came near each other",
                                 "at least one link", "Raise the density, or choose another seed"});
     }
     samples::write_pair_dataset(job.output, dataset);
@@ -46,16 +45,16 @@ void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph
     for (const std::string& failure : job.failures) {
         recorders.push_back(samples::make_sample_recorder(
             job.dataset, {.network = run.network(),
-                         .rules = rules,
-                         .origin = {.scenario = job.scenario,
-                                    .failure = failure_name(job, failure),
-                                    .features = {},
-                                    .study_seed = job.study_seed,
-                                    .replication = job.replication,
-                                    .link_radius_m = rules.radius_m},
-                         .sensor = detail::sensor_of(failure, job.exits, detail::random_of(job),
-                                                     {.network = run.network(), .rules = rules}),
-                         .interval = core::Seconds(job.interval_s)}));
+                          .rules = rules,
+                          .origin = {.scenario = job.scenario,
+                                     .failure = failure_name(job, failure),
+                                     .features = {},
+                                     .study_seed = job.study_seed,
+                                     .replication = job.replication,
+                                     .link_radius_m = rules.radius_m},
+                          .sensor = detail::sensor_of(failure, job.exits, detail::random_of(job),
+                                                      {.network = run.network(), .rules = rules}),
+                          .interval = core::Seconds(job.interval_s)}));
         all.add(*recorders.back());
     }
     run.record(detail::plain_traffic("dataset"), all);
@@ -70,8 +69,7 @@ void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph
 
 core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     core::make_folder(job.output);
-    const core::TemporaryFolder work(job.output /
-                                  fmt::format("work-{}-{}", job.scenario, job.replication));
+    const core::TemporaryFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
     UnitRun run(job, work.path());
     const graph::LinkRules rules = detail::link_rules();
     if (job.dataset == experiment::DatasetKind::published) {

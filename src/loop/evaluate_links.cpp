@@ -22,8 +22,8 @@ std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& j
         job.name, {.network = network, .rules = rules, .model_file = job.model_file}, job.settings);
 }
 
-void add_trials(const experiment::LinkJob& job, const roads::Network& network,
-                const graph::LinkRules& rules, links::LinkEvaluator& evaluator) {
+void add_trials(const experiment::LinkJob& job, const roads::Network& network, const graph::LinkRules& rules,
+                links::LinkEvaluator& evaluator) {
     const core::KeyedRandom random = detail::random_of(job);
     for (const std::string& exits : job.exits) {
         for (const std::string& failure : job.failures) {

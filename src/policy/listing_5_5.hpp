@@ -50,8 +50,8 @@ struct Listing55Config {
 };
 
 /// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. It is an
-/// opponent and keeps its defects, each named in the source where it acts; docs/findings/policies.md says what they
-/// cost.
+/// opponent and keeps its defects, each named in the source where it acts; docs/findings/policies.md says
+/// what they cost.
 class Listing55 : public Policy {
   public:
     explicit Listing55(const PolicyContext& context, Listing55Config config = {});

@@ -240,7 +240,8 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
                    "effect", "", page_width);
     for (const MeasureInfo& measure : measures()) {
         const bool wanted = tables == Tables::all || is_essential(measure.measure);
-        if (wanted && (has_emergency || !is_about_emergency(measure))) append_measure(scenario, measure, text);
+        if (wanted && (has_emergency || !is_about_emergency(measure)))
+            append_measure(scenario, measure, text);
     }
     if (tables == Tables::all && has_emergency) append_tails(scenario, text);
 }

@@ -127,7 +127,7 @@ bool tables_are_current(const Store& store) {
     const Database database = open_database(store);
     std::string study;
     database.for_each_row("SELECT value FROM study WHERE key = 'manifest_hash'",
-                          [&](sqlite3_stmt* row) { study = Database::text_at(row, 0); });
+                          [&](sqlite3_stmt* row) { study = text_at(row, 0); });
     if (study != manifest_hash(store.manifest())) return false;
     std::uint64_t complete = 0;
     std::uint64_t failed = 0;

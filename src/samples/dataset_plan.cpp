@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiment/job.hpp"
 #include "samples/dataset_files.hpp"
 #include "samples/recorders.hpp"
 
@@ -17,7 +18,7 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 }  // namespace
 
 std::vector<experiment::DatasetJob> dataset_jobs(const experiment::DatasetJob& shared,
-                                                     const std::string& scenario, const DatasetSeeds& seeds) {
+                                                 const std::string& scenario, const DatasetSeeds& seeds) {
     experiment::DatasetJob job = shared;
     job.scenario = scenario;
     const std::filesystem::path origin = job.output / "origin" / scenario;
@@ -37,8 +38,7 @@ std::filesystem::path job_file(const experiment::DatasetJob& job) {
 
 std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job) {
     if (job.dataset == experiment::DatasetKind::published) {
-        return {job.output / edge_list_file, job.output / vehicle_features_file,
-                job.output / target_file};
+        return {job.output / edge_list_file, job.output / vehicle_features_file, job.output / target_file};
     }
     std::vector<std::filesystem::path> files;
     for (const std::string& failure : job.failures)

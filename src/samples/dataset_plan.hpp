@@ -18,7 +18,7 @@ struct DatasetSeeds {
 /// One job for each replication of a scenario. `shared` says what and where to; scenario and network are
 /// kept below `origin/` of the data set.
 std::vector<experiment::DatasetJob> dataset_jobs(const experiment::DatasetJob& shared,
-                                                     const std::string& scenario, const DatasetSeeds& seeds);
+                                                 const std::string& scenario, const DatasetSeeds& seeds);
 
 /// Where the job of a recording is kept beside the data set.
 std::filesystem::path job_file(const experiment::DatasetJob& job);

@@ -1,6 +1,6 @@
-#include "experiment/condition_json.hpp"
-
 #include <gmock/gmock.h>
+
+#include "experiment/condition_json.hpp"
 
 namespace clearway::experiment {
 namespace {

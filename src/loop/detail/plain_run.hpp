@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/random.hpp"
-#include "experiment/loop_config.hpp"
 #include "experiment/condition.hpp"
+#include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
 #include "graph/proximity.hpp"
 #include "sensing/sensor.hpp"
