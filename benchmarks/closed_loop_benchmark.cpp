@@ -42,7 +42,7 @@ experiment::ConditionSpec condition(const std::string& failure, const std::strin
     spec.name = "benchmark";
     spec.failure = failure;
     spec.predictor = predictor;
-    if (!part.empty()) spec.parts = {part};
+    if (!part.empty()) spec.policies = {part};
     return spec;
 }
 

@@ -26,7 +26,7 @@ study::Plan plan_of(std::uint32_t replications) {
         config.scenarios.emplace_back().name = name;
     for (const char* const name : {"baseline", "policy_a", "policy_b", "policy_c", "policy_d"}) {
         config.conditions.emplace_back().name = name;
-        if (config.conditions.size() > 1) config.conditions.back().parts = {"corridor"};
+        if (config.conditions.size() > 1) config.conditions.back().policies = {"corridor"};
     }
     return study::make_plan(config, {"0.1.0", "1.15.0"}, "synthetic");
 }

@@ -24,7 +24,7 @@ results::Manifest manifest_of(std::uint32_t runs) {
     for (std::uint32_t number = 1; number + 1 < conditions; ++number) {
         experiment::ConditionSpec condition;
         condition.name = "policy_" + std::to_string(number);
-        condition.parts = {"dissertation"};
+        condition.policies = {"dissertation"};
         manifest.conditions.push_back(condition);
     }
     experiment::ConditionSpec solo;
@@ -52,7 +52,7 @@ results::RunRecord run_of(const experiment::RunKey& key, const experiment::Condi
     results::RunRecord run = results::synthetic::record(key);
     run.condition = condition;
     run.vehicles.clear();
-    const double gain_s = condition.parts.empty() ? 0.0 : 10.0;
+    const double gain_s = condition.policies.empty() ? 0.0 : 10.0;
     double sum_s = 0.0;
     for (std::uint64_t vehicle = 0; vehicle < 3; ++vehicle) {
         const double travel_s = 120.0 - gain_s + 20.0 * random.normal(core::Purpose::driver, vehicle) +

@@ -55,6 +55,14 @@ failure.dark_share = [0.1, 0.25]
     EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out")) << "the names can be folders";
 }
 
+TEST_F(Factors, MayBeQuotedAsSettingsAre) {
+    const StudyConfig quoted = read("[factors]\n\"failure.dark_share\" = [0.1, 0.25]\n");
+    const StudyConfig plain = read("[factors]\nfailure.dark_share = [0.1, 0.25]\n");
+    EXPECT_EQ(quoted.conditions, plain.conditions);
+    EXPECT_THAT(problems("[factors]\n\"failure.dark_shere\" = [0.1]\n"), HasSubstr("dark_share"));
+    EXPECT_THAT(problems("[factors]\n\"nothing.lead_s\" = [4]\n"), HasSubstr("'nothing.lead_s' is unknown"));
+}
+
 TEST_F(Factors, OfScenariosMakeScenarios) {
     const StudyConfig config = read(R"([factors]
 scenario.drivers.speed_factor_mean = [0.9, 1.1]

@@ -188,6 +188,18 @@ std::string folder_text(std::string text) {
 
 }  // namespace
 
+/// `"preempt_signals.lead_s" = [4, 8]`: the quoted name of a table's key. Answers whether it was one.
+bool read_quoted(const std::string& name, const toml::node& node, const std::string& file,
+                 std::vector<Factor>& factors, Problems& problems) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos || !node.is_array()) return false;
+    const std::string group = name.substr(0, dot);
+    if (std::ranges::find(groups(), group) == groups().end()) return false;
+    read_list(*node.as_array(), {group, name.substr(dot + 1), place(node, file, name), {}}, factors,
+              problems);
+    return true;
+}
+
 Factors read_factors(const toml::table& table, const std::string& file, Problems& problems) {
     Factors factors;
     for (const auto& [name, node] : table) {
@@ -197,6 +209,8 @@ Factors read_factors(const toml::table& table, const std::string& file, Problems
             factors.design = read_design(node, file, problems);
         } else if (group == several) {
             read_several(node, file, factors.list, problems);
+        } else if (read_quoted(group, node, file, factors.list, problems)) {
+            continue;
         } else if (std::ranges::find(groups(), group) == groups().end()) {
             const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
             if (bare)
