@@ -64,7 +64,7 @@ LinkJob link_job() {
     job.work_folder = "work";
     job.failures = {"B10", "D3"};
     job.exits = {"known"};
-    job.predictors = {{"kalman", "", {{"link_threshold", 0.25}}, "out.links"},
+    job.predictors = {{"kalman", "", {{"link_threshold", "0.25"}}, "out.links"},
                       {"none", "a.weights", {}, "b"}};
     return job;
 }

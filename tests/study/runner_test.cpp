@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "experiment/job.hpp"
 #include "results/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 
