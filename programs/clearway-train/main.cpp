@@ -43,7 +43,7 @@ struct Arguments {
 
 void declare_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--data", arguments.data,
-                   "Data set of `clearway dataset`; with --corrected or --logistic, of `... --samples`")
+                   "Data set of `clearway dataset`; for --corrected, --logistic with --samples")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out, "Folder for the results; made when absent")
@@ -98,8 +98,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
         "Examples:\n  clearway dataset city --out data/city\n  clearway train --as-published "
         "--data data/city --out models/mine\n"
-        "  clearway train --as-published --data data/city --pairs true-links --epochs 100 --seed 1 --out "
-        "models/true_links "
+        "  clearway train --as-published --data data/city --pairs true-links --seed 1 --out models/true "
         "--json");
 }
 

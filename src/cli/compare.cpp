@@ -131,13 +131,11 @@ Action configure_compare(CLI::App& app) {
         ->option_text("DIR [none]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         ->allow_extra_args(false)
-        ->option_text(fmt::format("NAME [{}]", joined(usual_metrics())));
-    app.add_option(
-           "--tolerance", arguments->tolerances,
-           "Exit with 6 unless worse by at most this (95 %), in the unit of METRIC [the chosen one], or when "
-           "more emergency vehicles are lost; repeatable")
+        ->option_text("NAME [EV and others' times, collisions, teleports]");
+    app.add_option("--tolerance", arguments->tolerances,
+                   "Exit with 6 where it may be worse by more than this (95 %), or more EVs are lost")
         ->allow_extra_args(false)
-        ->option_text("[METRIC=]NUMBER [none]");
+        ->option_text("[METRIC=]NUMBER ... [none]");
     add_json_option(app, arguments->printing, "the comparison");
     return [arguments](const Invocation&) { return compare(*arguments); };
 }

@@ -28,9 +28,7 @@ void add_condition_options(CLI::App& app, DescribedCondition& described, const s
 
 void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
                          const std::string& usual, const std::string& group) {
-    app.add_option("--set", settings,
-                   "A number of a policy, the predictor, the actuation, ... (clearway list settings); can be "
-                   "repeated")
+    app.add_option("--set", settings, "Any number of the condition (clearway list settings); can be repeated")
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
         ->group(group);
     app.add_option("--model", model, "Model file of a learned predictor")

@@ -29,10 +29,8 @@ const char* const open_loop =
     "Nothing is simulated: sensing, prediction and policy run again over the recorded traffic, which does "
     "not\n"
     "react (open loop). It shows what would have been believed and how right that would have been; what a\n"
-    "policy gains is for `clearway run`. Without --predictor, --failure, --policy, --set and --model the "
-    "recorded beliefs "
-    "and\n"
-    "leases must come out to the bit; exit code 6 if they do not.";
+    "policy gains is for `clearway run`. Without --predictor, --failure, --policy, --set and --model the\n"
+    "recorded beliefs and leases must come out to the bit; exit code 6 if they do not.";
 
 /// What the sensors lacked: made by a replay of them, while the other tables stand in the recording.
 constexpr const char* failures_table = "failures";

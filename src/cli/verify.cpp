@@ -309,9 +309,9 @@ core::ExitCode verify_runs(const Arguments& arguments) {
 
 Action configure_verify(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("run", arguments->what,
-                   fmt::format("Run to make again: {}; with --all or --sample the run folder",
-                               results::run_name_form))
+    app.add_option(
+           "run", arguments->what,
+           fmt::format("Run to make again: {}; for --all or --sample a folder", results::run_name_form))
         ->required()
         ->option_text("RUN|DIR (required)");
     CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t page_width = 100;
 constexpr std::size_t label_width = 38;
-constexpr std::size_t published_label_width = 37;
+constexpr std::size_t published_label_width = 35;
 
 /// Names come from files: nothing in them may steer the terminal. For text of several lines.
 std::string safe_table(std::string text) {
@@ -50,23 +50,28 @@ std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
 
 void append_published_table(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
-    constexpr std::array columns = {Measure::emergency_waiting_time, Measure::emergency_depart_delay,
-                                    Measure::waiting_time};
+    struct Column {
+        Measure measure;
+        int width;  ///< Of the mean; the published number takes eight more.
+    };
+    constexpr std::array columns = {Column{Measure::emergency_waiting_time, 15},
+                                    Column{Measure::emergency_depart_delay, 13},
+                                    Column{Measure::waiting_time, 13}};
+    constexpr int published_width = 8;
     fmt::format_to(out, "{:<{}}", "", published_label_width);
-    for (const Measure measure : columns) {
-        fmt::format_to(out, "{:>21}", info(measure).title);
-    }
+    for (const Column& column : columns)
+        fmt::format_to(out, "{:>{}}", info(column.measure).title, column.width + published_width);
     fmt::format_to(out, "\n{:<{}}", "Condition", published_label_width);
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-        fmt::format_to(out, "{:>12}{:>9}", "here, s", "published");
-    }
+    for (const Column& column : columns)
+        fmt::format_to(out, "{:>{}}{:>{}}", "here, s", column.width - 2, "published", published_width + 2);
     fmt::format_to(out, "\n{:-<{}}\n", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
         fmt::format_to(out, "{:<{}}", label(condition), published_label_width);
-        for (const Measure measure : columns) {
-            const NumberStyle style{.decimals = decimals_of(scenario, measure)};
-            fmt::format_to(out, "{:>13}{:>8}", mean_and_half_width(condition.outcome(measure).value, style),
-                           published_text(scenario, condition, measure));
+        for (const Column& column : columns) {
+            const NumberStyle style{.decimals = decimals_of(scenario, column.measure)};
+            fmt::format_to(out, "{:>{}}{:>{}}",
+                           mean_and_half_width(condition.outcome(column.measure).value, style), column.width,
+                           published_text(scenario, condition, column.measure), published_width);
         }
         text += '\n';
     }

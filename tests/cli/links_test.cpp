@@ -134,7 +134,7 @@ TEST_F(LinksTest, unknown_names_are_told_with_the_nearest_before_anything_runs) 
                                            "kalmann", "--set", "none.link_treshold=1"}));
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean `last_seen`?"),
-                                 HasSubstr("kalmann"), HasSubstr("Did you mean `link_threshold`?")));
+                                 HasSubstr("kalmann"), HasSubstr("Did you mean 'link_threshold'?")));
     EXPECT_THAT(ended.out, IsEmpty());
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     EXPECT_EQ(clearway({"links", "evaluate", "lime"}).code, 3);

@@ -192,7 +192,7 @@ TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
         const Ended unknown = clearway({verb, "out/lin/mime/3"});
         EXPECT_EQ(unknown.code, 3) << verb;
         EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `mine`?"),
-                                       HasSubstr("`3` is not in this study; allowed: 0 to 0")))
+                                       HasSubstr("`3` is not in this study (allowed: 0 to 0)")))
             << verb;
         const Ended nowhere = clearway({verb, "line/mine/0"});
         EXPECT_EQ(nowhere.code, 3) << verb;

@@ -169,7 +169,8 @@ TEST_F(ShardsTest, unknown_parameters_of_failures_are_told_before_anything_runs)
     write_study(2, "[factors]\nfailure.dark_shar = [0.1]\n");
     const Ended ended = clearway({"study", "my.toml", "--out", "out"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("'dark_shar'"), HasSubstr("did you mean dark_share?")));
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("dark_shar: is unknown"), HasSubstr("Did you mean 'dark_share'?")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 

@@ -121,7 +121,7 @@ TEST(ConsoleTables, print_the_upper_end_of_an_interval_that_the_bound_at_zero_ma
     StudyFacts study = tests::study({"merge"});
     study.scenarios[0].conditions[0].outcome(Measure::emergency_depart_delay).value = {0.5, 0.03, 8.0, 20};
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, HasSubstr("  0.50 (<8.00)"));
+    EXPECT_THAT(text, HasSubstr(" 0.50 (<8.00)"));
     EXPECT_THAT(text, HasSubstr("(<x)"));
 }
 
@@ -133,7 +133,7 @@ TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_
     condition.has_policy = true;
     condition.leases.emplace();
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]    lost EVs\n"));
+    EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]   lost EVs\n"));
     EXPECT_THAT(text, Not(HasSubstr("[-15.5, -9.3]    better\n")));
     EXPECT_THAT(text, HasSubstr("Actions: Graph made by simulation attributes: asked 0 vehicles to change "
                                 "lanes.\n"));

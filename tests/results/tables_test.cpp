@@ -143,7 +143,7 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     const auto lines = lines_of(runs_csv(results));
     EXPECT_THAT(lines[0], testing::HasSubstr(
                               ",safety_checks,condition.failure,failure.dark_share,scenario.demand.human,"
-                              "emergency_travel_time_s,"));
+                              "emergency_restricted_travel_time_s,emergency_travel_time_s,"));
     EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,,,,50.1,"));
     EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,B5,-2,,"));
     EXPECT_THAT(lines[8], testing::StartsWith("beta,treated,1,ok,,on,B5,-2,80,50.1,"));

@@ -145,7 +145,7 @@ TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
 }
 
 TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
-    const std::vector<std::vector<std::string>> calls = {{"--learning-rate"},
+    const std::vector<std::vector<std::string>> calls = {{"--as-published", "--learning-rate"},
                                                          {"--corrected", "--validation-share"},
                                                          {"--logistic", "--ridge"},
                                                          {"graphsage", "--easy-share"}};
