@@ -82,7 +82,7 @@ background:var(--paper)}}
 @media print{:root{color-scheme:light}body{font-size:10.5pt}nav{display:none}h2{break-after:avoid}
 figure,.card,tr{break-inside:avoid}.scroll,details .scroll{overflow:visible;max-height:none}table{font-size:7.5pt}
 th,td,table.data th,table.data td{padding:.2rem .3rem}thead th{white-space:normal}tbody th{min-width:0}
-td .range{display:block;margin-left:0}details:not([open]){display:none}}
+td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}}
 )css";
 
 }  // namespace clearway::report::detail
