@@ -149,8 +149,9 @@ std::string lease_sentence(const ConditionFacts& condition) {
     bool lane_changes = false;
     for (const metrics::LeaseRow& row : *condition.leases) {
         lane_changes = lane_changes || row.action == "change_lane";
-        std::string text = fmt::format("{}: {} {} times, {} carried out", row.part, words_of(row.action),
-                                       grouped(row.issued), grouped(row.acted));
+        const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
+        std::string text = fmt::format("{}: {} {}, {} carried out", row.part, words_of(row.action), often,
+                                       grouped(row.acted));
         if (row.refusals() > 0) text += fmt::format(", refused: {}", reasons_of(row));
         found.push_back(std::move(text));
     }
