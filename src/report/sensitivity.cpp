@@ -32,7 +32,8 @@ std::optional<analysis::Estimate> difference(const analysis::ConditionSummary& c
 
 SensitivityRow& row_of(Sensitivity& sensitivity, const std::string& setting) {
     const auto found = std::ranges::find(sensitivity.rows, setting, &SensitivityRow::setting);
-    return found != sensitivity.rows.end() ? *found : sensitivity.rows.emplace_back(setting);
+    return found != sensitivity.rows.end() ? *found
+                                           : sensitivity.rows.emplace_back(SensitivityRow{setting, {}});
 }
 
 Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,

@@ -13,7 +13,6 @@ namespace clearway::results {
 namespace {
 
 using core::Json;
-using core::ObjectReader;
 
 core::Json to_object(const Manifest& manifest) {
     core::Json object;

@@ -114,17 +114,16 @@ class LeaseTables {
 
     template <class Action>
     static void take(Members& members, const Action& action) {
-        using namespace traffic;
-        if constexpr (std::is_same_v<Action, DriveAt>) {
+        if constexpr (std::is_same_v<Action, traffic::DriveAt>) {
             members.speed_mps = action.speed.value;
-        } else if constexpr (std::is_same_v<Action, ChangeLane>) {
+        } else if constexpr (std::is_same_v<Action, traffic::ChangeLane>) {
             members.lane_number = action.lane_number;
-        } else if constexpr (std::is_same_v<Action, PullAside>) {
+        } else if constexpr (std::is_same_v<Action, traffic::PullAside>) {
             members.side = action.side;
-        } else if constexpr (std::is_same_v<Action, HoldGreen>) {
+        } else if constexpr (std::is_same_v<Action, traffic::HoldGreen>) {
             members.links = number_list(action.links);
             members.own_links = number_list(action.own_links);
-        } else if constexpr (std::is_same_v<Action, FavourLinks>) {
+        } else if constexpr (std::is_same_v<Action, traffic::FavourLinks>) {
             members.links = number_list(action.links);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
@@ -133,17 +132,16 @@ class LeaseTables {
 
     template <class Action>
     static void give(const Members& members, Action& action) {
-        using namespace traffic;
-        if constexpr (std::is_same_v<Action, DriveAt>) {
+        if constexpr (std::is_same_v<Action, traffic::DriveAt>) {
             action.speed.value = members.speed_mps;
-        } else if constexpr (std::is_same_v<Action, ChangeLane>) {
+        } else if constexpr (std::is_same_v<Action, traffic::ChangeLane>) {
             action.lane_number = members.lane_number;
-        } else if constexpr (std::is_same_v<Action, PullAside>) {
+        } else if constexpr (std::is_same_v<Action, traffic::PullAside>) {
             action.side = members.side;
-        } else if constexpr (std::is_same_v<Action, HoldGreen>) {
+        } else if constexpr (std::is_same_v<Action, traffic::HoldGreen>) {
             action.links = numbers_from(members.links);
             action.own_links = numbers_from(members.own_links);
-        } else if constexpr (std::is_same_v<Action, FavourLinks>) {
+        } else if constexpr (std::is_same_v<Action, traffic::FavourLinks>) {
             action.links = numbers_from(members.links);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
