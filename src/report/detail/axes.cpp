@@ -130,7 +130,7 @@ void Plot::point(double value, double y, std::size_t series) {
 
 void Plot::beam(std::pair<double, double> bounds, double y, std::size_t series) {
     constexpr double half_height = 5.0;
-    const auto [low, high] = std::minmax(x_.place(bounds.first), x_.place(bounds.second));
+    const auto [low, high] = std::minmax({x_.place(bounds.first), x_.place(bounds.second)});
     fmt::format_to(std::back_inserter(svg_),
                    "<rect class=\"beam s{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>",
                    series % palette_size, low, y - half_height, high - low, 2.0 * half_height);
