@@ -11,7 +11,6 @@
 namespace clearway::links {
 namespace {
 
-using core::StrictTable;
 using Problems = std::vector<core::Problem>;
 
 constexpr std::uint32_t most_seeds = 100000;
