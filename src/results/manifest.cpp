@@ -12,8 +12,6 @@
 namespace clearway::results {
 namespace {
 
-using core::Json;
-
 core::Json to_object(const Manifest& manifest) {
     core::Json object;
     object["format"] = manifest.format;

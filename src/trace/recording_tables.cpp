@@ -11,8 +11,6 @@
 namespace clearway::trace {
 namespace {
 
-using core::csv_text;
-
 struct TableEntry {
     RecordingTable table;
     const char* name;
