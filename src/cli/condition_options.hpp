@@ -41,7 +41,7 @@ template <class Switch>
 CLI::Option* add_switch(CLI::App& app, const std::string& name, Switch& value, const std::string& help) {
     return app
         .add_option_function<std::string>(
-            name, [&value](const std::string& word) { value = *experiment::switch_from<Switch>(word); }, help)
+            name, [&value](const std::string& word) { value = *core::value_from<Switch>(word); }, help)
         ->check(CLI::IsMember({"on", "off"}));
 }
 

@@ -32,29 +32,6 @@ void read_settings(core::ObjectReader& reader, core::Settings& settings) {
 
 }  // namespace
 
-std::string_view name(Engine engine) {
-    switch (engine) {
-        case Engine::standard:
-            return "standard";
-        case Engine::sublane:
-            return "sublane";
-        case Engine::solo:
-            return "solo";
-    }
-    return "";
-}
-
-std::optional<Engine> engine_from(std::string_view word) {
-    for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo}) {
-        if (name(engine) == word) return engine;
-    }
-    return std::nullopt;
-}
-
-std::string_view name(traffic::SafetyChecks checks) {
-    return checks == traffic::SafetyChecks::on ? "on" : "off";
-}
-
 core::Json to_json(const ConditionSpec& condition) {
     core::Json object;
     object["name"] = condition.name;
@@ -79,8 +56,8 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     reader.read("failure", condition.failure);
     reader.read("predictor", condition.predictor);
     reader.read("parts", condition.policies);
-    reader.read_name("engine", condition.engine, engine_from);
-    reader.read_name("safety_checks", condition.safety_checks, switch_from<traffic::SafetyChecks>);
+    reader.read_name("engine", condition.engine, core::value_from<Engine>);
+    reader.read_name("safety_checks", condition.safety_checks, core::value_from<traffic::SafetyChecks>);
     read_settings(reader, condition.settings);
     if (object.contains("model")) {
         core::ObjectReader model(reader.child("model", core::Json::value_t::object), where + ": model",
@@ -90,7 +67,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     }
     reader.read_if_there("factors", condition.factors);
     if (object.contains("bluelight"))
-        reader.read_name("bluelight", condition.bluelight, switch_from<traffic::BlueLight>);
+        reader.read_name("bluelight", condition.bluelight, core::value_from<traffic::BlueLight>);
     return condition;
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/settings.hpp"
+#include "core/spellings.hpp"
 #include "traffic/command.hpp"
 #include "traffic/departure.hpp"
 
@@ -19,19 +18,10 @@ enum class Engine : std::uint8_t {
     solo,     ///< Each emergency vehicle alone on the road with every signal open.
 };
 
-/// `standard`, `sublane`, `solo`.
-std::string_view name(Engine engine);
-std::optional<Engine> engine_from(std::string_view word);
-
-/// `on`, `off`.
-std::string_view name(traffic::SafetyChecks checks);
-/// One of an enumeration of these two.
-template <class Switch>
-std::optional<Switch> switch_from(std::string_view word) {
-    if (word == "on") return Switch::on;
-    if (word == "off") return Switch::off;
-    return std::nullopt;
+constexpr core::Spellings<Engine, 3> spellings(Engine) {
+    return {{{Engine::standard, "standard"}, {Engine::sublane, "sublane"}, {Engine::solo, "solo"}}};
 }
+using core::name;
 
 /// A named combination of failure, predictor and policies, and the settings that differ from their defaults.
 struct ConditionSpec {

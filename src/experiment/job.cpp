@@ -75,7 +75,7 @@ void write(Json& object, const RunJob& job) {
 
 void read(const Source& source, ObjectReader& reader, RunJob& job) {
     read_table<Simulation>(source, reader, job);
-    reader.read_name("engine", job.engine, engine_from);
+    reader.read_name("engine", job.engine, core::value_from<Engine>);
     reader.read("recording", job.recording);
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
         job.conditions.push_back(condition_from(condition, source.where + ": conditions", source.problems));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/ids.hpp"
+#include "core/spellings.hpp"
 #include "core/units.hpp"
 
 namespace clearway::traffic {
@@ -55,6 +56,9 @@ enum class LateralModel : std::uint8_t { lane, sublane };
 /// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows
 /// what it does.
 enum class SafetyChecks : std::uint8_t { on, off };
+constexpr core::Spellings<SafetyChecks, 2> spellings(SafetyChecks) {
+    return {{{SafetyChecks::off, "off"}, {SafetyChecks::on, "on"}}};
+}
 struct SetSafetyChecks {
     core::VehicleKey vehicle;
     SafetyChecks checks = SafetyChecks::on;

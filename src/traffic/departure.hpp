@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/spellings.hpp"
 #include "core/units.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -11,6 +12,9 @@ namespace clearway::traffic {
 
 /// SUMO's `device.bluelight` of an emergency vehicle: it passes red, and others form a rescue lane before it.
 enum class BlueLight : std::uint8_t { off, on };
+constexpr core::Spellings<BlueLight, 2> spellings(BlueLight) {
+    return {{{BlueLight::off, "off"}, {BlueLight::on, "on"}}};
+}
 
 /// An emergency vehicle that a run adds after the warm-up.
 struct EmergencyDeparture {

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/spellings.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::loop::detail {
 namespace {
 
 sensing::Exits exits_from(const std::string& word) {
-    for (const auto& [value, spelling] : sensing::spellings(sensing::Exits{})) {
-        if (word == spelling) return value;
-    }
-    throw core::InputError({"exits", fmt::format("'{}' is not known", word), "known, unknown", ""});
+    if (const auto exits = core::value_from<sensing::Exits>(word)) return *exits;
+    throw core::InputError(
+        {"exits", fmt::format("'{}' is not known", word), core::spelling_list<sensing::Exits>(), ""});
 }
 
 }  // namespace

@@ -168,12 +168,12 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
     if (factor.key == "predictor") condition.predictor = value.text;
     if (factor.key == "policy")
         condition.policies = value.words.empty() ? std::vector{value.text} : value.words;
-    if (factor.key == "engine") set_word(factor, value, experiment::engine_from, condition.engine, problems);
+    if (factor.key == "engine")
+        set_word(factor, value, core::value_from<experiment::Engine>, condition.engine, problems);
     if (factor.key == "bluelight")
-        set_word(factor, value, experiment::switch_from<traffic::BlueLight>, condition.bluelight, problems);
+        set_word(factor, value, core::value_from<traffic::BlueLight>, condition.bluelight, problems);
     if (factor.key == "safety_checks")
-        set_word(factor, value, experiment::switch_from<traffic::SafetyChecks>, condition.safety_checks,
-                 problems);
+        set_word(factor, value, core::value_from<traffic::SafetyChecks>, condition.safety_checks, problems);
 }
 
 /// Names become folders; what cannot be in one becomes `_`.

@@ -1,0 +1,109 @@
+// Data sets and what trains on them, from the command line to the files.
+#include <algorithm>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class DatasetTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario();
+    }
+};
+
+TEST_F(DatasetTest, writes_the_three_files_of_the_dissertation) {
+    const Ended ended =
+        clearway({"dataset", "line", "--out", "data", "--pairs", "true-links", "--features", "2"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("data: "));
+    std::istringstream target(read("data/target_y.csv"));
+    std::string row;
+    std::getline(target, row);
+    EXPECT_THAT(row, AllOf(HasSubstr("1"), Not(HasSubstr("0"))));  // only true links
+    std::istringstream features(read("data/vehicle_features.csv"));
+    std::getline(features, row);
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 1);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "data" / "edge_list.csv"));
+}
+
+TEST_F(DatasetTest, records_the_features_of_pairs_as_csv) {
+    const Ended ended =
+        clearway({"dataset", "line", "--out", "data", "--samples", "--net", "logistic", "--failure", "A.5"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::HasSubstr("line-A.5-0000.pairs.csv: "));
+    EXPECT_THAT(read("data/line-A.5-0000.pairs.csv"), testing::HasSubstr("\nmargin,margin_seen,age_older,"));
+}
+
+TEST_F(DatasetTest, records_samples_of_each_failure_and_replication) {
+    const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "B10", "A.5",
+                                  "--seeds", "2", "--first-seed", "5", "--interval", "2", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("files").size(), 4U);
+    for (const char* const file : {"line-B10-0005.samples", "line-A.5-0006.samples"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder() / "data" / file)) << file;
+    }
+    EXPECT_THAT(ended.err, HasSubstr("2/2"));
+}
+
+TEST_F(DatasetTest, overwrites_no_other_recording) {
+    const std::vector<std::string> first = {"dataset",   "line",       "--out", "data",
+                                            "--samples", "--failure",  "B10",   "--seed",
+                                            "7",         "--interval", "5"};
+    ASSERT_EQ(clearway(first).code, 0);
+    const std::string samples = read("data/line-B10-0000.samples");
+    const auto changed = [&](std::size_t at, const std::string& word) {
+        std::vector<std::string> words = first;
+        words[at] = word;
+        return words;
+    };
+    const auto expect_refusal = [&](const std::vector<std::string>& words, const std::string& file) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3);
+        EXPECT_THAT(ended.err, AllOf(HasSubstr(file), HasSubstr("--out")));
+        EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
+    };
+    expect_refusal(changed(8, "8"), "data/line-B10-0000.samples: is there already");
+    std::vector<std::string> denser = changed(6, "A.5");
+    denser.insert(denser.end(), {"--density", "2"});
+    expect_refusal(denser, "data/origin/line/scenario.toml: another configuration of line");
+    std::vector<std::string> of_graphsage = first;
+    of_graphsage.insert(of_graphsage.end(), {"--net", "graphsage"});
+    expect_refusal(of_graphsage, "data/line-B10-0000.samples: is there already");
+    EXPECT_EQ(clearway(first).code, 0) << "the same again";
+    EXPECT_EQ(clearway(changed(6, "A.5")).code, 0) << "another failure beside it";
+    EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
+}
+
+TEST_F(DatasetTest, train_takes_what_dataset_wrote) {
+    ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
+    const Ended ended =
+        clearway({"train", "--as-published", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("epochs_run"), 3);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "model" / "GraphSAGENet.pth"));
+}
+
+TEST_F(DatasetTest, both_readings_of_the_list_have_one_name_in_dataset_and_train) {
+    for (const char* const pairs : {"candidates", "true-links"}) {
+        ASSERT_EQ(clearway({"dataset", "line", "--out", pairs, "--pairs", pairs}).code, 0);
+        const Ended ended =
+            clearway({"train", "--as-published", "--data", "candidates", "--out",
+                      std::string("model-") + pairs, "--pairs", pairs, "--epochs", "2", "--json"});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        EXPECT_EQ(nlohmann::json::parse(ended.out).at("pairs"), pairs);
+    }
+}
+
+}  // namespace
+}  // namespace clearway::cli
