@@ -22,7 +22,7 @@ constexpr double farthest_stop_m = 200.0;
 /// Why a lease can never be carried out, or null.
 const char* check_vehicle_action(const traffic::Action& action) {
     if (std::holds_alternative<traffic::HoldGreen>(action) ||
-        std::holds_alternative<traffic::FavourLinks>(action))
+        std::holds_alternative<traffic::AdjustGreen>(action))
         return "wrong_target";
     if (const auto* drive = std::get_if<traffic::DriveAt>(&action)) {
         if (!std::isfinite(drive->speed.value)) return "speed_not_finite";
@@ -36,7 +36,7 @@ const char* check_signal_action(const roads::Network& network, core::SignalIndex
     if (signal.value >= network.signals().size()) return "no_such_signal";
     const std::vector<std::uint16_t>* links = nullptr;
     if (const auto* hold = std::get_if<traffic::HoldGreen>(&action)) links = &hold->links;
-    if (const auto* favour = std::get_if<traffic::FavourLinks>(&action)) links = &favour->links;
+    if (const auto* adjustment = std::get_if<traffic::AdjustGreen>(&action)) links = &adjustment->links;
     if (links == nullptr) return "wrong_target";
     if (links->empty()) return "no_links";
     const std::size_t count = network.signal(signal).links.size();
@@ -100,9 +100,9 @@ struct Actuator::State {
             if (!pressed) pressed = pressed_lanes(snapshot, roster);
             return *pressed;
         };
-        const detail::SignalTiming timing{config.yellow_s,    config.all_red_s,    config.clearing_s,
-                                          config.walking_s,   config.gap_wait_s,   config.hold_cap_s,
-                                          config.cool_down_s, config.least_green_s};
+        const detail::SignalTiming timing{config.yellow_s,  config.all_red_s,    config.clearing_s,
+                                          config.walking_s, config.gap_wait_s,   config.hold_cap_s,
+                                          config.lockout_s, config.least_green_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
@@ -148,7 +148,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     const core::Seconds now = snapshot.time;
     const core::Seconds step = state.last_step ? now - *state.last_step : core::Seconds(0.0);
     state.last_step = now;
-    const detail::VehicleSurroundings around{
+    const detail::VehicleContext around{
         state.network, snapshot, roster, self, state.config.safety_checks, state.config.lateral_model, step,
     };
     for (auto& [key, vehicle] : state.vehicles)

@@ -20,7 +20,7 @@
 namespace clearway::actuation {
 
 /// Turns leases into commands: the only place that judges feasibility (as the vehicle itself would), lets
-/// leases expire, runs signal transitions (yellow, all-red, hold cap, cool-down, back to the program) and
+/// leases expire, runs signal transitions (yellow, all-red, hold cap, lockout, back to the program) and
 /// restores what was changed on every way out. One per run; one thread.
 ///
 /// Of the leases for one target that cannot be carried out together (one speed, one lane, one set of links
@@ -40,8 +40,8 @@ namespace clearway::actuation {
 /// - `lane_does_not_continue`: neither a best lane for its route nor drivable for over 300 m;
 /// - `no_room_beside`: the vehicle itself would not change now;
 /// - `needs_sublane_model`: lateral positions without the sublane model;
-/// - `outranked`, `hold_cap`, `cool_down`: see Config;
-/// - a favour that cannot be granted: `no_phase_serves`; `unknown_program`, another than the network and the
+/// - `outranked`, `hold_cap`, `lockout`: see Config;
+/// - a green that cannot be granted: `no_phase_serves`; `unknown_program`, another than the network and the
 ///   additional files start the signal with.
 ///
 /// A speed lease never brakes harder than the vehicle's usual deceleration: SUMO bounds the change of every

@@ -16,7 +16,7 @@ struct ActuatorConfig {
     double walking_s = 40.0;
     double gap_wait_s = 2.0;
     double hold_cap_s = 60.0;
-    double cool_down_s = 10.0;
+    double lockout_s = 10.0;
     double least_green_s = 10.0;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
@@ -44,14 +44,15 @@ struct ActuatorConfig {
                   "comfortably",
                   "dense intersection: 5.5 emergency brakings a run at 0 s, 3.9 at 2 s"},
             Field{"hold_cap_s", "s", &C::hold_cap_s, 1.0, 600.0,
-                  "Longest time away from the signal's own program, counted anew when the hold passes on to "
+                  "Longest time away from the signal's background plan, counted anew when the hold passes on "
+                  "to "
                   "links that conflict with those held before",
                   "as the prototype"},
-            Field{
-                "cool_down_s", "s", &C::cool_down_s, 0.0, 600.0,
-                "The signal's own program runs at least this long between holds, and after one that reached "
-                "the cap for a whole cycle (180 s at most)",
-                "assumed"},
+            Field{"lockout_s", "s", &C::lockout_s, 0.0, 600.0,
+                  "The signal's background plan runs at least this long between holds, and after one that "
+                  "reached "
+                  "the cap for a whole cycle (180 s at most)",
+                  "assumed"},
             Field{"least_green_s", "s", &C::least_green_s, 1.0, 120.0,
                   "A recovering signal ends no green of its program earlier", "assumed"});
     }

@@ -13,7 +13,7 @@ using experiment::ConditionSpec;
 constexpr std::size_t most_looks = 1000;
 
 bool is_baseline_of(const ConditionSpec& other, const ConditionSpec& condition) {
-    return other.engine == condition.engine && !other.acts() && other.name != condition.name;
+    return other.traffic_model == condition.traffic_model && !other.acts() && other.name != condition.name;
 }
 
 /// Restricted travel time of the emergency vehicles of a run, against another run's where there is one.
@@ -37,7 +37,7 @@ void Headline::choose() {
     scenario_ = manifest.scenarios.front().name;
     condition_ = manifest.conditions.front().name;
     for (const ConditionSpec& condition : manifest.conditions) {
-        if (!condition.acts() || condition.engine == experiment::Engine::solo) continue;
+        if (!condition.acts() || condition.traffic_model == experiment::TrafficModel::free_flow) continue;
         const auto baseline = std::ranges::find_if(
             manifest.conditions, [&](const auto& other) { return is_baseline_of(other, condition); });
         if (baseline == manifest.conditions.end()) continue;

@@ -16,7 +16,7 @@ namespace {
 
 using detail::Runs;
 using experiment::ConditionSpec;
-using experiment::Engine;
+using experiment::TrafficModel;
 
 template <class Member>
 std::optional<double> as_number(const Member& member) {
@@ -240,9 +240,10 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
 
 /// The condition that `condition` is compared with, or nothing for baselines and solo.
 const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vector<ConditionSpec>& all) {
-    if (condition.engine == Engine::solo) return nullptr;
-    const auto found = std::ranges::find_if(
-        all, [&](const ConditionSpec& other) { return other.engine == condition.engine && !other.acts(); });
+    if (condition.traffic_model == TrafficModel::free_flow) return nullptr;
+    const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
+        return other.traffic_model == condition.traffic_model && !other.acts();
+    });
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
 
@@ -275,7 +276,7 @@ class Index {
             runs.resize(replications_);
             runs.at(run.key.replication) = &run;
         }
-        for (const results::FailureRecord& failure : results.failures)
+        for (const results::RunError& failure : results.errors)
             ++failures_[{failure.key.scenario, failure.key.condition}];
     }
     Runs runs(const std::string& scenario, const std::string& condition) const {
@@ -348,7 +349,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(describe_condition(index, entry.name, condition, resamples));
-    const auto solo = std::ranges::find(conditions, Engine::solo, &ConditionSpec::engine);
+    const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::engine);
     for (ConditionSummary& summary : scenario.conditions) {
         const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
         if (baseline == nullptr) continue;

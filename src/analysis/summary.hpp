@@ -135,8 +135,8 @@ struct Summary {
 Summary compare_studies(const results::Results& first, const results::Results& second,
                         double level = usual_level);
 
-/// A condition's baseline is the first condition of the same engine without policy parts; its solo times are
-/// those of the first condition with engine solo. Deterministic.
+/// A condition's baseline is the first condition of the same traffic model without policies; its solo times
+/// are those of the first condition in free flow. Deterministic.
 Summary summarise(const results::Results& results, double level = usual_level);
 
 }  // namespace clearway::analysis

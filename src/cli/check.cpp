@@ -135,12 +135,12 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const results
         {"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)}};
 }
 
-Finding failure_finding(const results::FailureRecord& failure, const std::filesystem::path& folder) {
-    const bool aborted = failure.cause == results::FailureCause::signal;
-    std::string text = failure.message;
-    if (!failure.log_tail.empty()) text += "\n" + failure.log_tail;
+Finding error_finding(const results::RunError& error, const std::filesystem::path& folder) {
+    const bool aborted = error.cause == results::ErrorCause::signal;
+    std::string text = error.message;
+    if (!error.log_tail.empty()) text += "\n" + error.log_tail;
     text += fmt::format("\nInputs and logs are kept in {}; the command that makes the run again:\n  {}",
-                        folder.string(), failure.command);
+                        folder.string(), error.command);
     if (aborted)
         text +=
             "\nSUMO itself aborted. Where a teleport went before, --time-to-teleport -1 avoids it; so may "
@@ -201,8 +201,7 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
         findings.insert(place + 1, routes_finding(store.scenario_folder(brief.name) / "demand" / "0"));
         std::filesystem::remove_all(options.folder);
     } else {
-        findings = {
-            failure_finding(store.read_failure(key).value_or(results::FailureRecord{}), options.folder)};
+        findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
     }
     print(findings, arguments.printing);
     return exit_code_of(findings);

@@ -122,7 +122,10 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
         ->option_text("corrected|graphsage|logistic [corrected]")
         ->needs(samples)
         ->group(group);
-    app.add_option("--exits", job.exits, "Whether it is known when a vehicle leaves the network")
+    app.add_option_function<std::string>(
+           "--exits",
+           [&job](const std::string& word) { job.exits = *core::value_from<sensing::Exits>(word); },
+           "Whether it is known when a vehicle leaves the network")
         ->check(CLI::IsMember({"known", "unknown"}))
         ->option_text("known|unknown [known]")
         ->needs(samples)

@@ -154,7 +154,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     benchmark.test = arguments.test;
     benchmark.validation = arguments.validation;
     benchmark.failures = failure_names();
-    benchmark.exits = {"known", "unknown"};
+    benchmark.exits = {links::Exits::known, links::Exits::unknown};
     return benchmark;
 }
 
@@ -168,8 +168,6 @@ void check(const links::LinkPlan& plan) {
     };
     for (const std::string& failure : plan.benchmark.failures)
         check_failure("--failure", failure, problems);
-    for (const std::string& exits : plan.benchmark.exits)
-        check_name("exits", exits, {"known", "unknown"});
     std::vector<std::string> present;
     for (const links::LinkPredictor& predictor : plan.predictors) {
         check_name("--predictor", predictor.name, prediction::predictor_names());
@@ -191,7 +189,7 @@ links::LinkPlan plan_of(const Arguments& arguments) {
     links::LinkPlan plan;
     plan.benchmark = arguments.benchmark.empty() ? own_benchmark(arguments) : named_benchmark(arguments);
     if (!arguments.failures.empty()) plan.benchmark.failures = arguments.failures;
-    if (arguments.exits != "both") plan.benchmark.exits = {arguments.exits};
+    if (const auto exits = core::value_from<links::Exits>(arguments.exits)) plan.benchmark.exits = {*exits};
     if (arguments.quick) {
         plan.benchmark.test.count = std::min(plan.benchmark.test.count, quick_test);
         plan.benchmark.validation.count = std::min(plan.benchmark.validation.count, quick_validation);

@@ -61,7 +61,7 @@ Section conditions() {
                                     {"failure", condition.failure},
                                     {"predictor", condition.predictor},
                                     {"policy", condition.policies},
-                                    {"engine", experiment::name(condition.engine)},
+                                    {"traffic_model", experiment::name(condition.traffic_model)},
                                     {"safety_checks", checked ? "on" : "off"}}});
     }
     return section;

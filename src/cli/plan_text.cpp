@@ -47,7 +47,7 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
             rows[{config.name, condition.name}] = cells.size();
             cells.push_back({.scenario = config.name,
                              .condition = condition,
-                             .cost = book.of(config, hash, condition.engine)});
+                             .cost = book.of(config, hash, condition.traffic_model)});
         }
     }
     for (const study::PlannedUnit& planned : plan.units) {
@@ -120,12 +120,13 @@ std::string plan_text(const study::Plan& plan, const std::filesystem::path& fold
     }
     std::string text =
         fmt::format("{:{}}  {:{}}  {:8} {:>6} {:>9}  {}\n", "scenario", scenario_width, "condition",
-                    condition_width, "engine", "runs", "complete", "failure, predictor, policy");
+                    condition_width, "traffic_model", "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
-        text += fmt::format("{:{}}  {:{}}  {:8} {:6} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
-                            condition.name, condition_width, experiment::name(condition.engine), cell.runs,
-                            cell.complete, condition.failure, condition.predictor, policy_of(condition));
+        text +=
+            fmt::format("{:{}}  {:{}}  {:8} {:6} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
+                        condition.name, condition_width, experiment::name(condition.traffic_model), cell.runs,
+                        cell.complete, condition.failure, condition.predictor, policy_of(condition));
     }
     const Rest rest = rest_of(cells, workers);
     text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
@@ -146,7 +147,7 @@ std::string plan_json(const study::Plan& plan, const std::filesystem::path& fold
     for (const Cell& cell : cells) {
         list.push_back({{"scenario", cell.scenario},
                         {"condition", cell.condition.name},
-                        {"engine", experiment::name(cell.condition.engine)},
+                        {"traffic_model", experiment::name(cell.condition.traffic_model)},
                         {"failure", cell.condition.failure},
                         {"settings", cell.condition.settings},
                         {"model", cell.condition.model_file},

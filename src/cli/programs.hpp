@@ -12,7 +12,7 @@ namespace clearway::cli {
 /// `program` is a path or a name looked up in PATH.
 std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments);
 
-/// Path of one of Clearway's own programs, beside this one.
+/// Path of one of Clearway's background plans, beside this one.
 std::string sister_program(const std::string& name);
 
 /// Versions of Clearway and of the SUMO inside its worker, as the worker tells them. Throws

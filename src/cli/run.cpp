@@ -56,12 +56,12 @@ void add_once(std::vector<experiment::ConditionSpec>& conditions,
     if (std::ranges::none_of(conditions, same_name)) conditions.push_back(condition);
 }
 
-/// What is compared with a condition: nothing but the car-following model, on the same engine.
-experiment::ConditionSpec baseline_of(experiment::Engine engine) {
+/// What is compared with a condition: nothing but the car-following model, with the same traffic model.
+experiment::ConditionSpec baseline_of(experiment::TrafficModel traffic_model) {
     experiment::ConditionSpec baseline = experiment::built_in_condition("baseline", "--condition");
-    if (engine == baseline.engine) return baseline;
-    baseline.name += fmt::format("_{}", experiment::name(engine));
-    baseline.engine = engine;
+    if (traffic_model == baseline.traffic_model) return baseline;
+    baseline.name += fmt::format("_{}", experiment::name(traffic_model));
+    baseline.traffic_model = traffic_model;
     return baseline;
 }
 
@@ -90,7 +90,8 @@ std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
         chosen.push_back(experiment::built_in_condition(experiment::usual_condition, "--condition"));
     std::vector<experiment::ConditionSpec> all;
     for (const experiment::ConditionSpec& condition : chosen) {
-        if (condition.engine != experiment::Engine::solo) add_once(all, baseline_of(condition.engine));
+        if (condition.traffic_model != experiment::TrafficModel::free_flow)
+            add_once(all, baseline_of(condition.traffic_model));
     }
     for (const experiment::ConditionSpec& condition : chosen) {
         add_once(all, condition);
@@ -98,8 +99,9 @@ std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
     if (arguments.floor == Floor::solo) {
         add_once(all, experiment::built_in_condition("solo", "--condition"));
     } else {
-        std::erase_if(all,
-                      [](const auto& condition) { return condition.engine == experiment::Engine::solo; });
+        std::erase_if(all, [](const auto& condition) {
+            return condition.traffic_model == experiment::TrafficModel::free_flow;
+        });
     }
     return all;
 }
@@ -172,10 +174,10 @@ void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& 
                "SUMO's device.bluelight on every emergency vehicle: an opponent")
         ->option_text("on|off [off]")
         ->group(group);
-    static const std::map<std::string, experiment::Engine> engines = {
-        {"standard", experiment::Engine::standard}, {"sublane", experiment::Engine::sublane}};
+    static const std::map<std::string, experiment::TrafficModel> engines = {
+        {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
     app.add_option_function<std::string>(
-           "--engine", [&own](const std::string& name) { own.engine = engines.at(name); },
+           "--traffic-model", [&own](const std::string& name) { own.traffic_model = engines.at(name); },
            "SUMO's lateral model; sublane brings a baseline of its own")
         ->check(CLI::IsMember(engines))
         ->option_text("standard|sublane [standard]")

@@ -48,10 +48,11 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
-RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::Engine engine) {
+RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model) {
     const scenario::Demand& demand = config.demand;
-    const double others =
-        engine == experiment::Engine::solo ? 0.0 : demand.density * (demand.human + demand.automated);
+    const double others = traffic_model == experiment::TrafficModel::free_flow
+                              ? 0.0
+                              : demand.density * (demand.human + demand.automated);
     const double vehicles = others + demand.emergency + static_cast<double>(config.emergency_trips.size());
     RunCost cost;
     cost.disk_bytes = least_disk_bytes + vehicle_disk_bytes * vehicles;
@@ -86,21 +87,22 @@ CostBook::CostBook(const fs::path& folder) {
 }
 
 RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& hash,
-                     experiment::Engine engine) const {
+                     experiment::TrafficModel traffic_model) const {
     for (const results::Store& store : stores_) {
         RunCost sum;
         std::size_t count = 0;
         for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
             if (scenario.configuration_hash != hash) continue;
             for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
-                if (condition.engine == engine) sample(store, scenario.name, condition.name, sum, count);
+                if (condition.traffic_model == traffic_model)
+                    sample(store, scenario.name, condition.name, sum, count);
             }
         }
         if (count == 0) continue;
         const auto runs = static_cast<double>(count);
         return {.wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .measured = true};
     }
-    return rough_cost(config, engine);
+    return rough_cost(config, traffic_model);
 }
 
 }  // namespace clearway::cli

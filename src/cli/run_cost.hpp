@@ -23,11 +23,11 @@ class CostBook {
     /// `folder` need not exist. Neighbours are the run folders beside it.
     explicit CostBook(const std::filesystem::path& folder);
 
-    /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this engine. Without
-    /// any: 10 us a vehicle and step over 120 s on the road and 0.2 s for the rest, nothing where the demand
-    /// is measured; 12 KiB and 160 bytes a vehicle on the disk. Right within a factor of about three.
+    /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
+    /// Without any: 10 us a vehicle and step over 120 s on the road and 0.2 s for the rest, nothing where the
+    /// demand is measured; 12 KiB and 160 bytes a vehicle on the disk. Right within a factor of about three.
     RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
-               experiment::Engine engine) const;
+               experiment::TrafficModel traffic_model) const;
 
   private:
     std::vector<results::Store> stores_;

@@ -25,7 +25,7 @@ namespace clearway::cli {
 namespace {
 
 /// Failed runs that are named one by one; more are in runs.csv.
-constexpr std::size_t named_failures = 10;
+constexpr std::size_t named_errors = 10;
 
 /// Replications that a run folder holds; 0 where there is none yet.
 std::uint32_t replications_in(const std::filesystem::path& folder) {
@@ -86,18 +86,18 @@ std::string last_words(std::string log) {
     return log.empty() ? "" : ": " + log;
 }
 
-void name_failures(const results::Store& store, const results::Results& results) {
-    const std::size_t count = results.failures.size();
+void name_errors(const results::Store& store, const results::Results& results) {
+    const std::size_t count = results.errors.size();
     if (count == 0) return;
     fmt::print(stderr, "clearway: {} of {} runs failed; their logs are in {}\n", count,
                results.manifest.runs().size(), (store.folder() / "logs").string());
-    for (std::size_t i = 0; i < std::min(count, named_failures); ++i) {
-        const results::FailureRecord& failure = results.failures[i];
-        fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), failure.key), failure.message,
-                   last_words(failure.log_tail));
+    for (std::size_t i = 0; i < std::min(count, named_errors); ++i) {
+        const results::RunError& error = results.errors[i];
+        fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), error.key), error.message,
+                   last_words(error.log_tail));
     }
-    if (count > named_failures) {
-        fmt::print(stderr, "  and {} more, in {}\n", count - named_failures, store.runs_csv().string());
+    if (count > named_errors) {
+        fmt::print(stderr, "  and {} more, in {}\n", count - named_errors, store.runs_csv().string());
     }
 }
 
@@ -178,14 +178,14 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     write_report(facts, store.folder() / "report.html");
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
-    name_failures(store, results);
+    name_errors(store, results);
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
     if (!results.missing.empty()) {
         fmt::print(stderr, "clearway: {} of {} runs are missing; the command that started them continues\n",
                    results.missing.size(), results.manifest.runs().size());
         return core::ExitCode::incomplete;
     }
-    return results.failures.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;
+    return results.errors.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;
 }
 
 }  // namespace clearway::cli

@@ -35,7 +35,7 @@ void require_display() {
 /// What makes the first replication of a condition.
 experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
     for (const study::PlannedUnit& planned : plan.units) {
-        if (planned.unit.engine != shown.engine) continue;
+        if (planned.unit.traffic_model != shown.traffic_model) continue;
         experiment::RunJob unit = planned.unit;
         unit.conditions = {shown};
         return unit;

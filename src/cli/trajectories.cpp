@@ -30,7 +30,7 @@ core::ExitCode write(const Arguments& arguments) {
     const experiment::ConditionSpec condition = recording.info().condition;
     const scenario::SumoRun run{.seed = core::StudySeed{recording.info().provenance.study_seed},
                                 .replication = core::Replication{key.replication},
-                                .lateral_model = condition.engine == experiment::Engine::sublane
+                                .lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
                                                      ? scenario::LateralModel::sublane
                                                      : scenario::LateralModel::lanes,
                                 .bluelight = condition.bluelight};
@@ -56,7 +56,7 @@ core::ExitCode write(const Arguments& arguments) {
                counts.has_coordinates ? fmt::format("  {}/trajectories.geojson\n", folder.string()) : "",
                condition.policies.empty()
                    ? "this run for any SUMO"
-                   : "its demand, engine and devices for any SUMO; what the policy did is not in it");
+                   : "its demand, traffic model and devices for any SUMO; what the policy did is not in it");
     if (!counts.has_coordinates)
         fmt::print(stderr,
                    "clearway: this network has no map projection that is known, so no GeoJSON and no "

@@ -89,7 +89,7 @@ struct Chosen {
 Chosen chosen_run(const std::string& name) {
     results::NamedRun run = results::run_named(name, "RUN");
     if (run.store.complete(run.key)) return {std::move(run.store), {run.key}};
-    const auto failure = run.store.read_failure(run.key);
+    const auto failure = run.store.read_error(run.key);
     throw core::Error(core::ExitCode::incomplete,
                       fmt::format("run {} {}; there is nothing to compare with",
                                   results::run_name(run.store.folder(), run.key),
@@ -135,8 +135,8 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
     for (const experiment::RunKey& key : keys) {
         const auto condition =
             std::ranges::find(plan.manifest.conditions, key.condition, &experiment::ConditionSpec::name);
-        const std::string name =
-            fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(condition->engine));
+        const std::string name = fmt::format("{}-{:05}-{}", key.scenario, key.replication,
+                                             experiment::name(condition->traffic_model));
         const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
         if (is_new) {
             experiment::RunJob spec;
@@ -145,7 +145,7 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
             spec.network_folder = folder / "scenarios" / key.scenario / "network";
             spec.study_seed = plan.manifest.study_seed;
             spec.replication = key.replication;
-            spec.engine = condition->engine;
+            spec.traffic_model = condition->traffic_model;
             spec.output = std::filesystem::absolute(out);
             plan.units.push_back({name, std::move(spec)});
         }
@@ -200,7 +200,7 @@ Verification verify(const results::Store& stored, const results::Store& again,
     verification.hash = record->provenance.trace_hash;
     const auto made = again.read(key);
     if (!made) {
-        const auto failure = again.read_failure(key);
+        const auto failure = again.read_error(key);
         verification.verdict = Verdict::failed;
         verification.cause = failure ? failure->message : "was not made";
         return verification;

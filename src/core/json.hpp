@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::core {
 
@@ -23,20 +24,6 @@ template <class Value>
 struct OptionalValue : std::false_type {};
 template <class Value>
 struct OptionalValue<std::optional<Value>> : std::true_type {};
-
-/// Whether an enumeration says by `spellings(Value)` how its values are written.
-template <class Value>
-concept SpelledEnum = std::is_enum_v<Value> && requires {
-    spellings(Value{});
-};
-
-template <SpelledEnum Value>
-std::string spelling(Value value) {
-    for (const auto& [choice, word] : spellings(Value{})) {
-        if (choice == value) return word;
-    }
-    return "";
-}
 
 /// Text of a value: two blanks of indent, a line end at the end. Bytes that are not UTF-8 are replaced, for
 /// names come from files of others.
@@ -95,17 +82,21 @@ class ObjectReader {
   private:
     const Json* find(const char* key);
 
-    template <SpelledEnum Value>
+    template <Spelled Value>
     void convert(const char* key, const Json& node, Value& target) {
-        std::string allowed;
-        for (const auto& [choice, word] : spellings(Value{})) {
-            if (node == word) {
-                target = choice;
-                return;
-            }
-            allowed += (allowed.empty() ? "" : ", ") + std::string(word);
+        if (const auto value = node.is_string() ? value_from<Value>(node.get<std::string>()) : std::nullopt) {
+            target = *value;
+        } else {
+            problems_.push_back({fmt::format("{}: {}", where_, key), node.dump() + " is not known",
+                                 spelling_list<Value>(), ""});
         }
-        problems_.push_back({fmt::format("{}: {}", where_, key), node.dump() + " is not known", allowed, ""});
+    }
+
+    template <Spelled Value>
+    void convert(const char* key, const Json& node, std::vector<Value>& target) {
+        if (!node.is_array()) return problem(key, "is not a list");
+        for (const Json& element : node)
+            convert(key, element, target.emplace_back());
     }
 
     template <class Value>
@@ -126,23 +117,32 @@ class ObjectReader {
     std::vector<core::Problem>& problems_;
 };
 
-/// Every member of a field table; null for an empty optional.
+/// Words of enumerators, null for an empty optional, other values as they are.
+template <class Value>
+Json to_json_value(const Value& value) {
+    if constexpr (Spelled<Value>) {
+        return name(value);
+    } else {
+        return value;
+    }
+}
+template <class Value>
+Json to_json_value(const std::optional<Value>& value) {
+    return value ? to_json_value(*value) : Json(nullptr);
+}
+template <Spelled Value>
+Json to_json_value(const std::vector<Value>& values) {
+    Json list = Json::array();
+    for (const Value value : values)
+        list.push_back(name(value));
+    return list;
+}
+
+/// Every member of a field table.
 template <class Struct>
 void write_fields(Json& object, const Struct& source) {
-    core::for_each_field<Struct>([&](const auto& field) {
-        const auto& value = source.*field.member;
-        if constexpr (OptionalValue<std::decay_t<decltype(value)>>::value) {
-            if (value) {
-                object[field.name] = *value;
-            } else {
-                object[field.name] = nullptr;
-            }
-        } else if constexpr (SpelledEnum<std::decay_t<decltype(value)>>) {
-            object[field.name] = spelling(value);
-        } else {
-            object[field.name] = value;
-        }
-    });
+    core::for_each_field<Struct>(
+        [&](const auto& field) { object[field.name] = to_json_value(source.*field.member); });
 }
 
 /// Throws core::InputError, naming `where`, for text that is not one JSON object.

@@ -4,12 +4,12 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <toml++/toml.h>
 
 #include "core/error.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::core {
 
@@ -28,22 +28,30 @@ class StrictTable {
         const auto value = whole_number(key, minimum, maximum);
         if (value) target = static_cast<Integer>(*value);
     }
-    /// One of some words.
-    template <class Enum, class Target>
-    void word(const std::string& key, const std::vector<std::pair<std::string, Enum>>& words,
-              Target& target) {
+    /// One of the words of an enumeration; `Target` is `Enum` or an optional one.
+    template <Spelled Enum, class Target>
+    void word(const std::string& key, Target& target) {
         std::string found;
         text(key, found);
         if (found.empty()) return;
-        std::string list;
-        for (const auto& [name, value] : words) {
-            if (name == found) {
-                target = value;
-                return;
-            }
-            list += (list.empty() ? "" : ", ") + name;
+        if (const auto value = value_from<Enum>(found)) {
+            target = *value;
+        } else {
+            problem(key, "\"" + found + "\" is not known", spelling_list<Enum>(), "");
         }
-        problem(key, "\"" + found + "\" is not known", list, "");
+    }
+    /// A list of such words.
+    template <Spelled Enum>
+    void words(const std::string& key, std::vector<Enum>& target) {
+        std::vector<std::string> found;
+        texts(key, found);
+        for (const std::string& one : found) {
+            if (const auto value = value_from<Enum>(one)) {
+                target.push_back(*value);
+            } else {
+                problem(key, "\"" + one + "\" is not known", spelling_list<Enum>(), "");
+            }
+        }
     }
     /// A subtable, or nullptr.
     const toml::table* table(const std::string& key);

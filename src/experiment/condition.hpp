@@ -12,14 +12,16 @@
 namespace clearway::experiment {
 
 /// SUMO options that a whole process shares; conditions of one process differ in everything else.
-enum class Engine : std::uint8_t {
+enum class TrafficModel : std::uint8_t {
     standard,
-    sublane,  ///< --lateral-resolution.
-    solo,     ///< Each emergency vehicle alone on the road with every signal open.
+    sublane,    ///< --lateral-resolution.
+    free_flow,  ///< Each emergency vehicle alone on the road with every signal open.
 };
 
-constexpr core::Spellings<Engine, 3> spellings(Engine) {
-    return {{{Engine::standard, "standard"}, {Engine::sublane, "sublane"}, {Engine::solo, "solo"}}};
+constexpr core::Spellings<TrafficModel, 3> spellings(TrafficModel) {
+    return {{{TrafficModel::standard, "standard"},
+             {TrafficModel::sublane, "sublane"},
+             {TrafficModel::free_flow, "free_flow"}}};
 }
 using core::name;
 
@@ -29,7 +31,7 @@ struct ConditionSpec {
     std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
     std::string predictor = "none";
     std::vector<std::string> policies;  ///< In this order; empty: the car-following model alone.
-    Engine engine = Engine::standard;
+    TrafficModel traffic_model = TrafficModel::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     /// `preempt_signals.lead_s` -> `12`, as experiment/settings.hpp knows them.
     core::Settings settings = {};

@@ -26,7 +26,7 @@ std::vector<BuiltInCondition> make_conditions() {
     baseline.name = "baseline";
     ConditionSpec solo;
     solo.name = "solo";
-    solo.engine = Engine::solo;
+    solo.traffic_model = TrafficModel::free_flow;
     ConditionSpec corridor;
     corridor.name = usual_condition;
     corridor.policies = {"corridor"};

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "core/spellings.hpp"
 #include "experiment/simulation.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::experiment {
 
@@ -20,7 +20,7 @@ enum class DatasetKind : std::uint8_t {
     repair,     ///< The same for the improved net, `graphsage`.
     pair_samples,  ///< The features of every candidate pair, for the logistic pair model; likewise.
 };
-constexpr std::array<std::pair<DatasetKind, const char*>, 4> spellings(DatasetKind) {
+constexpr core::Spellings<DatasetKind, 4> spellings(DatasetKind) {
     return {{{DatasetKind::published, "published"},
              {DatasetKind::samples, "samples"},
              {DatasetKind::repair, "repair"},
@@ -32,7 +32,7 @@ enum class ListedPairs : std::uint8_t {
     true_links,  ///< Only pairs that are linked: every label is 1.
     candidates,  ///< All allowed pairs within the candidate radius, linked or not.
 };
-constexpr std::array<std::pair<ListedPairs, const char*>, 2> spellings(ListedPairs) {
+constexpr core::Spellings<ListedPairs, 2> spellings(ListedPairs) {
     return {{{ListedPairs::true_links, "true_links"}, {ListedPairs::candidates, "candidates"}}};
 }
 
@@ -44,7 +44,7 @@ struct DatasetJob : Simulation {
     std::uint32_t feature_count = 5;
     std::vector<std::string> failures;
     double interval_s = 5.0;
-    std::string exits = "known";
+    sensing::Exits exits = sensing::Exits::known;
 
     static constexpr auto fields() {
         using Self = DatasetJob;
@@ -60,8 +60,7 @@ struct DatasetJob : Simulation {
                         "Of samples: simulation time between two of them",
                         "assumed: neighbouring samples differ"},
             core::Field{"exits", "", &Self::exits, 0, 0,
-                        "Of samples: whether it is known which vehicles left, `known` or `unknown`",
-                        "known"});
+                        "Of samples: whether it is known which vehicles left", "known"});
     }
     bool operator==(const DatasetJob&) const = default;
 };

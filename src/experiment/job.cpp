@@ -62,8 +62,8 @@ void read_object(const Source& source, Value& value) {
 
 void write(Json& object, const RunJob& job) {
     core::write_fields<Simulation>(object, job);
-    object["engine"] = name(job.engine);
-    object["recording"] = core::spelling(job.recording);
+    object["traffic_model"] = name(job.traffic_model);
+    object["recording"] = core::name(job.recording);
     object["conditions"] = Json::array();
     for (const ConditionSpec& condition : job.conditions)
         object["conditions"].push_back(to_json(condition));
@@ -75,7 +75,7 @@ void write(Json& object, const RunJob& job) {
 
 void read(const Source& source, ObjectReader& reader, RunJob& job) {
     read_table<Simulation>(source, reader, job);
-    reader.read_name("engine", job.engine, core::value_from<Engine>);
+    reader.read_name("traffic_model", job.traffic_model, core::value_from<TrafficModel>);
     reader.read("recording", job.recording);
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
         job.conditions.push_back(condition_from(condition, source.where + ": conditions", source.problems));

@@ -6,6 +6,7 @@
 
 #include "core/settings.hpp"
 #include "experiment/simulation.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::experiment {
 
@@ -32,7 +33,7 @@ struct JudgedPredictor {
 struct LinkJob : Simulation {
     std::filesystem::path work_folder;
     std::vector<std::string> failures;
-    std::vector<std::string> exits;
+    std::vector<sensing::Exits> exits;
     std::vector<JudgedPredictor> predictors;
 
     /// All but the predictors.
@@ -42,8 +43,7 @@ struct LinkJob : Simulation {
             core::Field{"work_folder", "", &Self::work_folder, 0, 0, "For SUMO's files; removed in the end",
                         "given"},
             core::Field{"failures", "", &Self::failures, 0, 0, "Presets of sensing", "given"},
-            core::Field{"exits", "", &Self::exits, 0, 0,
-                        "Whether it is known which vehicles left: `known`, `unknown`", "given"});
+            core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left", "given"});
     }
     bool operator==(const LinkJob&) const = default;
 };

@@ -15,7 +15,7 @@ namespace clearway::experiment {
 
 /// Whether every step of a run is kept in a file (trace/recording.hpp). It changes no result.
 enum class StepRecording : std::uint8_t { off, on };
-constexpr std::array<std::pair<StepRecording, const char*>, 2> spellings(StepRecording) {
+constexpr core::Spellings<StepRecording, 2> spellings(StepRecording) {
     return {{{StepRecording::off, "off"}, {StepRecording::on, "on"}}};
 }
 
@@ -46,10 +46,10 @@ struct WindowSpec {
     bool operator==(const WindowSpec&) const = default;
 };
 
-/// Runs: several conditions of one simulation and one engine, forked from one warm-up.
+/// Runs: several conditions of one simulation and one traffic model, forked from one warm-up.
 struct RunJob : Simulation {
-    Engine engine = Engine::standard;
-    StepRecording recording = StepRecording::off;  ///< Of all conditions but those of engine `solo`.
+    TrafficModel traffic_model = TrafficModel::standard;
+    StepRecording recording = StepRecording::off;  ///< Of all conditions but those in free flow.
     std::vector<ConditionSpec> conditions;
     RunLimits limits;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.

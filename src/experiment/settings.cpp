@@ -127,7 +127,7 @@ const std::vector<Component>& components() {
 }
 
 std::vector<std::string> components_of(const ConditionSpec& condition) {
-    if (condition.engine == Engine::solo) return {};
+    if (condition.traffic_model == TrafficModel::free_flow) return {};
     std::vector<std::string> present = {loop_name, failure_name, condition.predictor, siren_name};
     if (!condition.policies.empty()) present.emplace_back(actuation_name);
     for (const policy::PolicyEntry& entry : policy::policies()) {
@@ -231,7 +231,7 @@ std::string described_name(const ConditionSpec& condition) {
     if (condition.predictor != usual.predictor) words.push_back(condition.predictor);
     if (!condition.model_file.empty())
         words.push_back(std::filesystem::path(condition.model_file).stem().string());
-    if (condition.engine != usual.engine) words.emplace_back(name(condition.engine));
+    if (condition.traffic_model != usual.traffic_model) words.emplace_back(name(condition.traffic_model));
     if (condition.safety_checks != usual.safety_checks) words.emplace_back("unchecked");
     for (const auto& [name, value] : condition.settings)
         words.push_back(setting_word(name, value, condition.settings));

@@ -34,9 +34,7 @@ void read_scenario(const toml::table& table, const std::string& file, Problems& 
     std::string configuration;
     scenario::Options options;
     reader.text("name", name);
-    reader.word<scenario::Variant>(
-        "variant", {{"standard", scenario::Variant::standard}, {"dense", scenario::Variant::dense}},
-        options.variant);
+    reader.word<scenario::Variant>("variant", options.variant);
     reader.text("configuration", configuration);
     reader.finish();
     try {
@@ -89,7 +87,7 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
     benchmark.name = file.stem().string();
     root.text("name", benchmark.name);
     root.texts("failures", benchmark.failures);
-    root.texts("exits", benchmark.exits);
+    root.words<Exits>("exits", benchmark.exits);
     if (const toml::table* const seeds = root.table("seeds")) {
         core::StrictTable reader(*seeds, "seeds", name, problems);
         reader.integer<std::uint64_t>("study_seed", 0, std::numeric_limits<std::int64_t>::max(),

@@ -30,7 +30,7 @@ struct LinkBenchmark {
     SeedRange test;        ///< On which figures are taken.
     SeedRange validation;  ///< On which thresholds are chosen and settings tuned.
     std::vector<std::string> failures;
-    std::vector<std::string> exits;  ///< `known`, `unknown`.
+    std::vector<Exits> exits;
     std::vector<scenario::ScenarioConfig> scenarios;
 };
 

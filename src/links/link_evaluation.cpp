@@ -61,7 +61,7 @@ LinkTrial::LinkTrial(const roads::Network& network, const graph::LinkRules& rule
     : network_(network),
       rules_(rules),
       failure_(std::move(setup.failure)),
-      exits_(std::move(setup.exits)),
+      exits_(setup.exits),
       sensor_(std::move(setup.sensor)) {
     for (auto& predictor : setup.predictors)
         contestants_.emplace_back().predictor = std::move(predictor);

@@ -40,7 +40,7 @@ class LinkTrial {
   public:
     struct Setup {
         std::string failure;
-        std::string exits;
+        Exits exits = Exits::known;
         std::unique_ptr<sensing::SensorModel> sensor;
         std::vector<std::unique_ptr<prediction::Predictor>> predictors;
     };
@@ -75,7 +75,8 @@ class LinkTrial {
 
     const roads::Network& network_;
     graph::LinkRules rules_;
-    std::string failure_, exits_;
+    std::string failure_;
+    Exits exits_;
     std::unique_ptr<sensing::SensorModel> sensor_;
     traffic::Observation observation_;
     sensing::FailureLog log_;

@@ -39,7 +39,7 @@ struct LinkEndToEnd {
 struct LinkResult {
     std::string scenario;  ///< Empty: all, pooled.
     std::string failure;
-    std::string exits;
+    Exits exits = Exits::known;
     std::string predictor;
     double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
     std::array<LinkMeasures, link_subsets.size()> subsets;
@@ -55,7 +55,7 @@ struct LinkResult {
 /// Error of a predictor against an opponent's, pooled: 1 means that nothing is left, 0 no difference.
 struct LinkGain {
     std::string failure;
-    std::string exits;
+    Exits exits = Exits::known;
     std::string predictor;
     std::string against;
     analysis::Measured ap_difference;       ///< AP minus the opponent's.

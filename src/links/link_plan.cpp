@@ -135,8 +135,8 @@ std::string LinkRunFiles::key(const scenario::ScenarioConfig& config, const Link
     std::string content = fmt::format("{} {} {} ", worker_hash_, hash_of(config), plan_.benchmark.study_seed);
     for (const std::string& failure : plan_.benchmark.failures)
         content += failure + " ";
-    for (const std::string& exits : plan_.benchmark.exits)
-        content += exits + " ";
+    for (const Exits exits : plan_.benchmark.exits)
+        content += fmt::format("{} ", core::name(exits));
     content += predictor.name + " " + settings_text(predictor);
     if (!predictor.model_file.empty()) content += core::content_hash(core::read_file(predictor.model_file));
     return core::content_hash(content).substr(0, 16);

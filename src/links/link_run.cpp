@@ -122,8 +122,10 @@ Json head_of(const LinkRun& run) {
         Json belief = Json::object();
         core::write_fields(truth, one.truth);
         core::write_fields(belief, one.belief);
-        cases.push_back(
-            {{"failure", one.failure}, {"exits", one.exits}, {"truth", truth}, {"belief", belief}});
+        cases.push_back({{"failure", one.failure},
+                         {"exits", core::name(one.exits)},
+                         {"truth", truth},
+                         {"belief", belief}});
     }
     return {{"scenario", run.scenario},     {"configuration_hash", run.configuration_hash},
             {"study_seed", run.study_seed}, {"replication", run.replication},
@@ -164,7 +166,7 @@ void write_link_run(const std::filesystem::path& file, const LinkRun& run, const
     Json cases = Json::array();
     for (const LinkTiming::Case& one : timing.cases) {
         cases.push_back({{"failure", one.failure},
-                         {"exits", one.exits},
+                         {"exits", core::name(one.exits)},
                          {"reports", one.reports},
                          {"vehicles", one.vehicles},
                          {"predict_s", one.predict_s}});

@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "links/link_scores.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::links {
+
+using sensing::Exits;
 
 /// What one predictor did in one run under one failure.
 struct LinkCase {
     std::string failure;
-    std::string exits;  ///< `known` or `unknown`.
+    Exits exits = Exits::known;
     LinkTruth truth;
     LinkBelief belief;
     LinkScoreSummary scores;
@@ -36,7 +39,7 @@ struct LinkRun {
 struct LinkTiming {
     struct Case {
         std::string failure;
-        std::string exits;
+        Exits exits = Exits::known;
         std::uint64_t reports = 0;
         std::uint64_t vehicles = 0;  ///< In the observations, summed over reports.
         double predict_s = 0.0;

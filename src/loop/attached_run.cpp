@@ -96,13 +96,12 @@ Ground ground_of(const sumo::RemoteSumo& sumo, const experiment::AttachJob& job)
 Stage stage_of(const experiment::AttachJob& job, const roads::Network& network, const Ground& ground) {
     metrics::RoadLayout layout = road_layout(network, {});
     layout.demand_until_s = ground.end.value;
-    return {
-        .surroundings = {.network = network,
-                         .random = core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{0}),
-                         .loop = experiment::loop_config(job.condition),
-                         .siren = {}},
-        .layout = std::move(layout),
-        .horizon = ground.end};
+    return {.context = {.network = network,
+                        .random = core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{0}),
+                        .loop = experiment::loop_config(job.condition),
+                        .siren = {}},
+            .layout = std::move(layout),
+            .horizon = ground.end};
 }
 
 }  // namespace
@@ -115,7 +114,7 @@ core::ExitCode run_attached(experiment::AttachJob job) {
         sumo.declare(type, traffic::VehicleClass::automated);
     for (const std::string& type : job.emergency)
         sumo.declare(type, traffic::VehicleClass::emergency);
-    if (has_sublanes(sumo)) job.condition.engine = experiment::Engine::sublane;
+    if (has_sublanes(sumo)) job.condition.traffic_model = experiment::TrafficModel::sublane;
     const roads::Network network = roads::Network::read(ground.network_file, ground.additional_files);
     const results::Store store = results::Store::create(job.output, manifest_of(job, ground.network_file));
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <utility>
 
-#include "loop/machinery.hpp"
+#include "loop/controller.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -16,8 +16,8 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-void ClosedLoop::begin(Machinery machinery, const LoopConfig& config) {
-    machinery_ = std::move(machinery);
+void ClosedLoop::begin(Controller controller, const LoopConfig& config) {
+    controller_ = std::move(controller);
     true_links_ = metrics::TrueLinks(graph::LinkRules{.radius_m = config.link_radius_m});
     timing_ = {};
 }
@@ -34,24 +34,24 @@ void ClosedLoop::run(core::Seconds horizon) {
 }
 
 metrics::LeaseTotals ClosedLoop::finish() {
-    if (!machinery_) return {};
+    if (!controller_) return {};
     commands_.clear();
-    if (machinery_->siren) machinery_->siren->restore_all(commands_);
-    machinery_->actuator->restore_all(commands_);
+    if (controller_->siren) controller_->siren->restore_all(commands_);
+    controller_->actuator->restore_all(commands_);
     session_.apply(commands_);
-    return totals_of(*machinery_->actuator);
+    return totals_of(*controller_->actuator);
 }
 
 void ClosedLoop::step() {
     const auto started = Clock::now();
     session_.step();
     const truth::Snapshot& snapshot = session_.snapshot();
-    if (machinery_) machinery_->chain->observe(snapshot, session_.roster());
+    if (controller_) controller_->chain->observe(snapshot, session_.roster());
     if (listener_ != nullptr) listener_->on_step(snapshot, session_.roster());
-    const bool decided = machinery_ && decide(snapshot);
-    if (machinery_) act(snapshot);
+    const bool decided = controller_ && decide(snapshot);
+    if (controller_) act(snapshot);
     std::span<const traffic::Lease> leases;
-    if (machinery_) leases = machinery_->chain->leases();
+    if (controller_) leases = controller_->chain->leases();
     recorder_.step(snapshot, session_.roster(), session_.events(), leases);
     if (listener_ != nullptr) tell_listener(snapshot, decided);
 
@@ -63,7 +63,7 @@ void ClosedLoop::step() {
 }
 
 bool ClosedLoop::decide(const truth::Snapshot& snapshot) {
-    pipeline::DecisionChain& chain = *machinery_->chain;
+    pipeline::DecisionChain& chain = *controller_->chain;
     if (!chain.has_policy() || !chain.decision_is_due()) return false;
     chain.decide();
     if (chain.observation().is_report) score(snapshot);
@@ -71,23 +71,23 @@ bool ClosedLoop::decide(const truth::Snapshot& snapshot) {
 }
 
 void ClosedLoop::act(const truth::Snapshot& snapshot) {
-    const pipeline::DecisionChain& chain = *machinery_->chain;
+    const pipeline::DecisionChain& chain = *controller_->chain;
     commands_.clear();
-    if (machinery_->siren) machinery_->siren->step(snapshot, session_.roster(), session_, commands_);
-    machinery_->actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
-    machinery_->actuator->step(snapshot, session_.roster(), session_, commands_);
+    if (controller_->siren) controller_->siren->step(snapshot, session_.roster(), session_, commands_);
+    controller_->actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
+    controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
 }
 
 void ClosedLoop::score(const truth::Snapshot& snapshot) {
     true_links_.look(snapshot);
-    recorder_.links(snapshot, true_links_, machinery_->chain->belief());
+    recorder_.links(snapshot, true_links_, controller_->chain->belief());
 }
 
 void ClosedLoop::tell_listener(const truth::Snapshot& snapshot, bool decided) {
     trace::RecordedStep step{&snapshot, &session_.roster(), &session_.events(), nullptr, nullptr, {}};
-    if (machinery_) {
-        const pipeline::DecisionChain& chain = *machinery_->chain;
+    if (controller_) {
+        const pipeline::DecisionChain& chain = *controller_->chain;
         if (decided || chain.observation().is_report) step.observation = &chain.observation();
         if (decided) step.belief = &chain.belief();
         step.leases = chain.leases();

@@ -20,7 +20,7 @@ namespace clearway::loop {
 using experiment::LoopConfig;
 
 /// What a condition is made of, ready to run.
-struct Machinery {
+struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
     std::unique_ptr<drivers::Siren> siren;  ///< Null where nobody yields to one.
@@ -45,8 +45,8 @@ class ClosedLoop {
     ClosedLoop(sumo::Session& session, metrics::Recorder& recorder)
         : session_(session), recorder_(recorder) {}
 
-    /// From the next step on, `machinery` senses, decides and acts. `timing` starts anew.
-    void begin(Machinery machinery, const LoopConfig& config);
+    /// From the next step on, `controller` senses, decides and acts. `timing` starts anew.
+    void begin(Controller controller, const LoopConfig& config);
     /// From the next step on, `listener` is told of each; it outlives the loop and may be null.
     void tell(trace::StepListener* listener) { listener_ = listener; }
 
@@ -54,7 +54,7 @@ class ClosedLoop {
     void warm_up(core::Seconds end, core::Seconds step_length);
     /// Steps until no vehicle is left or `horizon` is reached.
     void run(core::Seconds horizon);
-    /// Gives back all that the machinery holds, and answers what became of its leases.
+    /// Gives back all that the controller holds, and answers what became of its leases.
     metrics::LeaseTotals finish();
 
     /// Of all steps, or of those since `begin`.
@@ -70,7 +70,7 @@ class ClosedLoop {
 
     sumo::Session& session_;
     metrics::Recorder& recorder_;
-    std::optional<Machinery> machinery_;
+    std::optional<Controller> controller_;
     trace::StepListener* listener_ = nullptr;
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};

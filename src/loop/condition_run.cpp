@@ -22,7 +22,7 @@ metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder
     recorder.watch(std::move(stage.layout));
     recorder.configure(metrics::RecorderConfig::of_latency(
         core::Seconds(sensing::failure_from(condition.failure).latency_s)));
-    loop.begin(make_machinery(condition, stage.surroundings), stage.surroundings.loop);
+    loop.begin(make_controller(condition, stage.context), stage.context.loop);
     loop.tell(stage.listener);
     loop.run(stage.horizon);
     return loop.finish();

@@ -4,7 +4,7 @@
 
 #include "experiment/run_key.hpp"
 #include "loop/closed_loop.hpp"
-#include "loop/machinery.hpp"
+#include "loop/controller.hpp"
 #include "metrics/road_layout.hpp"
 #include "results/record.hpp"
 
@@ -12,7 +12,7 @@ namespace clearway::loop {
 
 /// What a condition starts in, whatever runs the simulation.
 struct Stage {
-    Surroundings surroundings;
+    ControllerContext context;
     metrics::RoadLayout layout;
     core::Seconds horizon;
     trace::StepListener* listener = nullptr;  ///< May be null.

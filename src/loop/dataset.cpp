@@ -35,7 +35,7 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
 
 /// The failure as data sets name it.
 std::string failure_name(const experiment::DatasetJob& job, const std::string& failure) {
-    return failure + (job.exits == "unknown" ? " exits unknown" : "");
+    return failure + (job.exits == sensing::Exits::unknown ? " exits unknown" : "");
 }
 
 /// One recorder for each failure, all watching one run.

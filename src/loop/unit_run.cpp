@@ -18,14 +18,14 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
                                    const roads::Network& network, const std::filesystem::path& folder) {
     sumo::SessionConfig config;
     config.network = prepared.network_file;
-    if (unit.engine != experiment::Engine::solo) config.route_files = prepared.route_files;
+    if (unit.traffic_model != experiment::TrafficModel::free_flow) config.route_files = prepared.route_files;
     config.additional_files = prepared.additional_files;
     config.folder = folder;
     config.step_length = core::Seconds(prepared.time.step_length_s);
     config.seed = prepared.simulator_seed;
     if (prepared.time.time_to_teleport_s)
         config.time_to_teleport = core::Seconds(*prepared.time.time_to_teleport_s);
-    if (unit.engine == experiment::Engine::sublane) {
+    if (unit.traffic_model == experiment::TrafficModel::sublane) {
         config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
     }
     config.names = names_of(network);
@@ -72,7 +72,7 @@ UnitRun::UnitRun(const experiment::RunJob& unit, const std::filesystem::path& de
                                   core::Replication{unit.replication}, demand_folder)),
       session_(start(session_config(unit, prepared_, network_.network, folder))),
       loop_(*session_, recorder_) {
-    if (unit_.engine != experiment::Engine::solo) warm_up();
+    if (unit_.traffic_model != experiment::TrafficModel::free_flow) warm_up();
 }
 
 UnitRun::UnitRun(const experiment::Simulation& simulation, const std::filesystem::path& folder)
@@ -103,7 +103,7 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
                                         results::RunTiming& timing, trace::StepListener* audience) {
     const auto started = std::chrono::steady_clock::now();
     metrics::RunEnd end;
-    if (condition.engine == experiment::Engine::solo) {
+    if (condition.traffic_model == experiment::TrafficModel::free_flow) {
         run_alone(audience);
         end.planned = metrics::read_planned({}, prepared_.emergency);
     } else {
@@ -145,7 +145,7 @@ void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepList
 metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& condition,
                                            trace::StepListener* listener) {
     add_emergency_vehicles(condition.bluelight);
-    const Surroundings surroundings{
+    const ControllerContext context{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
         .loop = experiment::loop_config(condition),
@@ -153,7 +153,7 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians()};
     return run_condition(loop_, recorder_, condition,
-                         {.surroundings = surroundings,
+                         {.context = context,
                           .layout = layout(),
                           .horizon = core::Seconds(prepared_.time.horizon_s),
                           .listener = listener});

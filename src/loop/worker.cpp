@@ -26,7 +26,7 @@
 namespace clearway::loop {
 namespace {
 
-/// Lines of SUMO's own log that go into a failure record.
+/// Lines of SUMO's own log that go into a error record.
 constexpr int log_lines = 30;
 
 struct Places {
@@ -38,30 +38,30 @@ experiment::RunKey key_of(const experiment::RunJob& unit, const experiment::Cond
     return {unit.scenario, condition.name, unit.replication};
 }
 
-/// What the failures of one unit have in common.
+/// What the errors of one unit have in common.
 struct Unit {
     const experiment::RunJob& spec;
     const results::Store& store;
     std::filesystem::path file;
 };
 
-results::FailureRecord failure_of(const Unit& unit, const experiment::RunKey& key,
-                                  const std::filesystem::path& folder) {
-    results::FailureRecord failure;
-    failure.key = key;
-    failure.log_tail = core::tail(folder / "sumo.log", log_lines);
-    failure.command = core::shell_text({core::program_folder() / "clearway-run", unit.file});
-    return failure;
+results::RunError error_of(const Unit& unit, const experiment::RunKey& key,
+                           const std::filesystem::path& folder) {
+    results::RunError error;
+    error.key = key;
+    error.log_tail = core::tail(folder / "sumo.log", log_lines);
+    error.command = core::shell_text({core::program_folder() / "clearway-run", unit.file});
+    return error;
 }
 
-void store_failure(const Unit& unit, const experiment::RunKey& key, const core::Error& error,
-                   const std::filesystem::path& folder) {
-    results::FailureRecord failure = failure_of(unit, key, folder);
-    failure.cause = error.exit_code() == core::ExitCode::bad_input ? results::FailureCause::bad_input
-                                                                   : results::FailureCause::simulator;
-    failure.message = error.what();
-    failure.exit_code = static_cast<int>(error.exit_code());
-    unit.store.write(failure);
+void store_error(const Unit& unit, const experiment::RunKey& key, const core::Error& cause,
+                 const std::filesystem::path& folder) {
+    results::RunError error = error_of(unit, key, folder);
+    error.cause = cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
+                                                                 : results::ErrorCause::simulator;
+    error.message = cause.what();
+    error.exit_code = static_cast<int>(cause.exit_code());
+    unit.store.write(error);
 }
 
 /// Throws core::EnvironmentError on a full disk, which makes SUMO fail in many ways: then no run is to blame.
@@ -72,29 +72,29 @@ void require_space(const std::filesystem::path& folder) {
 }
 
 /// Records the end of a process that could not do it itself.
-void store_failure(const Unit& unit, const experiment::RunKey& key, const WatchedEnd& end,
-                   const std::filesystem::path& folder) {
-    results::FailureRecord failure = failure_of(unit, key, folder);
-    failure.signal = WTERMSIG(end.status);
+void store_error(const Unit& unit, const experiment::RunKey& key, const WatchedEnd& end,
+                 const std::filesystem::path& folder) {
+    results::RunError error = error_of(unit, key, folder);
+    error.signal = WTERMSIG(end.status);
     if (end.by == core::EndedBy::time_limit) {
-        failure.cause = results::FailureCause::time_limit;
-        failure.message = fmt::format("did not end within {:g} s", unit.spec.limits.wall_s);
+        error.cause = results::ErrorCause::time_limit;
+        error.message = fmt::format("did not end within {:g} s", unit.spec.limits.wall_s);
     } else if (end.by == core::EndedBy::memory_limit) {
-        failure.cause = results::FailureCause::memory;
-        failure.message = fmt::format("needed more than {} MiB", unit.spec.limits.memory_mib);
+        error.cause = results::ErrorCause::memory;
+        error.message = fmt::format("needed more than {} MiB", unit.spec.limits.memory_mib);
     } else {
-        failure.cause = results::FailureCause::signal;
-        failure.message = core::Exit{.signal = failure.signal}.describe();
+        error.cause = results::ErrorCause::signal;
+        error.message = core::Exit{.signal = error.signal}.describe();
     }
-    unit.store.write(failure);
+    unit.store.write(error);
 }
 
-/// Ok, or environment when the disk is at fault or the failure cannot be stored either.
-core::ExitCode try_to_store_failure(const Unit& unit, const experiment::RunKey& key, const core::Error& error,
-                                    const std::filesystem::path& folder) {
+/// Ok, or environment when the disk is at fault or the error cannot be stored either.
+core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& key, const core::Error& cause,
+                                  const std::filesystem::path& folder) {
     try {
         require_space(folder);
-        store_failure(unit, key, error, folder);
+        store_error(unit, key, cause, folder);
         return core::ExitCode::ok;
     } catch (const core::EnvironmentError& environment) {
         fmt::print(stderr, "{}: {}\n", experiment::to_text(key), environment.what());
@@ -117,7 +117,7 @@ core::ExitCode try_to_store_failure(const Unit& unit, const experiment::RunKey& 
         fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         code = error.exit_code();
         if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input)
-            code = try_to_store_failure(unit, key, error, folder);
+            code = try_to_store_error(unit, key, error, folder);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         std::fflush(nullptr);
@@ -127,7 +127,7 @@ core::ExitCode try_to_store_failure(const Unit& unit, const experiment::RunKey& 
     _exit(static_cast<int>(code));
 }
 
-/// Runs a condition in a child of its own; answers the child's exit code, ok when a failure is on record.
+/// Runs a condition in a child of its own; answers the child's exit code, ok when an error is on record.
 core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                               const std::filesystem::path& folder) {
     const experiment::RunKey key = key_of(unit.spec, condition);
@@ -142,7 +142,7 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::
     if (WIFEXITED(end.status)) return static_cast<core::ExitCode>(WEXITSTATUS(end.status));
     const int signal = WTERMSIG(end.status);
     if (signal == SIGINT || signal == SIGTERM) std::raise(signal);  // interrupted, which is no failure
-    store_failure(unit, key, end, folder);
+    store_error(unit, key, end, folder);
     return core::ExitCode::ok;
 }
 
@@ -157,7 +157,7 @@ Places places_of(const experiment::RunJob& unit, const results::Store& store,
 }
 
 /// Loads SUMO once, warms up once, forks one child per condition that has no record yet, and stores what each
-/// child found. A child that fails leaves a failure record with its cause, also when it was killed by a
+/// child found. A child that fails leaves a error record with its cause, also when it was killed by a
 /// signal or for passing a limit of the job, and the others go on.
 core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::path& unit_file) {
     const results::Store store = results::Store::open(unit.output);
@@ -172,7 +172,7 @@ core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::p
     } catch (const core::SimulatorError& error) {
         require_space(places.work);
         for (const experiment::RunKey& key : keys)
-            store_failure(shared, key, error, places.work);
+            store_error(shared, key, error, places.work);
         return core::ExitCode::ok;
     }
     const ChildSignals signals;

@@ -25,7 +25,7 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
              detail::approaches(view, emergency, core::Metres(config_.horizon_m))) {
             const double arrival_s = approach.distance_m / std::max(speed_mps, 0.1);
             const auto halted = static_cast<double>(
-                detail::halted_ahead(view, emergency, approach.distance_m, config_.halted_mps));
+                detail::queue_ahead(view, emergency, approach.distance_m, config_.halted_mps));
             const double lead_s =
                 std::min(config_.lead_s + config_.lead_per_halted_s * halted, config_.longest_lead_s);
             const std::pair request{emergency.key, approach.signal};

@@ -39,7 +39,7 @@ struct PreemptSignalsConfig {
 };
 
 /// Opens the signals on the route of every emergency vehicle: green for its approach, asked for early
-/// enough that the queue ahead is gone on its arrival. Yellow, all-red, cap, cool-down and the way back are
+/// enough that the queue ahead is gone on its arrival. Yellow, all-red, cap, lockout and the way back are
 /// the work of actuation.
 class PreemptSignals : public Policy {
   public:

@@ -85,7 +85,7 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
             most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,
                         config_.change_vehicles);
         if (!links.empty())
-            write.add(signal, traffic::FavourLinks{std::move(links)}, "waited for an emergency vehicle", {});
+            write.add(signal, traffic::AdjustGreen{std::move(links)}, "waited for an emergency vehicle", {});
     }
 }
 

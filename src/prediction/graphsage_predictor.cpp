@@ -34,7 +34,7 @@ class GraphSage final : public PairwisePredictor {
         if (builder_.ahead().empty()) return;
         net_.run(inputs_, logits_, motions_);
         for (std::size_t i = 0; i < builder_.ahead().size(); ++i) {
-            const RoadAhead& ahead = builder_.ahead()[i];
+            const MotionContext& ahead = builder_.ahead()[i];
             const BelievedMotion& motion = motions_[i];
             beliefs[ahead.row] = {
                 detail::state_after(network(), observation(), tracks, ahead, motion.displacement_m),

@@ -25,8 +25,8 @@ void write_line(const LineOnWay& line, const LineInputs& inputs, NetInputRow& ro
     if (!line.exists()) return;
     row.set(inputs.exists, true);
     row.set(inputs.distance, line.distance_m);
-    row.set(inputs.green, traffic::is_green(line.letter));
-    row.set(inputs.signal_age, line.letter_age_s);
+    row.set(inputs.green, traffic::is_green(line.state));
+    row.set(inputs.signal_age, line.state_age_s);
 }
 
 /// Places of what is said of another vehicle on the way.
@@ -83,7 +83,7 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
     y_m_ = tracks.y_m;
     ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(ahead_.size()));
     for (std::uint32_t entry = 0; entry < ahead_.size(); ++entry) {
-        const RoadAhead& ahead = ahead_[entry];
+        const MotionContext& ahead = ahead_[entry];
         ahead_of_row_[ahead.row] = entry;
         const roads::Point place = ahead.place_at(ahead.displacement_m);
         x_m_[ahead.row] = place.x_m;
@@ -123,17 +123,18 @@ void RepairInputBuilder::write_nodes(const traffic::Observation& observation, co
         row.set(node_input("smoothed_speed"), smoothed_mps);
         row.set(node_input("speed_change"), speed_mps - smoothed_mps);
         if (ahead_of_row_[at] == ahead_.size()) continue;
-        const RoadAhead& ahead = ahead_[ahead_of_row_[at]];
+        const MotionContext& ahead = ahead_[ahead_of_row_[at]];
         write_motion(scene, ahead, row);
         write_line(ahead.line, line_inputs, row);
         write_line(ahead.next_line, next_line_inputs, row);
         write_vehicle(ahead.leader, ahead.displacement_m, leader_inputs, row);
         write_vehicle(ahead.follower, ahead.displacement_m, follower_inputs, row);
-        write_surroundings(observation, scene, ahead, row);
+        write_neighbours(observation, scene, ahead, row);
     }
 }
 
-void RepairInputBuilder::write_motion(const Scene& scene, const RoadAhead& ahead, NetInputRow& row) const {
+void RepairInputBuilder::write_motion(const Scene& scene, const MotionContext& ahead,
+                                      NetInputRow& row) const {
     const float age_s = scene.tracks.age_s[ahead.row];
     const traffic::MotionState& last = scene.tracks.last[ahead.row];
     const float limit_mps = last.lane.exists() ? network_.lane(last.lane).speed_limit_mps : last.speed_mps;
@@ -145,15 +146,15 @@ void RepairInputBuilder::write_motion(const Scene& scene, const RoadAhead& ahead
     row.set(node_input("reach"), ahead.reach_m);
     row.set(node_input("free_flow"), ahead.free_flow_m);
     if (ahead.line.exists()) {
-        row.set(node_input("report_to_signal_change"), age_s - ahead.line.letter_age_s);
+        row.set(node_input("report_to_signal_change"), age_s - ahead.line.state_age_s);
         row.set(node_input("travelled_past_line"), ahead.travelled_m - ahead.line.distance_m);
     }
     row.set(node_input("route_left"), ahead.route_left_m - ahead.displacement_m);
     row.set(node_input("place_sigma"), ahead.sigma_m);
 }
 
-void RepairInputBuilder::write_surroundings(const traffic::Observation& observation, const Scene& scene,
-                                            const RoadAhead& ahead, NetInputRow& row) const {
+void RepairInputBuilder::write_neighbours(const traffic::Observation& observation, const Scene& scene,
+                                          const MotionContext& ahead, NetInputRow& row) const {
     const Tracks& tracks = scene.tracks;
     const traffic::MotionState& last = tracks.last[ahead.row];
     row.set(node_input("past_end"), tracks.past_end_m[ahead.row] > 0.0F);
@@ -173,7 +174,7 @@ void RepairInputBuilder::write_surroundings(const traffic::Observation& observat
 void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
     proximity_.build_all_pairs({x_m_, y_m_, scene.tracks.vehicle_class}, message_radius_m, near_);
     auto first = detectors_.begin();
-    for (const RoadAhead& ahead : ahead_) {
+    for (const MotionContext& ahead : ahead_) {
         auto last = first;
         while (last != detectors_.end() && last->row == ahead.row) {
             ++last;
@@ -197,7 +198,7 @@ bool RepairInputBuilder::detects(std::span<const Detector> detectors, std::uint3
 }
 
 /// The nearest vehicles but those that get an edge for another reason.
-void RepairInputBuilder::add_nearest(const Scene& scene, const RoadAhead& ahead,
+void RepairInputBuilder::add_nearest(const Scene& scene, const MotionContext& ahead,
                                      std::span<const Detector> detectors, RepairInputs& inputs) {
     nearest_.clear();
     const auto neighbours = near_.neighbours_of(ahead.row);
@@ -217,7 +218,7 @@ void RepairInputBuilder::add_nearest(const Scene& scene, const RoadAhead& ahead,
 }
 
 /// `range_m`: measured, -1 for presence alone, or `not_detected`.
-void RepairInputBuilder::add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source,
+void RepairInputBuilder::add_edge(const Scene& scene, const MotionContext& ahead, std::uint32_t source,
                                   float range_m, RepairInputs& inputs) {
     const Tracks& tracks = scene.tracks;
     const std::uint32_t row = ahead.row;
@@ -292,7 +293,7 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
 
 bool RepairInputBuilder::follows(std::uint32_t one, std::uint32_t other) const {
     if (ahead_of_row_[one] == ahead_.size()) return false;
-    const RoadAhead& ahead = ahead_[ahead_of_row_[one]];
+    const MotionContext& ahead = ahead_[ahead_of_row_[one]];
     return (ahead.leader.exists && ahead.leader.row == other) ||
            (ahead.follower.exists && ahead.follower.row == other);
 }

@@ -6,8 +6,8 @@
 
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
+#include "prediction/motion_context.hpp"
 #include "prediction/repair_schema.hpp"
-#include "prediction/road_ahead.hpp"
 
 namespace clearway::prediction {
 
@@ -49,14 +49,14 @@ class RepairInputBuilder {
     /// `network` outlives the builder.
     RepairInputBuilder(const roads::Network& network, const graph::LinkRules& rules);
 
-    /// Call it with every observation, in order: it remembers (see RoadAheadBuilder).
+    /// Call it with every observation, in order: it remembers (see MotionContextBuilder).
     void build(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
     /// In place of `build` where only what it remembers is wanted.
     void remember(const traffic::Observation& observation, const Scene& scene) {
         roads_.build(observation, scene, ahead_);
     }
     /// Of the last call.
-    const std::vector<RoadAhead>& ahead() const { return ahead_; }
+    const std::vector<MotionContext>& ahead() const { return ahead_; }
 
   private:
     struct Detector {
@@ -67,14 +67,14 @@ class RepairInputBuilder {
     };
 
     void write_nodes(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
-    void write_motion(const Scene& scene, const RoadAhead& ahead, NetInputRow& row) const;
-    void write_surroundings(const traffic::Observation& observation, const Scene& scene,
-                            const RoadAhead& ahead, NetInputRow& row) const;
+    void write_motion(const Scene& scene, const MotionContext& ahead, NetInputRow& row) const;
+    void write_neighbours(const traffic::Observation& observation, const Scene& scene,
+                          const MotionContext& ahead, NetInputRow& row) const;
     void write_edges(const Scene& scene, RepairInputs& inputs);
     static bool detects(std::span<const Detector> detectors, std::uint32_t row);
-    void add_nearest(const Scene& scene, const RoadAhead& ahead, std::span<const Detector> detectors,
+    void add_nearest(const Scene& scene, const MotionContext& ahead, std::span<const Detector> detectors,
                      RepairInputs& inputs);
-    void add_edge(const Scene& scene, const RoadAhead& ahead, std::uint32_t source, float range_m,
+    void add_edge(const Scene& scene, const MotionContext& ahead, std::uint32_t source, float range_m,
                   RepairInputs& inputs);
     void write_pairs(const Scene& scene, RepairInputs& inputs);
     /// Whether `other` is leader or follower of `one`.
@@ -82,10 +82,10 @@ class RepairInputBuilder {
     void list_detections(const Scene& scene);
 
     const roads::Network& network_;
-    RoadAheadBuilder roads_;
+    MotionContextBuilder roads_;
     graph::ProximityBuilder proximity_;
     graph::ProximityGraph near_;
-    std::vector<RoadAhead> ahead_;
+    std::vector<MotionContext> ahead_;
     std::vector<std::uint32_t> ahead_of_row_;
     std::vector<float> x_m_, y_m_;  ///< Believed by the rule.
     std::vector<Detector> detectors_;

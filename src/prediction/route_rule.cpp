@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "prediction/detail/pairwise.hpp"
-#include "prediction/road_ahead.hpp"
+#include "prediction/motion_context.hpp"
 #include "roads/route.hpp"
 
 namespace clearway::prediction {
@@ -28,12 +28,12 @@ class RouteRule final : public PairwisePredictor {
         for (std::size_t row = 0; row < tracks.size(); ++row) {
             beliefs[row] = {tracks.state[row], tracks.sensor_sigma_m[row], true};
         }
-        for (const RoadAhead& ahead : ahead_) {
+        for (const MotionContext& ahead : ahead_) {
             beliefs[ahead.row] = belief_of(scene.tracks, ahead);
         }
     }
 
-    RowBelief belief_of(const Tracks& tracks, const RoadAhead& ahead) const {
+    RowBelief belief_of(const Tracks& tracks, const MotionContext& ahead) const {
         const std::uint32_t row = ahead.row;
         const float sigma_m = route_rule_sigma_m(ahead.sigma_m, tracks.age_s[row], config_);
         return {detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m), sigma_m,
@@ -46,8 +46,8 @@ class RouteRule final : public PairwisePredictor {
     }
 
     RouteRuleConfig config_;
-    RoadAheadBuilder roads_;
-    std::vector<RoadAhead> ahead_;
+    MotionContextBuilder roads_;
+    std::vector<MotionContext> ahead_;
 };
 
 }  // namespace

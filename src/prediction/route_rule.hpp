@@ -28,7 +28,7 @@ struct RouteRuleConfig {
 
 /// The strongest repair without learning: dead reckoning along the route, not through red lights nor through
 /// the vehicle ahead, drawn to where surviving links can be, and gone at the end of the route where exits are
-/// not known (RoadAheadBuilder says how). P(d < radius) from the distance of the believed places, whose
+/// not known (MotionContextBuilder says how). P(d < radius) from the distance of the believed places, whose
 /// standard deviation grows with age.
 std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context,
                                            const RouteRuleConfig& config = {});

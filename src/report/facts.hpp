@@ -225,8 +225,8 @@ struct ConditionFacts {
     std::string title;       ///< As in the dissertation where it has the condition, else the name.
     std::string recipe;      ///< Failure, predictor and policy parts, in words.
     core::Settings factors;  ///< Of the study, `failure.dark_share` -> `0.3`; those of the scenario too.
-    /// Index in the scenario of the condition that it is compared with (same engine). Empty for a baseline
-    /// and for EVs alone on the road, which are a floor and not a condition to judge.
+    /// Index in the scenario of the condition that it is compared with (same traffic model). Empty for a
+    /// baseline and for EVs alone on the road, which are a floor and not a condition to judge.
     std::optional<std::size_t> baseline;
     bool safety_checks_off = false;
     analysis::Objections objections;  ///< Against the baseline.

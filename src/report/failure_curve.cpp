@@ -78,8 +78,8 @@ Element& find_or_add(std::vector<Element>& elements, const Fits& fits, Element f
 
 std::string policy_of(const experiment::ConditionSpec& condition) {
     std::string text = fmt::format("{}", fmt::join(condition.policies, " + "));
-    if (condition.engine != experiment::Engine::standard)
-        text += fmt::format(" ({})", experiment::name(condition.engine));
+    if (condition.traffic_model != experiment::TrafficModel::standard)
+        text += fmt::format(" ({})", experiment::name(condition.traffic_model));
     const std::string settings = experiment::settings_text(condition);
     return settings.empty() ? text : fmt::format("{}, {}", text, settings);
 }

@@ -37,7 +37,7 @@ struct FailureCurve {
     std::vector<FailureLine> lines;  ///< In the order of the study; `perfect` sensing last, at every share.
 };
 
-/// The curves of a study: conditions of one engine that differ in nothing but their predictor and the
+/// The curves of a study: conditions of one traffic model that differ in nothing but their predictor and the
 /// `dark_share` that their failure states. Curves of fewer than two shares are left out. A condition of the
 /// same policy with failure `perfect` becomes the line `perfect`, the same at every share.
 std::vector<FailureCurve> failure_curves(const analysis::Summary& summary);

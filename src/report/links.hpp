@@ -18,7 +18,7 @@ struct LinkFacts {
     std::string seeds;  ///< `replications 0 to 9; thresholds chosen on 100 to 104`.
     std::vector<std::string> scenarios;
     std::vector<std::string> failures;
-    std::vector<std::string> exits;
+    std::vector<links::Exits> exits;
     std::vector<std::string> predictors;
     std::string against;  ///< The opponent of the gains; empty without one.
     std::vector<std::pair<std::string, std::string>> provenance;  ///< Names and values, as shown.

@@ -42,7 +42,7 @@ bool is_pooled(const LinkFacts& facts, const LinkResult& result) {
 }
 
 /// Pooled results of one failure, in the order of the predictors.
-std::vector<const LinkResult*> pooled(const LinkFacts& facts, const std::string& exits,
+std::vector<const LinkResult*> pooled(const LinkFacts& facts, links::Exits exits,
                                       const std::string& failure) {
     std::vector<const LinkResult*> found;
     for (const LinkResult& result : facts.results) {
@@ -70,7 +70,7 @@ std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
 }
 
 /// Failures by predictors.
-std::string matrix(const LinkFacts& facts, const std::string& exits, const std::string& left_out,
+std::string matrix(const LinkFacts& facts, links::Exits exits, const std::string& left_out,
                    const std::function<std::string(const std::string&, const std::string&)>& cell) {
     DataTable table{{"Failure"}, {}};
     for (const std::string& predictor : facts.predictors) {
@@ -83,13 +83,13 @@ std::string matrix(const LinkFacts& facts, const std::string& exits, const std::
             if (predictor != left_out) row.push_back(cell(failure, predictor));
         }
     }
-    return fmt::format("<h3>Exits {}</h3>\n{}", escaped(exits), detail::to_html(table));
+    return fmt::format("<h3>Exits {}</h3>\n{}", core::name(exits), detail::to_html(table));
 }
 
 std::string measure_section(const LinkFacts& facts, int decimals,
                             const std::function<Measured(const LinkResult&)>& measure) {
     std::string html;
-    for (const std::string& exits : facts.exits) {
+    for (const links::Exits exits : facts.exits) {
         html += matrix(facts, exits, "", [&](const std::string& failure, const std::string& predictor) {
             for (const LinkResult* const result : pooled(facts, exits, failure)) {
                 if (result->predictor == predictor) return with_interval(measure(*result), decimals);
@@ -102,7 +102,7 @@ std::string measure_section(const LinkFacts& facts, int decimals,
 
 std::string gains_section(const LinkFacts& facts, Measured LinkGain::*measure) {
     std::string html;
-    for (const std::string& exits : facts.exits) {
+    for (const links::Exits exits : facts.exits) {
         html += matrix(
             facts, exits, facts.against, [&](const std::string& failure, const std::string& predictor) {
                 for (const LinkGain& gain : facts.gains) {
@@ -115,7 +115,7 @@ std::string gains_section(const LinkFacts& facts, Measured LinkGain::*measure) {
     return html;
 }
 
-std::string curves_of(const LinkFacts& facts, const std::string& exits, const std::string& failure,
+std::string curves_of(const LinkFacts& facts, links::Exits exits, const std::string& failure,
                       const std::map<std::string, std::size_t>& series) {
     std::vector<detail::DrawnResult> drawn;
     for (const LinkResult* const result : pooled(facts, exits, failure)) {
@@ -135,12 +135,12 @@ std::string curves_section(const LinkFacts& facts) {
         html += fmt::format("<p class=\"note\">The {} predictors with the best mean AP are drawn.</p>\n",
                             series.size());
     }
-    for (const std::string& exits : facts.exits) {
+    for (const links::Exits exits : facts.exits) {
         std::string figures;
         for (const std::string& failure : facts.failures)
             figures += curves_of(facts, exits, failure, series);
         html += fmt::format("<details{}><summary>Exits {}</summary>\n{}</details>\n",
-                            &exits == &facts.exits.front() ? " open" : "", escaped(exits), figures);
+                            exits == facts.exits.front() ? " open" : "", core::name(exits), figures);
     }
     return html;
 }
@@ -152,7 +152,7 @@ std::string grouped_share(std::uint64_t part, std::uint64_t whole) {
 
 std::string end_to_end_section(const LinkFacts& facts) {
     std::string html;
-    for (const std::string& exits : facts.exits) {
+    for (const links::Exits exits : facts.exits) {
         DataTable table{{"Failure, predictor", "precision", "recall", "F1", "policy\u2019s links found, %",
                          "lost: never seen, %", "outside, %", "predicted away, %", "ghosts a report",
                          "\u00b5s a report", "vehicles"},
@@ -170,7 +170,7 @@ std::string end_to_end_section(const LinkFacts& facts) {
                                       decimal(result->report_vehicles, 0)});
             }
         }
-        html += fmt::format("<details><summary>Exits {}</summary>\n{}</details>\n", escaped(exits),
+        html += fmt::format("<details><summary>Exits {}</summary>\n{}</details>\n", core::name(exits),
                             detail::to_html(table));
     }
     return html;
@@ -179,7 +179,7 @@ std::string end_to_end_section(const LinkFacts& facts) {
 std::string scenarios_section(const LinkFacts& facts) {
     std::string html;
     for (const std::string& scenario : facts.scenarios) {
-        for (const std::string& exits : facts.exits) {
+        for (const links::Exits exits : facts.exits) {
             DataTable table{{"Failure, predictor", "pairs", "true links", "AP", "AUC", "F1", "log loss, nat",
                              "ECE", "AP, hard", "AP, policy\u2019s"},
                             {}};
@@ -194,7 +194,7 @@ std::string scenarios_section(const LinkFacts& facts) {
                                       decimal(result.of(LinkSubset::policy).ap.value, 4)});
             }
             html += fmt::format("<details><summary>{}, exits {}</summary>\n{}</details>\n", escaped(scenario),
-                                escaped(exits), detail::to_html(table));
+                                core::name(exits), detail::to_html(table));
         }
     }
     return html;

@@ -21,7 +21,7 @@ using links::LinkSubset;
 
 constexpr std::size_t failure_width = 9;
 
-const LinkResult* pooled(const LinkFacts& facts, const std::string& exits, const std::string& failure,
+const LinkResult* pooled(const LinkFacts& facts, links::Exits exits, const std::string& failure,
                          const std::string& predictor) {
     const auto found = std::ranges::find_if(facts.results, [&](const LinkResult& result) {
         return result.exits == exits && result.failure == failure && result.predictor == predictor &&
@@ -65,14 +65,14 @@ void append_matrix(const LinkFacts& facts, const std::vector<std::string>& predi
     }
 }
 
-void append_gains(const LinkFacts& facts, const std::string& exits, const char* what,
-                  Measured LinkGain::*measure, std::string& text) {
+void append_gains(const LinkFacts& facts, links::Exits exits, const char* what, Measured LinkGain::*measure,
+                  std::string& text) {
     std::vector<std::string> others;
     std::ranges::copy_if(facts.predictors, std::back_inserter(others),
                          [&](const std::string& name) { return name != facts.against; });
     if (facts.against.empty() || others.empty()) return;
     fmt::format_to(std::back_inserter(text), "\n{} below that of {}, %, exits {}\n", what, facts.against,
-                   exits);
+                   core::name(exits));
     append_matrix(
         facts, others, 14,
         [&](const std::string& failure, const std::string& predictor) {
@@ -84,8 +84,8 @@ void append_gains(const LinkFacts& facts, const std::string& exits, const char* 
         text);
 }
 
-void append_exits(const LinkFacts& facts, const std::string& exits, std::string& text) {
-    fmt::format_to(std::back_inserter(text), "AP / F1, exits {}\n", exits);
+void append_exits(const LinkFacts& facts, links::Exits exits, std::string& text) {
+    fmt::format_to(std::back_inserter(text), "AP / F1, exits {}\n", core::name(exits));
     append_matrix(
         facts, facts.predictors, 13,
         [&](const std::string& failure, const std::string& predictor) -> std::string {
@@ -134,7 +134,7 @@ void put_end_to_end(Json& object, const links::LinkEndToEnd& end_to_end) {
 Json row_of(const LinkResult& result) {
     Json row = {{"scenario", result.scenario.empty() ? Json(nullptr) : Json(result.scenario)},
                 {"failure", result.failure},
-                {"exits", result.exits},
+                {"exits", core::name(result.exits)},
                 {"predictor", result.predictor}};
     put_measures(row, "", result.of(LinkSubset::all));
     row["f1_threshold"] = result.threshold;
@@ -148,7 +148,7 @@ Json row_of(const LinkResult& result) {
 
 Json gain_of(const LinkGain& gain) {
     Json row = {{"failure", gain.failure},
-                {"exits", gain.exits},
+                {"exits", core::name(gain.exits)},
                 {"predictor", gain.predictor},
                 {"against", gain.against}};
     put(row, "ap_difference", gain.ap_difference);
@@ -168,7 +168,7 @@ std::string csv_cell(const Json& value) {
 
 std::string links_console(const LinkFacts& facts) {
     std::string text = fmt::format("{}: {} seeds ({})\n\n", facts.title, facts.split, facts.seeds);
-    for (const std::string& exits : facts.exits) {
+    for (const links::Exits exits : facts.exits) {
         append_exits(facts, exits, text);
         text += '\n';
     }

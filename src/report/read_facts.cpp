@@ -42,10 +42,10 @@ std::string title_of(const std::string& condition) {
 std::string recipe_of(const experiment::ConditionSpec& condition) {
     const std::string settings = experiment::settings_text(condition);
     return fmt::format(
-        "sensing {}; repair {}; policy {}; engine {}; safety checks {}{}{}", condition.failure,
+        "sensing {}; repair {}; policy {}; traffic model {}; safety checks {}{}{}", condition.failure,
         condition.predictor,
         condition.policies.empty() ? "none" : fmt::format("{}", fmt::join(condition.policies, " + ")),
-        experiment::name(condition.engine), experiment::name(condition.safety_checks),
+        experiment::name(condition.traffic_model), experiment::name(condition.safety_checks),
         condition.bluelight == traffic::BlueLight::on ? "; device.bluelight" : "",
         settings.empty() ? "" : "; " + settings);
 }
@@ -269,14 +269,14 @@ void add_distributions(const results::Results& results, std::map<ConditionKey, C
     }
 }
 
-void add_failures(const results::Results& results, std::map<ConditionKey, ConditionFacts*>& conditions) {
-    for (const results::FailureRecord& failure : results.failures) {
-        const auto found = conditions.find({failure.key.scenario, failure.key.condition});
+void add_errors(const results::Results& results, std::map<ConditionKey, ConditionFacts*>& conditions) {
+    for (const results::RunError& error : results.errors) {
+        const auto found = conditions.find({error.key.scenario, error.key.condition});
         if (found == conditions.end()) continue;
-        std::string cause = fmt::format("{}: {}", results::name(failure.cause), failure.message);
-        if (failure.signal != 0) cause += fmt::format(" (signal {})", failure.signal);
-        if (failure.attempts > 1) cause += fmt::format(", {} attempts", failure.attempts);
-        found->second->failed.push_back({failure.key.replication, std::move(cause)});
+        std::string cause = fmt::format("{}: {}", results::name(error.cause), error.message);
+        if (error.signal != 0) cause += fmt::format(" (signal {})", error.signal);
+        if (error.attempts > 1) cause += fmt::format(", {} attempts", error.attempts);
+        found->second->failed.push_back({error.key.replication, std::move(cause)});
     }
 }
 
@@ -311,7 +311,7 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
             fmt::format("{}; configuration and files {}", scenario.version, scenario.configuration_hash));
     }
     rows.emplace_back("Runs", fmt::format("{} complete, {} failed, {} missing", grouped(results.runs.size()),
-                                          grouped(results.failures.size()), grouped(results.missing.size())));
+                                          grouped(results.errors.size()), grouped(results.missing.size())));
     return rows;
 }
 
@@ -372,7 +372,7 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
         }
     }
     add_distributions(results, conditions);
-    add_failures(results, conditions);
+    add_errors(results, conditions);
     add_files(summary.manifest, folder, study);
     study.failure_curves = failure_curves(summary);
     study.sensitivities = sensitivities(summary);

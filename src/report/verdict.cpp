@@ -82,7 +82,7 @@ const char* words_of(const std::string& action) {
         {"pull_aside", "asked a vehicle to pull aside"},
         {"stop_at_line", "asked a vehicle to stop at the line"},
         {"hold_green", "asked a signal for green"},
-        {"favour_links", "gave time back at a signal"},
+        {"adjust_green", "gave time back at a signal"},
         {"pass_red", "let the EV pass red"}};
     const auto found = words.find(action);
     return found == words.end() ? action.c_str() : found->second;

@@ -56,7 +56,7 @@ struct RunTiming {
 };
 
 /// Why a run has no record.
-enum class FailureCause : std::uint8_t {
+enum class ErrorCause : std::uint8_t {
     simulator,   ///< SUMO reported an error.
     signal,      ///< The process was killed, usually by an assertion or a bad access inside SUMO.
     time_limit,  ///< It ran into the wall time limit.
@@ -64,24 +64,24 @@ enum class FailureCause : std::uint8_t {
     bad_input,   ///< The scenario does not work out; never tried again.
     other,
 };
-constexpr core::Spellings<FailureCause, 6> spellings(FailureCause) {
-    return {{{FailureCause::simulator, "simulator"},
-             {FailureCause::signal, "signal"},
-             {FailureCause::time_limit, "time_limit"},
-             {FailureCause::memory, "memory"},
-             {FailureCause::bad_input, "bad_input"},
-             {FailureCause::other, "other"}}};
+constexpr core::Spellings<ErrorCause, 6> spellings(ErrorCause) {
+    return {{{ErrorCause::simulator, "simulator"},
+             {ErrorCause::signal, "signal"},
+             {ErrorCause::time_limit, "time_limit"},
+             {ErrorCause::memory, "memory"},
+             {ErrorCause::bad_input, "bad_input"},
+             {ErrorCause::other, "other"}}};
 }
 using core::name;
 /// Whether another attempt could end differently: signals and time limits.
-constexpr bool worth_retrying(FailureCause cause) {
-    return cause == FailureCause::signal || cause == FailureCause::time_limit;
+constexpr bool worth_retrying(ErrorCause cause) {
+    return cause == ErrorCause::signal || cause == ErrorCause::time_limit;
 }
 
 /// A run that ended without a record.
-struct FailureRecord {
+struct RunError {
     experiment::RunKey key;
-    FailureCause cause = FailureCause::other;
+    ErrorCause cause = ErrorCause::other;
     std::string message;
     int exit_code = 0;
     int signal = 0;
@@ -89,7 +89,7 @@ struct FailureRecord {
     std::string log_tail;  ///< Last lines of SUMO's log and of the worker's.
     std::string command;   ///< Makes the same run again, for a shell.
 
-    bool operator==(const FailureRecord&) const = default;
+    bool operator==(const RunError&) const = default;
 };
 
 }  // namespace clearway::results

@@ -111,7 +111,7 @@ fs::path free_place(const fs::path& target) {
 
 void move_into(const fs::path& folder, const fs::path& source) {
     std::error_code error;
-    fs::rename(source, folder / (fs::is_directory(source) ? "run" : "failure.json"), error);
+    fs::rename(source, folder / (fs::is_directory(source) ? "run" : "error.json"), error);
     if (error)
         throw core::EnvironmentError(fmt::format("{}: is damaged and cannot be moved to {}: {}",
                                                  source.string(), folder.string(), error.message()));
@@ -155,8 +155,8 @@ fs::path Store::run_folder(const experiment::RunKey& key) const {
     return folder_ / "runs" / key.scenario / key.condition / fmt::format("{:05}", key.replication);
 }
 
-fs::path Store::failure_file(const experiment::RunKey& key) const {
-    return folder_ / "failures" / key.scenario / key.condition / fmt::format("{:05}.json", key.replication);
+fs::path Store::error_file(const experiment::RunKey& key) const {
+    return folder_ / "errors" / key.scenario / key.condition / fmt::format("{:05}.json", key.replication);
 }
 
 fs::path Store::unit_file(const std::string& unit) const {
@@ -181,7 +181,7 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
         require_same(target / "run.json", run, record.key);
         require_same(target / "vehicles.csv", vehicles, record.key);
     }
-    forget_failure(record.key);
+    forget_error(record.key);
     return first ? Written::first : Written::already_there;
 }
 
@@ -211,7 +211,7 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
                             to_text(key), source.string(), target.string(), name));
         }
     }
-    forget_failure(key);
+    forget_error(key);
     return first ? Written::first : Written::already_there;
 }
 
@@ -225,7 +225,7 @@ std::vector<experiment::RunKey> Store::complete_runs() const {
 
 std::vector<experiment::RunKey> Store::failed_runs() const {
     std::vector<experiment::RunKey> keys;
-    for_each_file(folder_ / "failures", [&](const experiment::RunKey& key) {
+    for_each_file(folder_ / "errors", [&](const experiment::RunKey& key) {
         if (!complete(key)) keys.push_back(key);
     });
     return keys;
@@ -260,11 +260,11 @@ void Store::flush(const std::vector<experiment::RunKey>& keys) const {
         core::flush_folder(folder);
 }
 
-void Store::write(const FailureRecord& failure) const {
-    if (complete(failure.key)) return;
-    const fs::path file = failure_file(failure.key);
+void Store::write(const RunError& error) const {
+    if (complete(error.key)) return;
+    const fs::path file = error_file(error.key);
     core::make_folder(file.parent_path());
-    core::write_atomically(file, detail::failure_to_json(failure));
+    core::write_atomically(file, detail::error_to_json(error));
 }
 
 bool Store::complete(const experiment::RunKey& key) const {
@@ -274,7 +274,8 @@ bool Store::complete(const experiment::RunKey& key) const {
 bool Store::done(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) const {
     const experiment::RunKey key{unit.scenario, condition.name, unit.replication};
     if (!complete(key)) return false;
-    return unit.recording == experiment::StepRecording::off || condition.engine == experiment::Engine::solo ||
+    return unit.recording == experiment::StepRecording::off ||
+           condition.traffic_model == experiment::TrafficModel::free_flow ||
            fs::exists(trace::recording_file(folder_, key));
 }
 
@@ -312,7 +313,7 @@ void Store::check(const experiment::RunKey& key) const {
         read_checked(key, vehicles);
         read_timing(key);
     }
-    read_failure(key);
+    read_error(key);
 }
 
 std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::RunKey>& keys) const {
@@ -325,7 +326,7 @@ std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::Run
                                               fmt::format("{:05}", key.replication));
             core::make_folder(place);
             if (fs::exists(run_folder(key))) move_into(place, run_folder(key));
-            if (fs::exists(failure_file(key))) move_into(place, failure_file(key));
+            if (fs::exists(error_file(key))) move_into(place, error_file(key));
             moved.push_back({key, place, error.what()});
         }
     }
@@ -344,15 +345,15 @@ std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const
     return detail::timing_from_json(core::read_file(file), file.string());
 }
 
-std::optional<FailureRecord> Store::read_failure(const experiment::RunKey& key) const {
-    const fs::path file = failure_file(key);
+std::optional<RunError> Store::read_error(const experiment::RunKey& key) const {
+    const fs::path file = error_file(key);
     if (!fs::exists(file)) return std::nullopt;
-    return detail::failure_from_json(core::read_file(file), file.string());
+    return detail::error_from_json(core::read_file(file), file.string());
 }
 
-void Store::forget_failure(const experiment::RunKey& key) const {
+void Store::forget_error(const experiment::RunKey& key) const {
     std::error_code ignored;
-    fs::remove(failure_file(key), ignored);
+    fs::remove(error_file(key), ignored);
 }
 
 void Store::remove_leftovers() const {

@@ -27,7 +27,7 @@ struct SetAside {
 ///     runs/SCENARIO/CONDITION/REPLICATION/run.json       a completed run; never changes once it is there
 ///                                        /vehicles.csv
 ///                                        /timing.json    differs from machine to machine
-///     failures/SCENARIO/CONDITION/REPLICATION.json       a run without a record
+///     errors/SCENARIO/CONDITION/REPLICATION.json       a run without a record
 ///     recordings/SCENARIO/CONDITION/REPLICATION.h5  every step of a run, where asked for
 ///     damaged/SCENARIO/CONDITION/                        runs whose files did not fit their hash, kept
 ///     units/, logs/                                      orders for workers, and what they said
@@ -58,7 +58,7 @@ class Store {
     std::filesystem::path vehicles_csv() const { return folder_ / "vehicles.csv"; }
 
     enum class Written : std::uint8_t { first, already_there };
-    /// Stores a completed run and forgets an earlier failure of it. The first writer wins; a second must
+    /// Stores a completed run and forgets an earlier error of it. The first writer wins; a second must
     /// bring the same bytes, else core::ConflictError. Throws core::EnvironmentError (disk full) and then
     /// leaves no trace.
     Written write(const RunRecord& record, const RunTiming& timing) const;
@@ -71,8 +71,8 @@ class Store {
     /// Waits until the names of these runs, as far as they are complete, are on the disk. Their content
     /// already is.
     void flush(const std::vector<experiment::RunKey>& keys) const;
-    /// Replaces an earlier failure of the same run; does nothing when the run is complete.
-    void write(const FailureRecord& failure) const;
+    /// Replaces an earlier error of the same run; does nothing when the run is complete.
+    void write(const RunError& error) const;
 
     bool complete(const experiment::RunKey& key) const;
     /// Whether nothing is left to do for a condition of a unit: complete, and recorded where that is asked
@@ -84,9 +84,9 @@ class Store {
     /// whose journeys were not kept. Throws core::InputError for a damaged record.
     std::vector<metrics::JourneyRow> read_journeys(const experiment::RunKey& key) const;
     std::optional<RunTiming> read_timing(const experiment::RunKey& key) const;
-    std::optional<FailureRecord> read_failure(const experiment::RunKey& key) const;
-    /// Forgets a failure so that the run can be tried again.
-    void forget_failure(const experiment::RunKey& key) const;
+    std::optional<RunError> read_error(const experiment::RunKey& key) const;
+    /// Forgets an error so that the run can be tried again.
+    void forget_error(const experiment::RunKey& key) const;
     /// Checks the files of these runs against their hashes and moves what is damaged to `damaged`, so that
     /// such a run counts as not yet made. Reads all of them. Only while nobody writes. Throws
     /// core::EnvironmentError where it cannot be moved.
@@ -96,8 +96,8 @@ class Store {
 
   private:
     Store(std::filesystem::path folder, Manifest manifest);
-    std::filesystem::path failure_file(const experiment::RunKey& key) const;
-    /// Runs of which `root` (runs or failures) has an entry.
+    std::filesystem::path error_file(const experiment::RunKey& key) const;
+    /// Runs of which `root` (runs or errors) has an entry.
     void for_each_file(const std::filesystem::path& root,
                        const std::function<void(const experiment::RunKey&)>& visit) const;
     /// The record without its vehicles, and their text. Throws core::InputError unless both fit their hashes.
@@ -112,7 +112,7 @@ class Store {
 struct Results {
     Manifest manifest;
     std::vector<RunRecord> runs;
-    std::vector<FailureRecord> failures;
+    std::vector<RunError> errors;
     std::vector<experiment::RunKey> missing;  ///< Neither complete nor failed.
 };
 Results read_results(const Store& store, VehicleRows rows = VehicleRows::all);

@@ -134,12 +134,12 @@ bool tables_are_current(const Store& store) {
     for (const experiment::RunKey& key : store.manifest().runs()) {
         if (store.complete(key)) {
             ++complete;
-        } else if (store.read_failure(key)) {
+        } else if (store.read_error(key)) {
             ++failed;
         }
     }
     return count_of(database, "SELECT count(*) FROM runs") == complete &&
-           count_of(database, "SELECT count(*) FROM failures WHERE outcome = 'failed'") == failed;
+           count_of(database, "SELECT count(*) FROM errors WHERE outcome = 'failed'") == failed;
 }
 
 std::vector<std::string> table_names(const Store& store) {

@@ -15,7 +15,7 @@ enum class TableFormat : std::uint8_t {
     json,  ///< One array with an object for each row, one row a line, null for what is not available.
 };
 
-/// Whether the run folder's `results.sqlite` is of its study and holds all runs and failures that there are.
+/// Whether the run folder's `results.sqlite` is of its study and holds all runs and errors that there are.
 /// Throws core::InputError for a database of another version and for a file that is none.
 bool tables_are_current(const Store& store);
 

@@ -18,7 +18,7 @@ class TableWriter {
 
     // Once for each run of the manifest, in its order (Manifest::for_each_run).
     void add(const RunRecord& run);
-    void add(const FailureRecord& failure);
+    void add(const RunError& error);
     void add_missing(const experiment::RunKey& key);
 
     void finish();

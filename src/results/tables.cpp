@@ -36,8 +36,8 @@ class RunLines {
         core::append_cells(line, run.provenance);
         return line;
     }
-    std::string of(const FailureRecord& failure) const {
-        return without_numbers(failure.key, "failed", name(failure.cause));
+    std::string of(const RunError& error) const {
+        return without_numbers(error.key, "failed", name(error.cause));
     }
     std::string of_missing(const experiment::RunKey& key) const {
         return without_numbers(key, "missing", "");
@@ -94,12 +94,12 @@ template <class Writer>
 void write_all(const Results& results, Writer& writer) {
     // All three lists are sorted, and together they are the manifest's runs.
     auto run = results.runs.begin();
-    auto failure = results.failures.begin();
+    auto error = results.errors.begin();
     results.manifest.for_each_run([&](const experiment::RunKey& key) {
         if (run != results.runs.end() && run->key == key) {
             writer.add(*run++);
-        } else if (failure != results.failures.end() && failure->key == key) {
-            writer.add(*failure++);
+        } else if (error != results.errors.end() && error->key == key) {
+            writer.add(*error++);
         } else {
             writer.add_missing(key);
         }
@@ -110,7 +110,7 @@ void write_all(const Results& results, Writer& writer) {
 struct RunsText {
     explicit RunsText(const Manifest& manifest) : lines(manifest), text(lines.header() + "\n") {}
     void add(const RunRecord& run) { text += lines.of(run) + "\n"; }
-    void add(const FailureRecord& failure) { text += lines.of(failure) + "\n"; }
+    void add(const RunError& error) { text += lines.of(error) + "\n"; }
     void add_missing(const experiment::RunKey& key) { text += lines.of_missing(key) + "\n"; }
 
     RunLines lines;
@@ -125,8 +125,8 @@ Results read_results(const Store& store, VehicleRows rows) {
     for (const experiment::RunKey& key : results.manifest.runs()) {
         if (auto run = store.read(key, rows)) {
             results.runs.push_back(std::move(*run));
-        } else if (auto failure = store.read_failure(key)) {
-            results.failures.push_back(std::move(*failure));
+        } else if (auto error = store.read_error(key)) {
+            results.errors.push_back(std::move(*error));
         } else {
             results.missing.push_back(key);
         }
@@ -179,9 +179,9 @@ void TableWriter::add(const RunRecord& run) {
     files_->database.add(run);
 }
 
-void TableWriter::add(const FailureRecord& failure) {
-    files_->runs.write(files_->lines.of(failure) + "\n");
-    files_->database.add(failure);
+void TableWriter::add(const RunError& error) {
+    files_->runs.write(files_->lines.of(error) + "\n");
+    files_->database.add(error);
 }
 
 void TableWriter::add_missing(const experiment::RunKey& key) {
@@ -209,8 +209,8 @@ RunCounts write_tables(const Store& store) {
         if (const auto run = store.read(key)) {
             writer.add(*run);
             ++counts.complete;
-        } else if (const auto failure = store.read_failure(key)) {
-            writer.add(*failure);
+        } else if (const auto error = store.read_error(key)) {
+            writer.add(*error);
             ++counts.failed;
         } else {
             writer.add_missing(key);

@@ -40,6 +40,9 @@ enum class DemandKind { flows, trips, measured };
 constexpr core::Spellings<IdmPreset, 2> spellings(IdmPreset) {
     return {{{IdmPreset::sumo, "sumo"}, {IdmPreset::treiber, "treiber"}}};
 }
+constexpr core::Spellings<Variant, 2> spellings(Variant) {
+    return {{{Variant::standard, "standard"}, {Variant::dense, "dense"}}};
+}
 constexpr core::Spellings<Restriction, 2> spellings(Restriction) {
     return {{{Restriction::none, "none"}, {Restriction::largest_car_component, "largest_car_component"}}};
 }

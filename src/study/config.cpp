@@ -48,9 +48,7 @@ const std::vector<std::string> override_keys = {"variant",
 scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
     scenario::Options options;
     StrictTable reader(table, "overrides", file, problems);
-    reader.word<scenario::Variant>(
-        "variant", {{"standard", scenario::Variant::standard}, {"dense", scenario::Variant::dense}},
-        options.variant);
+    reader.word<scenario::Variant>("variant", options.variant);
     reader.number("density", options.density);
     reader.number("automated_share", options.automated_share);
     reader.number("road_limit_kmh", options.road_limit_kmh);
@@ -58,8 +56,7 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     reader.number("horizon_s", options.horizon_s);
     reader.number("step_length_s", options.step_length_s);
     reader.number("time_to_teleport_s", options.time_to_teleport_s);
-    reader.word<scenario::IdmPreset>(
-        "idm", {{"sumo", scenario::IdmPreset::sumo}, {"treiber", scenario::IdmPreset::treiber}}, options.idm);
+    reader.word<scenario::IdmPreset>("idm", options.idm);
     reader.number("siren_compliance", options.siren_compliance);
     reader.number("road_speed_factor", options.road_speed_factor);
     reader.number("friction", options.friction);
@@ -128,16 +125,9 @@ experiment::ConditionSpec read_condition(const toml::table& table, const std::fi
     reader.text("failure", condition.failure);
     reader.text("predictor", condition.predictor);
     read_policies(reader, table, condition.policies);
-    reader.word<experiment::Engine>("engine",
-                                    {{"standard", experiment::Engine::standard},
-                                     {"sublane", experiment::Engine::sublane},
-                                     {"solo", experiment::Engine::solo}},
-                                    condition.engine);
-    reader.word<traffic::SafetyChecks>(
-        "safety_checks", {{"on", traffic::SafetyChecks::on}, {"off", traffic::SafetyChecks::off}},
-        condition.safety_checks);
-    reader.word<traffic::BlueLight>(
-        "bluelight", {{"on", traffic::BlueLight::on}, {"off", traffic::BlueLight::off}}, condition.bluelight);
+    reader.word<experiment::TrafficModel>("traffic_model", condition.traffic_model);
+    reader.word<traffic::SafetyChecks>("safety_checks", condition.safety_checks);
+    reader.word<traffic::BlueLight>("bluelight", condition.bluelight);
     read_settings(reader, path, problems, condition);
     reader.finish();
     if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");

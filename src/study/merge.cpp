@@ -80,9 +80,9 @@ void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const 
     }
 }
 
-void adopt_failures(const results::Store& source, const results::Store& target) {
+void adopt_errors(const results::Store& source, const results::Store& target) {
     for (const experiment::RunKey& key : source.failed_runs()) {
-        if (const auto failure = source.read_failure(key)) target.write(*failure);
+        if (const auto error = source.read_error(key)) target.write(*error);
     }
 }
 
@@ -105,7 +105,7 @@ std::vector<std::string> absent_shards(const std::vector<fs::path>& folders) {
 std::vector<experiment::RunKey> first_missing(const results::Store& store) {
     std::vector<experiment::RunKey> missing;
     store.manifest().for_each_run([&](const experiment::RunKey& key) {
-        if (missing.size() < named_missing && !store.complete(key) && !store.read_failure(key))
+        if (missing.size() < named_missing && !store.complete(key) && !store.read_error(key))
             missing.push_back(key);
     });
     return missing;
@@ -146,7 +146,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
         adopt_runs(folders, number, target, result);
     }
     for (const fs::path& folder : folders)
-        adopt_failures(results::Store::open(folder), target);
+        adopt_errors(results::Store::open(folder), target);
     target.remove_leftovers();
     result.counts = results::write_tables(target);
     if (result.counts.missing > 0) {

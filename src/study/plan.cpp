@@ -16,7 +16,7 @@ namespace clearway::study {
 namespace {
 
 namespace fs = std::filesystem;
-using experiment::Engine;
+using experiment::TrafficModel;
 
 constexpr const char* network_name = "network";
 constexpr const char* scenario_file_name = "scenario.toml";
@@ -33,17 +33,18 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
 
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
     for (const experiment::ConditionSpec& condition : config.conditions) {
-        if (condition.engine == Engine::solo || !condition.acts()) continue;
+        if (condition.traffic_model == TrafficModel::free_flow || !condition.acts()) continue;
         const auto is_baseline = [&](const experiment::ConditionSpec& other) {
-            return other.engine == condition.engine && !other.acts();
+            return other.traffic_model == condition.traffic_model && !other.acts();
         };
         if (std::ranges::any_of(config.conditions, is_baseline)) continue;
-        problems.push_back(
-            {"condition " + condition.name,
-             fmt::format("has no baseline with engine \"{}\"", experiment::name(condition.engine)),
-             "a condition of the same engine without parts",
-             condition.engine == Engine::standard ? "Add \"baseline\" to the conditions"
-                                                  : "Add one with [[condition]]"});
+        problems.push_back({"condition " + condition.name,
+                            fmt::format("has no baseline with traffic model \"{}\"",
+                                        experiment::name(condition.traffic_model)),
+                            "a condition with the same traffic model and without policies",
+                            condition.traffic_model == TrafficModel::standard
+                                ? "Add \"baseline\" to the conditions"
+                                : "Add one with [[condition]]"});
     }
 }
 
@@ -123,12 +124,13 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
         unit.network_folder = output / "scenarios" / unit.scenario / network_name;
         unit.study_seed = config.seed;
         unit.replication = place.replication;
-        unit.engine = place.engine;
-        std::ranges::copy_if(config.conditions, std::back_inserter(unit.conditions),
-                             [&](const auto& condition) { return condition.engine == place.engine; });
+        unit.traffic_model = place.traffic_model;
+        std::ranges::copy_if(
+            config.conditions, std::back_inserter(unit.conditions),
+            [&](const auto& condition) { return condition.traffic_model == place.traffic_model; });
         unit.output = output;
         const std::string name =
-            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, experiment::name(unit.engine));
+            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, experiment::name(unit.traffic_model));
         plan.units.push_back({name, std::move(unit)});
     }
     return plan;
@@ -136,15 +138,16 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
 
 std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
     std::vector<Engine> engines;
-    for (const Engine engine : {Engine::standard, Engine::sublane, Engine::solo}) {
-        const auto needs_it = [&](const auto& condition) { return condition.engine == engine; };
-        if (std::ranges::any_of(manifest.conditions, needs_it)) engines.push_back(engine);
+    for (const TrafficModel traffic_model :
+         {TrafficModel::standard, TrafficModel::sublane, TrafficModel::free_flow}) {
+        const auto needs_it = [&](const auto& condition) { return condition.traffic_model == traffic_model; };
+        if (std::ranges::any_of(manifest.conditions, needs_it)) engines.push_back(traffic_model);
     }
     std::vector<UnitPlace> places;
     for (std::uint32_t replication = 0; replication < manifest.replications; ++replication) {
         for (std::size_t scenario = 0; scenario < manifest.scenarios.size(); ++scenario) {
-            for (const Engine engine : engines)
-                places.push_back({scenario, replication, engine});
+            for (const TrafficModel traffic_model : engines)
+                places.push_back({scenario, replication, traffic_model});
         }
     }
     return places;

@@ -23,7 +23,7 @@ struct PlannedUnit {
 struct UnitPlace {
     std::size_t scenario = 0;
     std::uint32_t replication = 0;
-    experiment::Engine engine = experiment::Engine::standard;
+    experiment::TrafficModel traffic_model = experiment::TrafficModel::standard;
 };
 /// All units of a study in their order: replications first, so that an interrupted study has whole
 /// replications of every scenario.
@@ -45,7 +45,7 @@ struct Versions {
 };
 
 /// Throws core::InputError when scenarios or conditions share a name, when there are none, or when a
-/// condition with a policy has no baseline of its engine. `folder` becomes the units' output.
+/// condition with a policy has no baseline of its traffic model. `folder` becomes the units' output.
 Plan make_plan(const StudyConfig& config, const Versions& versions, const std::filesystem::path& folder);
 
 /// Makes the run folder: manifest, each scenario's effective configuration and network. What is there already

@@ -16,7 +16,7 @@ namespace {
 
 using core::ExitCode;
 using experiment::RunKey;
-using results::FailureCause;
+using results::ErrorCause;
 
 constexpr auto progress_period = std::chrono::milliseconds(250);
 constexpr int log_lines = 30;
@@ -27,12 +27,12 @@ RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& c
 }
 
 /// What a worker's end says about the runs that it left without a record.
-FailureCause cause_of(const core::TaskEnd& end) {
-    if (end.ended_by == core::EndedBy::time_limit) return FailureCause::time_limit;
-    if (end.ended_by == core::EndedBy::memory_limit) return FailureCause::memory;
-    if (end.exit.signal != 0) return FailureCause::signal;
-    if (end.exit.code == static_cast<int>(ExitCode::bad_input)) return FailureCause::bad_input;
-    return FailureCause::other;
+ErrorCause cause_of(const core::TaskEnd& end) {
+    if (end.ended_by == core::EndedBy::time_limit) return ErrorCause::time_limit;
+    if (end.ended_by == core::EndedBy::memory_limit) return ErrorCause::memory;
+    if (end.exit.signal != 0) return ErrorCause::signal;
+    if (end.exit.code == static_cast<int>(ExitCode::bad_input)) return ErrorCause::bad_input;
+    return ErrorCause::other;
 }
 
 /// One call of `run`.
@@ -59,14 +59,14 @@ class Runner : private core::TaskList {
     }
 
   private:
-    /// Conditions of a unit without a record, and without a failure that another attempt cannot change.
+    /// Conditions of a unit without a record, and without an error that another attempt cannot change.
     std::vector<experiment::ConditionSpec> open_conditions(const experiment::RunJob& unit) const {
         std::vector<experiment::ConditionSpec> open;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (store_.done(unit, condition)) continue;
-            const auto failure = store_.read_failure(key);
-            if (!failure || results::worth_retrying(failure->cause)) open.push_back(condition);
+            const auto error = store_.read_error(key);
+            if (!error || results::worth_retrying(error->cause)) open.push_back(condition);
         }
         return open;
     }
@@ -86,7 +86,7 @@ class Runner : private core::TaskList {
             const experiment::RunJob& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit);
             if (!open.empty()) queue_.push_back(job);
-            forget_failures(unit, open);
+            forget_errors(unit, open);
             count(unit, settled_);
         }
         progress_.total = plan_.run_count();
@@ -94,10 +94,10 @@ class Runner : private core::TaskList {
         lock_.note(settled_.complete + settled_.failed);
     }
 
-    void forget_failures(const experiment::RunJob& unit,
-                         const std::vector<experiment::ConditionSpec>& conditions) const {
+    void forget_errors(const experiment::RunJob& unit,
+                       const std::vector<experiment::ConditionSpec>& conditions) const {
         for (const experiment::ConditionSpec& condition : conditions)
-            store_.forget_failure(key_of(unit, condition));
+            store_.forget_error(key_of(unit, condition));
     }
 
     std::optional<core::Task> next() override {
@@ -109,7 +109,7 @@ class Runner : private core::TaskList {
         uncount(job, settled_);
         job.conditions = open_conditions(job);
         job.limits = options_.limits;
-        forget_failures(job, job.conditions);
+        forget_errors(job, job.conditions);
         ++attempts_[row];
         const auto file = store_.unit_file(planned.name);
         core::write_atomically(file, experiment::to_json(job));
@@ -141,17 +141,17 @@ class Runner : private core::TaskList {
 
     /// Records why a run has no result; true when it is to be tried again instead.
     bool settle(const core::TaskEnd& end, const RunKey& key) const {
-        auto failure = store_.read_failure(key);
-        const bool told_by_worker = failure.has_value();
-        if (!failure) failure = failure_of(key, end);
-        if (!results::worth_retrying(failure->cause)) {
-            if (!told_by_worker) store_.write(*failure);
+        auto error = store_.read_error(key);
+        const bool told_by_worker = error.has_value();
+        if (!error) failure = error_of(key, end);
+        if (!results::worth_retrying(error->cause)) {
+            if (!told_by_worker) store_.write(*error);
             return false;
         }
         if (attempts_[end.id] < options_.attempts) return true;
-        failure->attempts = attempts_[end.id];
-        if (told_by_worker) failure->log_tail += core::tail(log_file(end.id), log_lines);
-        store_.write(*failure);
+        error->attempts = attempts_[end.id];
+        if (told_by_worker) error->log_tail += core::tail(log_file(end.id), log_lines);
+        store_.write(*error);
         return false;
     }
 
@@ -171,18 +171,18 @@ class Runner : private core::TaskList {
     }
 
     /// Of a run about which its worker left no word.
-    results::FailureRecord failure_of(const RunKey& key, const core::TaskEnd& end) const {
-        results::FailureRecord failure;
-        failure.key = key;
-        failure.cause = cause_of(end);
-        failure.exit_code = end.exit.code;
-        failure.signal = end.exit.signal;
-        failure.attempts = attempts_[end.id];
-        failure.log_tail = core::tail(log_file(end.id), log_lines);
-        failure.command = core::shell_text(
+    results::RunError error_of(const RunKey& key, const core::TaskEnd& end) const {
+        results::RunError error;
+        error.key = key;
+        error.cause = cause_of(end);
+        error.exit_code = end.exit.code;
+        error.signal = end.exit.signal;
+        error.attempts = attempts_[end.id];
+        error.log_tail = core::tail(log_file(end.id), log_lines);
+        error.command = core::shell_text(
             {options_.worker_program.string(), store_.unit_file(plan_.units[end.id].name).string()});
-        failure.message = message_of(end);
-        return failure;
+        error.message = message_of(end);
+        return error;
     }
 
     std::string message_of(const core::TaskEnd& end) const {
@@ -205,7 +205,7 @@ class Runner : private core::TaskList {
             const RunKey key = key_of(unit, condition);
             if (store_.complete(key)) {
                 ++counts.complete;
-            } else if (store_.read_failure(key)) {
+            } else if (store_.read_error(key)) {
                 ++counts.failed;
             }
         }

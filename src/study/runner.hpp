@@ -40,7 +40,7 @@ struct StudyResult {
 ///
 /// - FILE is an experiment::RunJob as JSON; its conditions are those without a record.
 /// - The worker stores each run that ends by results::Store::write, and each run that fails while the worker
-///   lives by writing a results::FailureRecord: it holds each run to the unit's limits and sees by which
+///   lives by writing a results::RunError: it holds each run to the unit's limits and sees by which
 ///   signal it died. It exits 0 when every condition has one of the two.
 /// - Any other end is a failure of the conditions that have neither: by signal, by time limit (of all runs of
 ///   the unit and one more for its warm-up; SIGTERM, then SIGKILL), by memory limit, by exit code 3 (bad

@@ -159,7 +159,7 @@ class StepLines {
         std::string operator()(const traffic::HoldGreen& action) const {
             return fmt::format(",,,{},{}", fmt::join(action.links, " "), fmt::join(action.own_links, " "));
         }
-        std::string operator()(const traffic::FavourLinks& action) const {
+        std::string operator()(const traffic::AdjustGreen& action) const {
             return fmt::format(",,,{},", fmt::join(action.links, " "));
         }
         template <class Plain>

@@ -78,7 +78,7 @@ struct SetSignalState {
     core::SignalIndex signal;
     std::string state;
 };
-/// Back to the signal's own program: where it would be now, or at the start of phase `phase`, which then
+/// Back to the signal's background plan: where it would be now, or at the start of phase `phase`, which then
 /// lasts `lasting`, or as long as the program says.
 struct RestoreProgram {
     core::SignalIndex signal;

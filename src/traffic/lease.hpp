@@ -36,15 +36,16 @@ struct HoldGreen {
     /// the rest may yield.
     std::vector<std::uint16_t> own_links = {};
 };
-/// Lengthen or shorten what a signal's own program shows, to give time back to the approaches that waited.
-struct FavourLinks {
+/// Lengthen or shorten what a signal's background plan shows, to give time back to the approaches that
+/// waited.
+struct AdjustGreen {
     std::vector<std::uint16_t> links;
 };
 /// Pass red signals slowly and yielding, as the law of many countries allows emergency vehicles.
 struct PassRed {};
 
 using Action =
-    std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, FavourLinks, PassRed>;
+    std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen, PassRed>;
 
 /// Who a lease is for.
 using Target = std::variant<core::VehicleKey, core::SignalIndex>;

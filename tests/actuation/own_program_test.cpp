@@ -1,17 +1,16 @@
-#include "actuation/detail/own_program.hpp"
-
 #include <cmath>
 #include <cstddef>
 
 #include <gtest/gtest.h>
 
+#include "actuation/detail/background_plan.hpp"
 #include "support/crossing_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::testing {
 namespace {
 
-using actuation::detail::OwnProgram;
+using actuation::detail::BackgroundPlan;
 using actuation::detail::PhaseChange;
 
 /// A cycle of 100 s that begins at 20, 120, 220 s.
@@ -29,7 +28,7 @@ constexpr core::Seconds least_green{10.0};
 /// Runs the program from phase `phase` at `start_s`, obeying the way back, until its first phase begins for
 /// the `cycles`th time; answers when that is, s.
 double start_of_cycle(const roads::Signal& signal, std::size_t phase, double start_s, int cycles) {
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     own.disturb(core::Seconds(0.0));
     double now_s = start_s;
     for (int seen = 0;; phase = (phase + 1) % signal.program.size()) {
@@ -59,16 +58,16 @@ TEST_P(OwnProgramStart, comes_back_into_step_within_two_cycles) {
 INSTANTIATE_TEST_SUITE_P(Lags, OwnProgramStart,
                          ::testing::Values(5.0, 79.0, 80.0, 81.0, 90.0, 110.0, 129.0, 131.0, 160.0));
 
-TEST(OwnProgram, in_step_is_left_alone) {
+TEST(BackgroundPlan, in_step_is_left_alone) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     own.watch("Gr", core::Seconds(50.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(50.0))) << "nobody disturbed it";
 }
 
-TEST(OwnProgram, that_nobody_counts_on_is_left_alone) {
+TEST(BackgroundPlan, that_nobody_counts_on_is_left_alone) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal, false);
+    BackgroundPlan own(signal, false);
     own.disturb(core::Seconds(0.0));
     EXPECT_TRUE(own.is_in_step(core::Seconds(0.0)));
     own.watch("ry", core::Seconds(46.0));
@@ -89,10 +88,10 @@ TEST(KeepsStep, with_neighbours_near_by_and_fixed_times) {
     EXPECT_TRUE(actuation::detail::keeps_step(core::SignalIndex{1}, mixed));
 }
 
-TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
+TEST(BackgroundPlan, keeps_short_greens_that_are_shorter_than_the_least_time) {
     roads::Signal signal = clockwork();
     signal.program[2].duration_s = 6.0;
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     own.disturb(core::Seconds(0.0));
     own.watch("yr", core::Seconds(96.0));
     own.watch("rG", core::Seconds(100.0));
@@ -101,22 +100,22 @@ TEST(OwnProgram, keeps_short_greens_that_are_shorter_than_the_least_time) {
     EXPECT_DOUBLE_EQ(change->lasting.value, 6.0) << "20 s late";
 }
 
-TEST(OwnProgram, gives_up_after_five_cycles) {
+TEST(BackgroundPlan, gives_up_after_five_cycles) {
     roads::Signal signal = clockwork();
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     EXPECT_TRUE(own.is_in_step(core::Seconds(0.0)));
     own.disturb(core::Seconds(10.0));
     EXPECT_FALSE(own.is_in_step(core::Seconds(510.0)));
     EXPECT_TRUE(own.is_in_step(core::Seconds(511.0)));
     signal.program.clear();
-    OwnProgram none(signal, true);
+    BackgroundPlan none(signal, true);
     none.disturb(core::Seconds(10.0));
     EXPECT_TRUE(none.is_in_step(core::Seconds(10.0))) << "without a cycle there is no step";
 }
 
-TEST(OwnProgram, takes_what_it_sees_first_for_no_start) {
+TEST(BackgroundPlan, takes_what_it_sees_first_for_no_start) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     own.disturb(core::Seconds(0.0));
     own.watch("Gr", core::Seconds(70.0));
     EXPECT_FALSE(own.step_back(least_green, core::Seconds(70.0)));
@@ -125,9 +124,9 @@ TEST(OwnProgram, takes_what_it_sees_first_for_no_start) {
     EXPECT_TRUE(own.step_back(least_green, core::Seconds(84.0)));
 }
 
-TEST(OwnProgram, goes_on_after_a_green_that_has_lasted) {
+TEST(BackgroundPlan, goes_on_after_a_green_that_has_lasted) {
     const roads::Signal signal = clockwork();
-    OwnProgram own(signal, true);
+    BackgroundPlan own(signal, true);
     own.watch("rG", core::Seconds(100.0));
     own.watch("rG", core::Seconds(109.0));
     EXPECT_FALSE(own.next_after(least_green, core::Seconds(109.0)));

@@ -79,7 +79,7 @@ TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_a_cycle) {
     EXPECT_NEAR(returned_s, left_s + 4.5, 0.3);
     EXPECT_NEAR(again_s, returned_s + 90.0, 0.3) << "41 + 4 + 41 + 4 s: everybody has had green";
     EXPECT_EQ(bench.counts("part/hold_green").refused.at("hold_cap"), 1U);
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("cool_down"), 1U);
+    EXPECT_EQ(bench.counts("part/hold_green").refused.at("lockout"), 1U);
 }
 
 TEST(SignalHold, that_ended_by_itself_may_start_again_after_the_cool_down) {

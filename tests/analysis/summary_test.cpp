@@ -8,7 +8,7 @@
 namespace clearway::analysis {
 namespace {
 
-using experiment::Engine;
+using experiment::TrafficModel;
 using metrics::VehicleOutcome;
 using results::RunRecord;
 using traffic::VehicleClass;
@@ -21,7 +21,7 @@ class SmallStudy : public testing::Test {
         results_.manifest.scenarios.resize(1);
         experiment::ConditionSpec solo;
         solo.name = "solo";
-        solo.engine = Engine::solo;
+        solo.traffic_model = TrafficModel::free_flow;
         experiment::ConditionSpec other = results_.manifest.conditions[1];
         other.name = "other";
         results_.manifest.conditions.push_back(other);

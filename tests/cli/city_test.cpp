@@ -104,8 +104,8 @@ TEST_F(CityTest, the_demand_of_an_import_does_not_jam_a_town_that_fills_slowly) 
 
 TEST_F(CityTest, the_files_of_sumo_are_those_of_the_condition) {
     write_line_scenario();
-    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--engine", "sublane", "--bluelight",
-                        "on", "--name", "blue", "--record", "--out", "out"})
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--traffic-model", "sublane",
+                        "--bluelight", "on", "--name", "blue", "--record", "--out", "out"})
                   .code,
               0);
     ASSERT_EQ(clearway({"trajectories", "out/line/blue/0", "--out", "blue"}).code, 0);

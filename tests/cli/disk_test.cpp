@@ -55,8 +55,7 @@ TEST_F(DiskTest, that_fills_while_workers_write_exits_with_4_and_goes_on_when_th
     EXPECT_EQ(full.code, 4) << full.err;
     EXPECT_THAT(full.err, HasSubstr("Free some space"));
     std::error_code none;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(place() / "out" / "failures", none))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(place() / "out" / "errors", none))
         EXPECT_FALSE(entry.is_regular_file()) << "no run is to blame: " << read(entry.path().string());
     remount("size=64m");
     const Ended resumed = study("disk/out");

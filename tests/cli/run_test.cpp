@@ -133,7 +133,7 @@ TEST_F(RunTest, results_prints_every_table_it_lists) {
     ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
     const Ended list = clearway({"results", "out", "--list"});
     EXPECT_EQ(list.code, 0);
-    EXPECT_THAT(list.out, AllOf(HasSubstr("runs\n"), HasSubstr("vehicles\n"), HasSubstr("failures\n")));
+    EXPECT_THAT(list.out, AllOf(HasSubstr("runs\n"), HasSubstr("vehicles\n"), HasSubstr("errors\n")));
     std::istringstream names(list.out);
     for (std::string name; std::getline(names, name);) {
         const Ended csv = clearway({"results", "out", name, "--csv"});
@@ -317,8 +317,9 @@ TEST_F(RunTest, factors_are_columns_of_every_table) {
 }
 
 TEST_F(RunTest, sublane_brings_a_baseline_of_its_own) {
-    const Ended ended = clearway({"run", "line", "--seeds", "1", "--out", "out", "--no-solo", "--engine",
-                                  "sublane", "--policy", "dissertation", "--name", "mine"});
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--out", "out", "--no-solo", "--traffic-model", "sublane",
+                  "--policy", "dissertation", "--name", "mine"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(read("out/runs.csv"),
                 AllOf(HasSubstr("line,baseline_sublane,0,ok"), HasSubstr("line,mine,0,ok")));

@@ -106,7 +106,7 @@ class ShownRunTest : public UserTest {
 
 TEST_F(ShownRunTest, a_run_in_sumo_gui_equals_the_same_run_without_and_can_be_seen_again) {
     const Screen screen(folder() / "screen.log");
-    const Surroundings here{.environment = {{"DISPLAY", screen.name()}}};
+    const Environment here{.environment = {{"DISPLAY", screen.name()}}};
     write("view.xml",
           "<viewsettings><scheme name=\"clearway\"/><snapshot file=\"picture.png\" "
           "time=\"20\"/></viewsettings>");
@@ -128,7 +128,7 @@ TEST_F(ShownRunTest, a_run_in_sumo_gui_equals_the_same_run_without_and_can_be_se
 
 TEST_F(ShownRunTest, a_window_that_fails_or_is_interrupted_leaves_no_run_folder) {
     const Screen screen(folder() / "screen.log");
-    const Surroundings here{.environment = {{"DISPLAY", screen.name()}}};
+    const Environment here{.environment = {{"DISPLAY", screen.name()}}};
     const core::Child failing = start(slowly(), here);
     end_window_of(failing, SIGKILL);
     const Ended failed = finish(failing);
@@ -151,7 +151,7 @@ TEST_F(ShownRunTest, a_closed_window_is_told_and_leaves_no_run_folder) {
     const Screen screen(folder() / "screen.log");
     // Closing the window makes sumo-gui end with code 0 in the middle of the run.
     write_script("bin/sumo-gui", "trap 'kill $!; exit 0' TERM; /usr/bin/sumo-gui \"$@\" & wait");
-    const Surroundings here{
+    const Environment here{
         .environment = {{"DISPLAY", screen.name()},
                         {"PATH", (folder() / "bin").string() + ":" + std::getenv("PATH")}}};
     const core::Child closed = start(slowly(), here);
@@ -163,7 +163,7 @@ TEST_F(ShownRunTest, a_closed_window_is_told_and_leaves_no_run_folder) {
 }
 
 TEST_F(ShownRunTest, what_cannot_be_shown_is_told) {
-    const auto refused = [&](const std::vector<std::string>& more, const Surroundings& there, int code,
+    const auto refused = [&](const std::vector<std::string>& more, const Environment& there, int code,
                              const std::string& said) {
         const Ended ended = clearway(shown(more), there);
         EXPECT_EQ(ended.code, code) << ended.err;

@@ -53,14 +53,14 @@ void UserTest::SetUp() {
     unsetenv("CLEARWAY_HOME");
 }
 
-core::Child UserTest::start(const std::vector<std::string>& words, const Surroundings& surroundings) const {
-    const std::string output = surroundings.output.empty() ? "stdout.txt" : surroundings.output;
-    const std::string before = surroundings.before.empty() ? "" : surroundings.before + " && ";
+core::Child UserTest::start(const std::vector<std::string>& words, const Environment& environment) const {
+    const std::string output = environment.output.empty() ? "stdout.txt" : environment.output;
+    const std::string before = environment.before.empty() ? "" : environment.before + " && ";
     core::Command command{
         "/bin/sh",
         {"-c", "cd \"$1\" && shift && " + before + "exec \"$@\" > " + output + " 2> stderr.txt", "sh",
          folder().string(), std::string(CLEARWAY_BINARY_DIR) + "/bin/clearway"},
-        surroundings.environment,
+        environment.environment,
         {}};
     command.arguments.insert(command.arguments.end(), words.begin(), words.end());
     return core::start(command);
@@ -74,8 +74,8 @@ Ended UserTest::finish(const core::Child& child) const {
             core::read_file(folder() / "stderr.txt")};
 }
 
-Ended UserTest::clearway(const std::vector<std::string>& words, const Surroundings& surroundings) const {
-    return finish(start(words, surroundings));
+Ended UserTest::clearway(const std::vector<std::string>& words, const Environment& environment) const {
+    return finish(start(words, environment));
 }
 
 Ended UserTest::on_terminal(const std::vector<std::string>& words, int columns) const {

@@ -20,7 +20,7 @@ struct Ended {
 };
 
 /// How a command line is run beside its words.
-struct Surroundings {
+struct Environment {
     std::map<std::string, std::string> environment = {};
     std::string before = {};  ///< Shell commands that come first, for example `ulimit -f 1`.
     std::string output = {};  ///< Where standard output goes instead of being read.
@@ -32,9 +32,9 @@ class UserTest : public testing::Test {
     void SetUp() override;
 
     /// Runs `clearway WORDS` in the folder and waits.
-    Ended clearway(const std::vector<std::string>& words, const Surroundings& surroundings = {}) const;
+    Ended clearway(const std::vector<std::string>& words, const Environment& environment = {}) const;
     /// Starts it; its process id is that of `clearway` itself. `finish` collects it.
-    core::Child start(const std::vector<std::string>& words, const Surroundings& surroundings = {}) const;
+    core::Child start(const std::vector<std::string>& words, const Environment& environment = {}) const;
     Ended finish(const core::Child& child) const;
 
     /// Runs `clearway WORDS` on a terminal of so many columns and waits; `out` holds all that it showed.

@@ -18,14 +18,14 @@ RunJob run_job() {
     job.network_folder = "/out/scenarios/city/network";
     job.study_seed = 18446744073709551615U;
     job.replication = 7;
-    job.engine = Engine::sublane;
+    job.traffic_model = TrafficModel::sublane;
     job.recording = StepRecording::on;
     ConditionSpec condition;
     condition.name = "b10";
     condition.failure = "B10,mean_outage_s=20,detection=range";
     condition.predictor = "dead_reckoning";
     condition.policies = {"dissertation", "preempt"};
-    condition.engine = Engine::sublane;
+    condition.traffic_model = TrafficModel::sublane;
     condition.safety_checks = traffic::SafetyChecks::off;
     condition.settings = {{"loop.policy_period_s", "1"}, {"dissertation.ahead_m", "80"}};
     condition.model_file = "/models/net.weights";
@@ -50,7 +50,7 @@ DatasetJob dataset_job() {
     job.feature_count = 2;
     job.failures = {"B10", "D3"};
     job.interval_s = 2.5;
-    job.exits = "unknown";
+    job.exits = sensing::Exits::unknown;
     return job;
 }
 
@@ -63,7 +63,7 @@ LinkJob link_job() {
     job.replication = 3;
     job.work_folder = "work";
     job.failures = {"B10", "D3"};
-    job.exits = {"known"};
+    job.exits = {sensing::Exits::known};
     job.predictors = {{"kalman", "", {{"link_threshold", "0.25"}}, "out.links"},
                       {"none", "a.weights", {}, "b"}};
     return job;
@@ -107,8 +107,8 @@ TEST_F(JobTest, EveryKindSurvivesTheWayThroughAFile) {
 }
 
 TEST_F(JobTest, ReportsEveryProblemOfAFileAtOnce) {
-    const std::string said =
-        complaint(R"({"kind": "run", "scenario": 3, "engine": "warp", "conditions": {}, "colour": "red"})");
+    const std::string said = complaint(
+        R"({"kind": "run", "scenario": 3, "traffic_model": "warp", "conditions": {}, "colour": "red"})");
     EXPECT_THAT(said, HasSubstr("scenario: is of another type"));
     EXPECT_THAT(said, HasSubstr("\"warp\" is not known"));
     EXPECT_THAT(said, HasSubstr("output: is missing"));

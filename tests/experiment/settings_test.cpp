@@ -100,7 +100,7 @@ TEST(Settings, ThatCannotBeNameTheNearest) {
 
 TEST(Settings, OfASoloConditionAreRefused) {
     ConditionSpec solo;
-    solo.engine = Engine::solo;
+    solo.traffic_model = TrafficModel::free_flow;
     set(solo, "loop.policy_period_s", "1");
     EXPECT_THAT(problems_of(solo), HasSubstr("alone on the road"));
 }

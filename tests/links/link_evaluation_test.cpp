@@ -77,7 +77,7 @@ class LinkTrialTest : public testing::Test {
   protected:
     LinkTrial::Setup setup(const std::vector<std::string>& predictors) const {
         LinkTrial::Setup setup{.failure = "told",
-                               .exits = "unknown",
+                               .exits = Exits::unknown,
                                .sensor = std::make_unique<ToldSensor>(failing_observation(scene_)),
                                .predictors = {}};
         for (const std::string& name : predictors)

@@ -40,17 +40,17 @@ class StudyFolder {
     results::Store store() const { return results::Store::open(folder_.path()); }
     const std::filesystem::path& path() const { return folder_.path(); }
 
-    experiment::RunJob unit(std::uint32_t replication,
-                            experiment::Engine engine = experiment::Engine::standard) const {
+    experiment::RunJob unit(std::uint32_t replication, experiment::TrafficModel traffic_model =
+                                                           experiment::TrafficModel::standard) const {
         experiment::RunJob unit;
         unit.scenario = config_.name;
         unit.scenario_file = store().scenario_folder(config_.name) / "scenario.toml";
         unit.network_folder = store().scenario_folder(config_.name);
         unit.replication = replication;
-        unit.engine = engine;
+        unit.traffic_model = traffic_model;
         unit.output = folder_.path();
         for (const experiment::ConditionSpec& condition : conditions_) {
-            if (condition.engine == engine) unit.conditions.push_back(condition);
+            if (condition.traffic_model == traffic_model) unit.conditions.push_back(condition);
         }
         return unit;
     }
@@ -59,7 +59,7 @@ class StudyFolder {
     std::filesystem::path write(const experiment::RunJob& unit) const {
         const std::filesystem::path file =
             folder_.path() / ("unit-" + std::to_string(unit.replication) + "-" +
-                              std::string(experiment::name(unit.engine)) + ".json");
+                              std::string(experiment::name(unit.traffic_model)) + ".json");
         core::write_atomically(file, experiment::to_json(unit));
         return file;
     }

@@ -19,23 +19,23 @@ namespace clearway {
 namespace {
 
 using experiment::ConditionSpec;
-using experiment::Engine;
+using experiment::TrafficModel;
 
 ConditionSpec condition(const std::string& name, const std::string& failure, const std::string& predictor,
-                        std::vector<std::string> parts, Engine engine = Engine::standard) {
+                        std::vector<std::string> parts, TrafficModel traffic_model = TrafficModel::standard) {
     ConditionSpec spec;
     spec.name = name;
     spec.failure = failure;
     spec.predictor = predictor;
     spec.policies = std::move(parts);
-    spec.engine = engine;
+    spec.traffic_model = traffic_model;
     return spec;
 }
 
 const ConditionSpec baseline = condition("baseline", "perfect", "none", {});
 const ConditionSpec perfect = condition("perfect", "perfect", "none", {"dissertation"});
 const ConditionSpec repaired = condition("repaired", "B10", "dead_reckoning", {"dissertation"});
-const ConditionSpec solo = condition("solo", "perfect", "none", {}, Engine::solo);
+const ConditionSpec solo = condition("solo", "perfect", "none", {}, TrafficModel::free_flow);
 
 core::Exit run_worker(const test::StudyFolder& folder, const experiment::RunJob& unit) {
     const std::filesystem::path file = folder.write(unit);
@@ -90,7 +90,7 @@ TEST(Worker, DrivesInRainAndOnIceInEveryConditionAndAlone) {
     const auto travel_times = [](const scenario::Options& options) {
         const test::StudyFolder folder("intersection", options, {baseline, perfect, solo});
         EXPECT_TRUE(run_worker(folder, folder.unit(0)).ok());
-        EXPECT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+        EXPECT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());
         std::map<std::string, double> times;
         for (const char* const name : {"baseline", "perfect", "solo"}) {
             const metrics::RunMetrics run = record_of(folder, "intersection", name).metrics;
@@ -122,7 +122,7 @@ TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {
     walked.step_length_s = 0.1;
     const test::StudyFolder folder("intersection", walked, {baseline, clearing, solo});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
-    ASSERT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+    ASSERT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());
     const metrics::RunMetrics before = record_of(folder, "intersection", "baseline").metrics;
     const metrics::RunMetrics after = record_of(folder, "intersection", "corridor").metrics;
     EXPECT_EQ(before.pedestrian_count, 133U) << "300 an hour at 4 crossings, for 400 s";
@@ -142,7 +142,7 @@ TEST(Worker, MeetsThePersonsOfAScenarioAlikeInEveryConditionAndNotAlone) {
     const test::WalkedScenario scenario;
     const test::StudyFolder folder(scenario.folder(), {}, {baseline, clearing, solo});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
-    ASSERT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+    ASSERT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());
     for (const char* const name : {"baseline", "corridor"}) {
         const metrics::RunMetrics run = record_of(folder, "walked", name).metrics;
         EXPECT_EQ(run.pedestrian_count, static_cast<std::uint64_t>(test::WalkedScenario::persons)) << name;
@@ -335,10 +335,10 @@ TEST(Worker, EqualsARunThatIsShown) {
     const ConditionSpec corridor = condition("corridor", "B10", "dead_reckoning", {"corridor"});
     const test::StudyFolder usual("intersection", {}, {baseline, corridor, solo});
     ASSERT_TRUE(run_worker(usual, usual.unit(0)).ok());
-    ASSERT_TRUE(run_worker(usual, usual.unit(0, Engine::solo)).ok());
+    ASSERT_TRUE(run_worker(usual, usual.unit(0, TrafficModel::free_flow)).ok());
     const test::StudyFolder watched("intersection", {}, {baseline, corridor, solo});
     for (const ConditionSpec& shown : {corridor, solo}) {
-        const core::Exit exit = show_without_window(watched, watched.unit(0, shown.engine), shown);
+        const core::Exit exit = show_without_window(watched, watched.unit(0, shown.traffic_model), shown);
         ASSERT_TRUE(exit.ok()) << exit.describe() << core::tail(watched.path() / "worker.log", 20);
         const experiment::RunKey key{"intersection", shown.name, 0};
         EXPECT_EQ(stored_bytes(watched.store(), key), stored_bytes(usual.store(), key)) << shown.name;
@@ -350,7 +350,7 @@ TEST(Worker, RunsEmergencyVehiclesAloneForTheSoloTime) {
     dense.variant = scenario::Variant::dense;
     const test::StudyFolder folder("intersection", dense, {baseline, solo});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
-    ASSERT_TRUE(run_worker(folder, folder.unit(0, Engine::solo)).ok());
+    ASSERT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());
     const results::RunRecord alone = record_of(folder, "intersection", "solo");
     EXPECT_EQ(alone.metrics.vehicle_count, 6U);
     EXPECT_EQ(alone.metrics.emergency_arrived, 6U);
@@ -378,9 +378,9 @@ TEST(Worker, RecordsAFailureOfTheSimulatorWithItsLog) {
     core::write_atomically(network, text);
     EXPECT_TRUE(run_worker(folder, folder.unit(0)).ok());
     EXPECT_FALSE(folder.store().complete({"intersection", "baseline", 0}));
-    const auto failure = folder.store().read_failure({"intersection", "baseline", 0});
+    const auto failure = folder.store().read_error({"intersection", "baseline", 0});
     ASSERT_TRUE(failure.has_value());
-    EXPECT_EQ(failure->cause, results::FailureCause::simulator);
+    EXPECT_EQ(failure->cause, results::ErrorCause::simulator);
     EXPECT_THAT(failure->message + failure->log_tail, testing::HasSubstr("cable_car"));
 }
 
@@ -403,14 +403,14 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     kill(child_of(worker.pid), SIGSEGV);
     EXPECT_TRUE(core::wait(worker).ok());
     const experiment::RunKey key{"city", "repaired", 0};
-    const auto failure = folder.store().read_failure(key);
+    const auto failure = folder.store().read_error(key);
     ASSERT_TRUE(failure.has_value());
-    EXPECT_EQ(failure->cause, results::FailureCause::signal);
+    EXPECT_EQ(failure->cause, results::ErrorCause::signal);
     EXPECT_EQ(failure->signal, SIGSEGV);
     EXPECT_TRUE(folder.store().complete({"city", "baseline", 0})) << "the other condition goes on";
     EXPECT_EQ(std::system(failure->command.c_str()), 0);
     EXPECT_TRUE(folder.store().complete(key));
-    EXPECT_FALSE(folder.store().read_failure(key));
+    EXPECT_FALSE(folder.store().read_error(key));
 }
 
 TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
@@ -419,12 +419,12 @@ TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
     experiment::RunJob unit = folder.unit(0);
     unit.limits.wall_s = 0.01;
     ASSERT_TRUE(run_worker(folder, unit).ok());
-    EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::time_limit);
-    EXPECT_THAT(folder.store().read_failure(key)->message, testing::HasSubstr("0.01 s"));
+    EXPECT_EQ(folder.store().read_error(key)->cause, results::ErrorCause::time_limit);
+    EXPECT_THAT(folder.store().read_error(key)->message, testing::HasSubstr("0.01 s"));
     unit.limits = {.wall_s = 60.0, .memory_mib = 5};
     ASSERT_TRUE(run_worker(folder, unit).ok());
-    EXPECT_EQ(folder.store().read_failure(key)->cause, results::FailureCause::memory);
-    EXPECT_THAT(folder.store().read_failure(key)->message, testing::HasSubstr("5 MiB"));
+    EXPECT_EQ(folder.store().read_error(key)->cause, results::ErrorCause::memory);
+    EXPECT_THAT(folder.store().read_error(key)->message, testing::HasSubstr("5 MiB"));
     unit.limits.memory_mib = 1000;
     ASSERT_TRUE(run_worker(folder, unit).ok());
     EXPECT_TRUE(folder.store().complete(key));

@@ -28,8 +28,8 @@ std::string describe(const traffic::Lease& lease) {
                 text << ' ' << link;
         }
     }
-    if (const auto* favour = std::get_if<traffic::FavourLinks>(&lease.action)) {
-        for (const std::uint16_t link : favour->links)
+    if (const auto* adjustment = std::get_if<traffic::AdjustGreen>(&lease.action)) {
+        for (const std::uint16_t link : adjustment->links)
             text << ' ' << link;
     }
     return text.str();
@@ -109,7 +109,7 @@ void PartRun::expect_legal(const traffic::Lease& lease) {
             expect_legal_links(*signal, hold->links);
             EXPECT_TRUE(std::ranges::includes(hold->links, hold->own_links));
         } else
-            expect_legal_links(*signal, std::get<traffic::FavourLinks>(lease.action).links);
+            expect_legal_links(*signal, std::get<traffic::AdjustGreen>(lease.action).links);
         return;
     }
     const core::VehicleKey vehicle = std::get<core::VehicleKey>(lease.target);

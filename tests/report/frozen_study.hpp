@@ -53,7 +53,7 @@ class FrozenStudy {
         hardly.safety_checks = traffic::SafetyChecks::off;
         experiment::ConditionSpec solo;
         solo.name = "solo";
-        solo.engine = experiment::Engine::solo;
+        solo.traffic_model = experiment::TrafficModel::free_flow;
         manifest.conditions = {baseline, helps, hardly, solo};
         return manifest;
     }
@@ -109,9 +109,9 @@ class FrozenStudy {
 
     void add(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
         if (key.scenario == "merge" && key.condition == "hardly" && key.replication == 2) {
-            results::FailureRecord failure;
+            results::RunError failure;
             failure.key = key;
-            failure.cause = results::FailureCause::signal;
+            failure.cause = results::ErrorCause::signal;
             failure.message = "SUMO aborted <img src=x onerror=alert(1)>";
             failure.signal = 6;
             store_.write(failure);
@@ -147,7 +147,7 @@ class FrozenStudy {
             run.leases = {{"corridor", "change_lane", 30, 4, 21, 20, {{"no_room_beside", 9}}},
                           {"corridor", "hold_green", 10, 90, 10, 10, {}}};
         if (key.condition == "hardly") run.leases = {{"dissertation<i>", "hold_green", 40, 0, 40, 40, {}}};
-        if (condition.engine != experiment::Engine::solo && key.scenario == "crossing")
+        if (condition.traffic_model != experiment::TrafficModel::free_flow && key.scenario == "crossing")
             add_traffic(key, run.traffic);
         store_.write(run, {});
     }

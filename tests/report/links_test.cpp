@@ -27,7 +27,7 @@ links::LinkResult result_of(const std::string& predictor, const std::string& sce
     links::LinkResult result;
     result.scenario = scenario;
     result.failure = "B10";
-    result.exits = "known";
+    result.exits = links::Exits::known;
     result.predictor = predictor;
     result.threshold = 0.4;
     result.subsets[0] = {2000,          700,           measured(ap),  measured(0.9),
@@ -48,7 +48,7 @@ LinkFacts sample(const std::string& odd = "city") {
     facts.seeds = "replications 0 to 9";
     facts.scenarios = {"merge", odd};
     facts.failures = {"B10"};
-    facts.exits = {"known"};
+    facts.exits = {links::Exits::known};
     facts.predictors = {"graphsage", "route_rule"};
     facts.against = "route_rule";
     for (const char* const predictor : {"graphsage", "route_rule"}) {

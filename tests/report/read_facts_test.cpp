@@ -67,7 +67,8 @@ class RunFolder : public ::testing::Test {
         experiment::ConditionSpec helpful{.name = "graph_simulation", .policies = {"dissertation"}};
         helpful.safety_checks = traffic::SafetyChecks::off;
         experiment::ConditionSpec broken{.name = "broken", .policies = {"dissertation"}};
-        experiment::ConditionSpec solo{.name = "solo", .policies = {}, .engine = experiment::Engine::solo};
+        experiment::ConditionSpec solo{
+            .name = "solo", .policies = {}, .traffic_model = experiment::TrafficModel::free_flow};
         manifest.conditions = {baseline, helpful, broken, solo};
         const results::Store store = results::Store::create(folder.path() / "study", manifest);
         for (std::uint32_t replication = 0; replication < 3; ++replication) {
@@ -75,9 +76,9 @@ class RunFolder : public ::testing::Test {
             store.write(run(helpful, replication, 80.0 + 1.0 * replication), {});
             store.write(run(solo, replication, 60.0), {});
         }
-        results::FailureRecord failure;
+        results::RunError failure;
         failure.key = {"merge", "broken", 1};
-        failure.cause = results::FailureCause::signal;
+        failure.cause = results::ErrorCause::signal;
         failure.message = "SUMO aborted <b>";
         failure.signal = 6;
         failure.attempts = 3;

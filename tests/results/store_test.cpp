@@ -171,22 +171,22 @@ TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
 
 TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
     store_.write(failure(key));
-    std::filesystem::resize_file(store_.folder() / "failures" / "alpha" / "baseline" / "00001.json", 9);
-    EXPECT_THROW(store_.read_failure(key), core::InputError);
+    std::filesystem::resize_file(store_.folder() / "errors" / "alpha" / "baseline" / "00001.json", 9);
+    EXPECT_THROW(store_.read_error(key), core::InputError);
     const std::vector<SetAside> moved = store_.set_damaged_aside({key});
     ASSERT_EQ(moved.size(), 1U);
-    EXPECT_FALSE(store_.read_failure(key));
-    EXPECT_TRUE(std::filesystem::exists(moved[0].place / "failure.json"));
+    EXPECT_FALSE(store_.read_error(key));
+    EXPECT_TRUE(std::filesystem::exists(moved[0].place / "error.json"));
 }
 
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
     store_.write(failure(key));
-    EXPECT_EQ(*store_.read_failure(key), failure(key));
+    EXPECT_EQ(*store_.read_error(key), failure(key));
     EXPECT_FALSE(store_.complete(key));
     store_.write(record(key), {});
-    EXPECT_FALSE(store_.read_failure(key));
+    EXPECT_FALSE(store_.read_error(key));
     store_.write(failure(key));
-    EXPECT_FALSE(store_.read_failure(key)) << "a complete run cannot fail afterwards";
+    EXPECT_FALSE(store_.read_error(key)) << "a complete run cannot fail afterwards";
 }
 
 TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {

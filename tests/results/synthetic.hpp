@@ -73,10 +73,10 @@ inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50
     return result;
 }
 
-inline FailureRecord failure(const experiment::RunKey& key) {
-    FailureRecord result;
+inline RunError error(const experiment::RunKey& key) {
+    RunError result;
     result.key = key;
-    result.cause = FailureCause::signal;
+    result.cause = ErrorCause::signal;
     result.message = "killed by signal 11 (Segmentation fault)";
     result.signal = 11;
     result.attempts = 3;

@@ -49,8 +49,7 @@ class TableReader : public testing::Test {
 };
 
 TEST_F(TableReader, ListsTheTables) {
-    EXPECT_THAT(table_names(store),
-                testing::IsSupersetOf({"failures", "leases", "runs", "study", "vehicles"}));
+    EXPECT_THAT(table_names(store), testing::IsSupersetOf({"errors", "leases", "runs", "study", "vehicles"}));
 }
 
 TEST_F(TableReader, KnowsTablesOfAStudyThatWasExtendedSince) {
@@ -75,10 +74,9 @@ TEST_F(TableReader, KeepsAllBitsOfASeed) {
 }
 
 TEST_F(TableReader, NamesTheColumnsOfAnEmptyTable) {
-    execute("DELETE FROM failures");
-    EXPECT_EQ(printed("failures", TableFormat::csv),
-              "scenario,condition,replication,outcome,cause,message\n");
-    EXPECT_EQ(printed("failures", TableFormat::json), "[\n]\n");
+    execute("DELETE FROM errors");
+    EXPECT_EQ(printed("errors", TableFormat::csv), "scenario,condition,replication,outcome,cause,message\n");
+    EXPECT_EQ(printed("errors", TableFormat::json), "[\n]\n");
 }
 
 TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
@@ -93,7 +91,7 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
 }
 
 TEST_F(TableReader, RefusesOtherVersionsOtherFilesAndUnknownTables) {
-    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("failures, leases, runs, study, vehicles"));
+    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("errors, leases, runs, study, vehicles"));
     execute("UPDATE study SET value = '99' WHERE key = 'format'");
     EXPECT_THAT(error_of("runs"), HasSubstr("another version: format \"99\""));
     EXPECT_THROW(tables_are_current(store), core::InputError);

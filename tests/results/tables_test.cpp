@@ -39,7 +39,7 @@ TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
     fill(store, keys);
     const Results results = read_results(store);
     EXPECT_EQ(results.runs.size(), 4U);
-    EXPECT_EQ(results.failures.size(), 1U);
+    EXPECT_EQ(results.errors.size(), 1U);
     EXPECT_EQ(results.missing.size(), 3U);
     const auto lines = lines_of(runs_csv(results));
     ASSERT_EQ(lines.size(), 9U);
@@ -123,8 +123,8 @@ TEST(Tables, AreInOneDatabaseToo) {
               "4|200.4|1|");
     EXPECT_EQ(query(file, "SELECT outcome, depart_s FROM vehicles WHERE id = 'h2' LIMIT 1"),
               "not_inserted|null|");
-    EXPECT_EQ(query(file, "SELECT outcome, cause FROM failures ORDER BY outcome LIMIT 1"), "failed|signal|");
-    EXPECT_EQ(query(file, "SELECT count(*) FROM failures WHERE outcome = 'missing'"), "3|");
+    EXPECT_EQ(query(file, "SELECT outcome, cause FROM errors ORDER BY outcome LIMIT 1"), "failed|signal|");
+    EXPECT_EQ(query(file, "SELECT count(*) FROM errors WHERE outcome = 'missing'"), "3|");
     EXPECT_EQ(
         query(file,
               "SELECT typeof(waiting_count), typeof(travel_time_s) FROM vehicles WHERE id = 'h1' LIMIT 1"),

@@ -177,7 +177,8 @@ TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {
     EXPECT_THAT(problems("[factors]\nfailure.dark_share = 0.5\n"), HasSubstr("is not a list"));
     EXPECT_THAT(problems("[factors]\nfailure = [\"B5\"]\n"), HasSubstr("'condition.failure'"));
     EXPECT_THAT(problems("[factors]\nloop.policy_period_s = [99]\n"), HasSubstr("99 is out of range"));
-    EXPECT_THAT(problems("[factors]\ncondition.engine = [\"warp\"]\n"), HasSubstr("\"warp\" is not known"));
+    EXPECT_THAT(problems("[factors]\ncondition.traffic_model = [\"warp\"]\n"),
+                HasSubstr("\"warp\" is not known"));
     EXPECT_THAT(problems("[factors]\nscenario.demand.human = [-4]\n"),
                 testing::AllOf(HasSubstr("-4 is negative"), HasSubstr("set by a factor")));
     EXPECT_THAT(problems("[factors]\nscenario.variant = [\"denser\"]\n"),

@@ -31,9 +31,9 @@ bool first_time(const results::Store& store, const experiment::RunKey& key) {
     return true;
 }
 
-void tell(const results::Store& store, const experiment::RunKey& key, results::FailureCause cause,
+void tell(const results::Store& store, const experiment::RunKey& key, results::ErrorCause cause,
           const std::string& message) {
-    results::FailureRecord failure;
+    results::RunError failure;
     failure.key = key;
     failure.cause = cause;
     failure.message = message;
@@ -59,9 +59,9 @@ void work(const results::Store& store, const experiment::RunKey& key) {
     if (name == "bad_input") std::exit(3);
     if (name == "disk_full") std::exit(4);
     if (name == "forgetful") return;
-    if (name == "refused") return tell(store, key, results::FailureCause::simulator, "SUMO said no");
-    if (name == "told_crash") return tell(store, key, results::FailureCause::signal, "child was killed");
-    if (name == "told_memory") return tell(store, key, results::FailureCause::memory, "too much");
+    if (name == "refused") return tell(store, key, results::ErrorCause::simulator, "SUMO said no");
+    if (name == "told_crash") return tell(store, key, results::ErrorCause::signal, "child was killed");
+    if (name == "told_memory") return tell(store, key, results::ErrorCause::memory, "too much");
     if (name == "hog") hog();
     if (name.starts_with("slow")) pause_ms(40);
     store.write(results::synthetic::record(key, 40.0 + key.replication), {});

@@ -135,7 +135,7 @@ TEST_F(Merge, PrefersARecordToAFailureOfTheSameRun) {
     const MergeResult result = merge_into("out", {place("b"), place("a")});
     EXPECT_EQ(result.counts.complete, 1U);
     EXPECT_EQ(result.counts.failed, 1U);
-    EXPECT_EQ(store("out").read_failure(failed)->cause, results::FailureCause::signal);
+    EXPECT_EQ(store("out").read_error(failed)->cause, results::ErrorCause::signal);
 }
 
 TEST_F(Merge, FindsTheShardsOfASubmission) {

@@ -8,7 +8,7 @@
 namespace clearway::study {
 namespace {
 
-using experiment::Engine;
+using experiment::TrafficModel;
 
 StudyConfig example() {
     StudyConfig config;
@@ -44,7 +44,7 @@ TEST(Plan, HasOneUnitPerReplicationScenarioAndEngine) {
     EXPECT_EQ(plan.run_count(), 2U * 2U * 7U);
     EXPECT_EQ(plan.units[0].unit.conditions.size(), 6U);
     EXPECT_EQ(plan.units[1].unit.conditions.size(), 1U);
-    EXPECT_EQ(plan.units[1].unit.engine, Engine::solo);
+    EXPECT_EQ(plan.units[1].unit.traffic_model, TrafficModel::free_flow);
     EXPECT_EQ(plan.units[0].unit.network_folder, "/out/scenarios/alpha/network");
 }
 
@@ -68,11 +68,11 @@ TEST(Plan, RefusesNamesThatAreTwiceOrNoFolders) {
 
 TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
     StudyConfig config = example();
-    config.conditions[1].engine = Engine::sublane;
-    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with engine \"sublane\""));
+    config.conditions[1].traffic_model = TrafficModel::sublane;
+    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with traffic model \"sublane\""));
     experiment::ConditionSpec baseline;
     baseline.name = "baseline_sublane";
-    baseline.engine = Engine::sublane;
+    baseline.traffic_model = TrafficModel::sublane;
     config.conditions.push_back(baseline);
     EXPECT_EQ(problems_of(config), "none");
 }
@@ -81,10 +81,10 @@ TEST(Plan, TakesNoConditionWithABluelightForABaseline) {
     StudyConfig config = example();
     experiment::ConditionSpec opponent;
     opponent.name = "bluelight_sublane";
-    opponent.engine = Engine::sublane;
+    opponent.traffic_model = TrafficModel::sublane;
     opponent.bluelight = traffic::BlueLight::on;
     config.conditions.push_back(opponent);
-    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with engine \"sublane\""));
+    EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with traffic model \"sublane\""));
 }
 
 TEST(Plan, RefusesAnEmptyStudy) {

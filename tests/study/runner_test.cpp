@@ -18,7 +18,7 @@ namespace {
 
 using core::ExitCode;
 using experiment::RunKey;
-using results::FailureCause;
+using results::ErrorCause;
 
 class Study : public testing::Test {
   protected:
@@ -107,9 +107,9 @@ TEST_F(Study, RecordsACrashAfterThreeAttemptsAndGoesOn) {
     EXPECT_EQ(result.exit_code, ExitCode::runs_failed);
     EXPECT_EQ(result.progress.done, 4U);
     EXPECT_EQ(result.progress.failed, 4U);
-    const auto failure = store_in("out").read_failure({"beta", "crash", 1});
+    const auto failure = store_in("out").read_error({"beta", "crash", 1});
     ASSERT_TRUE(failure);
-    EXPECT_EQ(failure->cause, FailureCause::signal);
+    EXPECT_EQ(failure->cause, ErrorCause::signal);
     EXPECT_EQ(failure->signal, SIGSEGV);
     EXPECT_EQ(failure->attempts, 3);
     EXPECT_THAT(failure->log_tail, testing::HasSubstr("run beta/crash/1"));
@@ -121,9 +121,9 @@ TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
     options_.attempts = 2;
     const StudyResult result = run_in("out");
     EXPECT_EQ(result.exit_code, ExitCode::runs_failed);
-    const auto failure = store_in("out").read_failure({"alpha", "hang", 0});
+    const auto failure = store_in("out").read_error({"alpha", "hang", 0});
     ASSERT_TRUE(failure);
-    EXPECT_EQ(failure->cause, FailureCause::time_limit);
+    EXPECT_EQ(failure->cause, ErrorCause::time_limit);
     EXPECT_EQ(failure->attempts, 2);
     EXPECT_TRUE(store_in("out").complete({"alpha", "baseline", 0}));
 }
@@ -132,9 +132,9 @@ TEST_F(Study, EndsAWorkerThatNeedsTooMuchMemoryAndDoesNotTryItAgain) {
     plan({"baseline", "hog"}, 1);
     options_.limits.memory_mib = 64;
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
-    const auto failure = store_in("out").read_failure({"beta", "hog", 0});
+    const auto failure = store_in("out").read_error({"beta", "hog", 0});
     ASSERT_TRUE(failure);
-    EXPECT_EQ(failure->cause, FailureCause::memory);
+    EXPECT_EQ(failure->cause, ErrorCause::memory);
     EXPECT_EQ(failure->attempts, 1);
     EXPECT_THAT(failure->message, testing::HasSubstr("64 MiB"));
     EXPECT_TRUE(store_in("out").complete({"beta", "baseline", 0}));
@@ -144,20 +144,20 @@ TEST_F(Study, TriesAgainWhatAWorkerTellsOfACrashButNotOfMemory) {
     plan({"baseline", "told_crash", "told_memory"}, 1);
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
     const results::Store store = store_in("out");
-    const auto crash = store.read_failure({"alpha", "told_crash", 0});
+    const auto crash = store.read_error({"alpha", "told_crash", 0});
     ASSERT_TRUE(crash);
     EXPECT_EQ(crash->attempts, 3);
     EXPECT_EQ(crash->command, "clearway-run it");
     EXPECT_THAT(crash->log_tail, testing::HasSubstr("run alpha/told_crash/0"));
     const auto third_log = core::read_file(store.log_file("alpha-00000-standard.3"));
     EXPECT_THAT(third_log, testing::Not(testing::HasSubstr("told_memory")));
-    EXPECT_EQ(store.read_failure({"alpha", "told_memory", 0})->attempts, 1);
+    EXPECT_EQ(store.read_error({"alpha", "told_memory", 0})->attempts, 1);
 }
 
 TEST_F(Study, TellsHowToMakeACrashAgain) {
     plan({"baseline", "crash"}, 1);
     run_in("out");
-    const auto failure = store_in("out").read_failure({"alpha", "crash", 0});
+    const auto failure = store_in("out").read_error({"alpha", "crash", 0});
     ASSERT_TRUE(failure);
     const results::Store store = store_in("out");
     const auto unit = store.unit_file("alpha-00000-standard");
@@ -170,10 +170,10 @@ TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {
     plan({"baseline", "refused", "forgetful", "bad_input"}, 1);
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
     const results::Store store = store_in("out");
-    EXPECT_EQ(store.read_failure({"alpha", "bad_input", 0})->cause, FailureCause::bad_input);
-    EXPECT_EQ(store.read_failure({"alpha", "bad_input", 0})->attempts, 1);
-    EXPECT_EQ(store.read_failure({"alpha", "refused", 0})->message, "SUMO said no");
-    EXPECT_EQ(store.read_failure({"alpha", "forgetful", 0})->cause, FailureCause::bad_input);
+    EXPECT_EQ(store.read_error({"alpha", "bad_input", 0})->cause, ErrorCause::bad_input);
+    EXPECT_EQ(store.read_error({"alpha", "bad_input", 0})->attempts, 1);
+    EXPECT_EQ(store.read_error({"alpha", "refused", 0})->message, "SUMO said no");
+    EXPECT_EQ(store.read_error({"alpha", "forgetful", 0})->cause, ErrorCause::bad_input);
     std::filesystem::remove_all(store.folder() / "logs");
     const StudyResult again = run_in("out");
     EXPECT_EQ(again.progress.failed, 6U);
@@ -183,7 +183,7 @@ TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {
 TEST_F(Study, RecordsARunThatAWorkerForgot) {
     plan({"baseline", "forgetful"}, 1);
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
-    EXPECT_THAT(store_in("out").read_failure({"alpha", "forgetful", 0})->message,
+    EXPECT_THAT(store_in("out").read_error({"alpha", "forgetful", 0})->message,
                 testing::HasSubstr("without a record"));
 }
 
@@ -191,7 +191,7 @@ TEST_F(Study, StopsWhenTheMachineIsAtFaultAndLosesNothing) {
     plan({"baseline", "disk_full"}, 2);
     EXPECT_THROW(run_in("out", 1), core::EnvironmentError);
     EXPECT_TRUE(store_in("out").complete({"alpha", "baseline", 0}));
-    EXPECT_FALSE(store_in("out").read_failure({"alpha", "disk_full", 0}));
+    EXPECT_FALSE(store_in("out").read_error({"alpha", "disk_full", 0}));
 }
 
 TEST_F(Study, SaysThatItsWorkerIsMissing) {
@@ -251,7 +251,7 @@ TEST_F(Study, EndsItsWorkersOnSignalsAndTellsWhich) {
         waitpid(study, &status, 0);
         ASSERT_TRUE(WIFEXITED(status));
         EXPECT_EQ(WEXITSTATUS(status), code);
-        EXPECT_TRUE(results::read_results(store).failures.empty()) << "an interrupted run has not failed";
+        EXPECT_TRUE(results::read_results(store).errors.empty()) << "an interrupted run has not failed";
     }
 }
 

@@ -45,9 +45,9 @@ TEST(Shards, MixEnginesAndScenarios) {
     for (std::uint32_t index = 1; index <= 4; ++index) {
         Plan plan = example();
         keep_shard(plan, {index, 4});
-        std::map<std::pair<std::string, experiment::Engine>, int> kinds;
+        std::map<std::pair<std::string, experiment::TrafficModel>, int> kinds;
         for (const PlannedUnit& unit : plan.units)
-            ++kinds[{unit.unit.scenario, unit.unit.engine}];
+            ++kinds[{unit.unit.scenario, unit.unit.traffic_model}];
         EXPECT_EQ(kinds.size(), 4U) << "shard " << index << " lacks a kind of unit";
     }
 }
@@ -89,7 +89,7 @@ TEST(Shards, KeepTheirFolderToThemselves) {
 
 TEST(Submission, QuotesWhatAShellWouldReadOtherwise) {
     Submission submission;
-    submission.engine = SubmitEngine::slurm;
+    submission.traffic_model = SubmitEngine::slurm;
     submission.shards = 12;
     submission.program = "/opt/my programs/clearway";
     submission.study = "/data/a'b.toml";

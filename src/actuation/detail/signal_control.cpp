@@ -46,11 +46,11 @@ SignalControl::SignalControl(core::SignalIndex index, const roads::Network& netw
 
 void SignalControl::offer(const traffic::Lease& lease, Ledger& ledger) {
     const bool is_hold = std::holds_alternative<traffic::HoldGreen>(lease.action);
-    (is_hold ? holds_ : favours_).offer(lease, ledger);
+    (is_hold ? holds_ : adjustments_).offer(lease, ledger);
 }
 
 bool SignalControl::is_idle(core::Seconds now) const {
-    return active() == 0 && stage_ == Stage::own_program && now >= cool_until_ && own_.is_in_step(now);
+    return active() == 0 && stage_ == Stage::background_plan && now >= lockout_until_ && own_.is_in_step(now);
 }
 
 /// Links of the best lease and of all others that go with it. Who is served already comes before who waits:
@@ -83,33 +83,33 @@ Links SignalControl::requested(Ledger& ledger) {
 }
 
 Links SignalControl::allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger) {
-    const bool in_program = stage_ == Stage::own_program;
+    const bool in_program = stage_ == Stage::background_plan;
     if (!in_program && (now - taken_since_).value >= timing.hold_cap_s - time_tolerance_s) capped_ = true;
-    const bool cooling = in_program && now.value < cool_until_.value - time_tolerance_s;
+    const bool cooling = in_program && now.value < lockout_until_.value - time_tolerance_s;
     if (!capped_ && !cooling) return requested(ledger);
     for (HeldLease& held : holds_.all()) {
         held.served = false;
-        LeaseQueue::refuse(held, capped_ ? "hold_cap" : "cool_down", ledger);
+        LeaseQueue::refuse(held, capped_ ? "hold_cap" : "lockout", ledger);
     }
     return {};
 }
 
-void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
+void SignalControl::step(const SignalContext& around, Ledger& ledger,
                          std::vector<traffic::Command>& commands) {
     holds_.expire(around.now, ledger);
-    favours_.expire(around.now, ledger);
+    adjustments_.expire(around.now, ledger);
     if (around.state.empty() || around.state.size() < signal_.links.size()) {
         holds_.drop_all("signal_gone", ledger);
-        favours_.drop_all("signal_gone", ledger);
-        stage_ = Stage::own_program;
+        adjustments_.drop_all("signal_gone", ledger);
+        stage_ = Stage::background_plan;
         return;
     }
     const Links links = allowed_now(around.now, around.timing, ledger);
-    const bool in_program = stage_ == Stage::own_program;
+    const bool in_program = stage_ == Stage::background_plan;
     if (!asked_for_gap_) gap_awaited_.reset();
     asked_for_gap_ = false;
     if (in_program) own_.watch(around.state, around.now);
-    if (in_program && links.empty()) return run_own_program(around, ledger, commands);
+    if (in_program && links.empty()) return run_background_plan(around, ledger, commands);
     if (in_program) {
         shown_ = around.state;
         program_known_ = knows_program(around);
@@ -128,7 +128,7 @@ void SignalControl::step(const SignalSurroundings& around, Ledger& ledger,
 
 /// Whether a green that is shown should not end just now, for the sake of one who could just stop. Never for
 /// longer than the timing allows.
-bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroundings& around) {
+bool SignalControl::waits_for_gap(const std::string& target, const SignalContext& around) {
     const bool is_pressed = std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
         return link < signal_.links.size() &&
                std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
@@ -142,26 +142,27 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalSurroun
 }
 
 /// Another program may have been switched on, or one may run that stands in no file we have seen.
-bool SignalControl::knows_program(const SignalSurroundings& around) const {
+bool SignalControl::knows_program(const SignalContext& around) const {
     return around.self.running_program(index_) == signal_.program_id;
 }
 
-void SignalControl::run_own_program(const SignalSurroundings& around, Ledger& ledger,
-                                    std::vector<traffic::Command>& commands) {
+void SignalControl::run_background_plan(const SignalContext& around, Ledger& ledger,
+                                        std::vector<traffic::Command>& commands) {
     const core::Seconds least_green(around.timing.least_green_s);
-    HeldLease* const favour = favours_.best();
-    if (favour == nullptr) {
+    HeldLease* const adjustment = adjustments_.best();
+    if (adjustment == nullptr) {
         const auto back = own_.step_back(least_green, around.now);
         if (back && knows_program(around))
             commands.push_back(traffic::RestoreProgram{index_, back->phase, back->lasting});
         return;
     }
     const auto next = own_.next_after(least_green, around.now);
-    if (!next || serves_any(around.state, std::get<traffic::FavourLinks>(favour->lease.action).links)) return;
+    if (!next || serves_any(around.state, std::get<traffic::AdjustGreen>(adjustment->lease.action).links))
+        return;
     if (waits_for_gap(signal_.program[*next].state, around)) return;
-    if (!knows_program(around)) return LeaseQueue::refuse(*favour, "unknown_program", ledger);
+    if (!knows_program(around)) return LeaseQueue::refuse(*adjustment, "unknown_program", ledger);
     commands.push_back(traffic::RestoreProgram{index_, next});
-    LeaseQueue::act(*favour, ledger);
+    LeaseQueue::act(*adjustment, ledger);
     own_.disturb(around.now);
 }
 
@@ -173,14 +174,14 @@ SignalControl::Way SignalControl::plan_hold(const Links& links) const {
 
 SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
     Way way;
-    if (HeldLease* favour = favours_.best()) {
+    if (HeldLease* adjustment = adjustments_.best()) {
         if (program_known_)
             way.return_phase =
-                best_phase(signal_, std::get<traffic::FavourLinks>(favour->lease.action).links);
+                best_phase(signal_, std::get<traffic::AdjustGreen>(adjustment->lease.action).links);
         if (way.return_phase)
-            LeaseQueue::act(*favour, ledger);
+            LeaseQueue::act(*adjustment, ledger);
         else
-            LeaseQueue::refuse(*favour, program_known_ ? "no_phase_serves" : "unknown_program", ledger);
+            LeaseQueue::refuse(*adjustment, program_known_ ? "no_phase_serves" : "unknown_program", ledger);
     }
     way.target.assign(shown_.size(), 'r');
     if (way.return_phase) {
@@ -191,8 +192,7 @@ SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
     return way;
 }
 
-void SignalControl::begin(Way way, const SignalSurroundings& around,
-                          std::vector<traffic::Command>& commands) {
+void SignalControl::begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands) {
     way_ = std::move(way);
     if (!way_.links.empty()) last_held_ = way_.links;
     const std::string& target = way_.target;
@@ -207,8 +207,8 @@ void SignalControl::begin(Way way, const SignalSurroundings& around,
 
 void SignalControl::enter(Stage stage, const std::string& state, core::Seconds now,
                           std::vector<traffic::Command>& commands) {
-    if (stage_ == Stage::own_program) own_.leave();
-    if (stage_ == Stage::own_program || state != shown_)
+    if (stage_ == Stage::background_plan) own_.leave();
+    if (stage_ == Stage::background_plan || state != shown_)
         commands.push_back(traffic::SetSignalState{index_, state});
     stage_ = stage;
     stage_since_ = now;
@@ -229,7 +229,7 @@ bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
     return true;
 }
 
-bool SignalControl::is_left_by_vehicles(const Links& gaining, const SignalSurroundings& around) const {
+bool SignalControl::is_left_by_vehicles(const Links& gaining, const SignalContext& around) const {
     return is_clear(gaining, [&](std::uint16_t link) {
         return std::ranges::any_of(inner_lanes_[link], [&](core::LaneIndex lane) {
             return std::ranges::binary_search(around.occupied, lane);
@@ -237,7 +237,7 @@ bool SignalControl::is_left_by_vehicles(const Links& gaining, const SignalSurrou
     });
 }
 
-bool SignalControl::is_left_by_pedestrians(const SignalSurroundings& around) const {
+bool SignalControl::is_left_by_pedestrians(const SignalContext& around) const {
     return around.timing.walking_s <= 0.0 || is_clear(way_.gaining, [&](std::uint16_t link) {
                return signal_.crossings[link] &&
                       std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
@@ -248,7 +248,7 @@ bool SignalControl::is_left_by_pedestrians(const SignalSurroundings& around) con
 
 /// Whether those who get green meet nobody, or have waited for it as long as they may. Pedestrians wait
 /// longer for vehicles than vehicles do.
-bool SignalControl::may_open(const SignalSurroundings& around) const {
+bool SignalControl::may_open(const SignalContext& around) const {
     const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
     if (red_s < 0.0) return false;
     Links walking;
@@ -260,7 +260,7 @@ bool SignalControl::may_open(const SignalSurroundings& around) const {
             (is_left_by_pedestrians(around) && is_left_by_vehicles(walking, around)));
 }
 
-void SignalControl::proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands) {
+void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Command>& commands) {
     const auto is_over = [&](double duration_s) {
         return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
     };
@@ -278,17 +278,17 @@ void SignalControl::return_to_program(core::Seconds now, const SignalTiming& tim
                                       std::vector<traffic::Command>& commands) {
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase});
     if (way_.return_phase) own_.disturb(now);
-    stage_ = Stage::own_program;
+    stage_ = Stage::background_plan;
     const double cycle_s = std::min(own_.cycle_s(), longest_cycle_s);
-    cool_until_ = now + core::Seconds(capped_ ? std::max(timing.cool_down_s, cycle_s) : timing.cool_down_s);
+    lockout_until_ = now + core::Seconds(capped_ ? std::max(timing.lockout_s, cycle_s) : timing.lockout_s);
     capped_ = false;
 }
 
 void SignalControl::restore(std::vector<traffic::Command>& commands) {
     holds_.clear();
-    favours_.clear();
-    if (stage_ != Stage::own_program) commands.push_back(traffic::RestoreProgram{index_});
-    stage_ = Stage::own_program;
+    adjustments_.clear();
+    if (stage_ != Stage::background_plan) commands.push_back(traffic::RestoreProgram{index_});
+    stage_ = Stage::background_plan;
     capped_ = false;
 }
 

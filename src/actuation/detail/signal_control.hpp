@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "actuation/detail/background_plan.hpp"
 #include "actuation/detail/lease_queue.hpp"
-#include "actuation/detail/own_program.hpp"
 #include "actuation/detail/signal_states.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
@@ -23,7 +23,7 @@ struct SignalTiming {
     double walking_s;
     double gap_wait_s;
     double hold_cap_s;
-    double cool_down_s;
+    double lockout_s;
     double least_green_s;
 };
 
@@ -31,7 +31,7 @@ struct SignalTiming {
 using Lanes = std::vector<core::LaneIndex>;
 
 /// What a signal meets in one step.
-struct SignalSurroundings {
+struct SignalContext {
     core::Seconds now;
     const std::string& state;  ///< What it shows now; empty when there is no such signal any more.
     const SignalTiming& timing;
@@ -44,38 +44,38 @@ struct SignalSurroundings {
     const truth::SelfKnowledge& self;
 };
 
-/// The leases of one signal and where it is on the way between its own program and what they hold.
+/// The leases of one signal and where it is on the way between its background plan and what they hold.
 ///
-/// own program -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> own program. Yellow is shown
-/// where a link loses green, all red wherever a link gains it, for longer while the junction is not clear;
-/// links that keep green keep it all the way. Crossings turn red when others turn yellow, and nobody may walk
-/// any more on one that gets crossed, whether by new green or by green that no longer yields. The way back
-/// leads to the phase that a favour asks for; without one all links are cleared, because where the program is
-/// by then is not known. A request that changes on the way starts the way again from what is shown now.
-/// Simulated steps decide when a stage ends: it never is shorter than asked. A green ends when nobody on it
-/// is so near that he could just stop, or a little later all the same.
+/// background plan -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> background plan. Yellow is
+/// shown where a link loses green, all red wherever a link gains it, for longer while the junction is not
+/// clear; links that keep green keep it all the way. Crossings turn red when others turn yellow, and nobody
+/// may walk any more on one that gets crossed, whether by new green or by green that no longer yields. The
+/// way back leads to the phase that a lease asks for; without one all links are cleared, because where the
+/// program is by then is not known. A request that changes on the way starts the way again from what is shown
+/// now. Simulated steps decide when a stage ends: it never is shorter than asked. A green ends when nobody on
+/// it is so near that he could just stop, or a little later all the same.
 ///
-/// In its own program a favour ends a green that serves none of its links, once that has lasted its least
-/// time: the program goes on with its next phase, so with its own yellow. Afterwards a program of fixed times
-/// is brought back into step, green by green: its neighbours count on it.
+/// In the background plan such a lease ends a green that serves none of its links, once that has lasted its
+/// least time: the program goes on with its next phase, so with its own yellow. Afterwards a program of fixed
+/// times is brought back into step, green by green: its neighbours count on it.
 ///
-/// A hold that had to end at its cap comes again after a whole cycle of the own program, so that nobody is
-/// left without green for an emergency vehicle that is stuck.
+/// A hold that had to end at its cap comes again after a whole cycle of the background plan, so that nobody
+/// is left without green for an emergency vehicle that is stuck.
 class SignalControl {
   public:
     /// The network outlives the object.
     SignalControl(core::SignalIndex index, const roads::Network& network);
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
-    void step(const SignalSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    void step(const SignalContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
     void restore(std::vector<traffic::Command>& commands);
 
-    std::size_t active() const { return holds_.size() + favours_.size(); }
+    std::size_t active() const { return holds_.size() + adjustments_.size(); }
     /// Nothing is held, and a new hold would be accepted at once.
     bool is_idle(core::Seconds now) const;
 
   private:
-    enum class Stage : std::uint8_t { own_program, yellow, all_red, hold };
+    enum class Stage : std::uint8_t { background_plan, yellow, all_red, hold };
     /// From what is shown to what shall be.
     struct Way {
         Links links;                                ///< What is to be held; empty on the way back.
@@ -88,17 +88,17 @@ class SignalControl {
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
     Way plan_hold(const Links& links) const;
     Way plan_return(Ledger& ledger);
-    void begin(Way way, const SignalSurroundings& around, std::vector<traffic::Command>& commands);
-    void run_own_program(const SignalSurroundings& around, Ledger& ledger,
-                         std::vector<traffic::Command>& commands);
-    void proceed(const SignalSurroundings& around, std::vector<traffic::Command>& commands);
+    void begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands);
+    void run_background_plan(const SignalContext& around, Ledger& ledger,
+                             std::vector<traffic::Command>& commands);
+    void proceed(const SignalContext& around, std::vector<traffic::Command>& commands);
     template <class IsBusy>
     bool is_clear(const Links& gaining, IsBusy&& is_busy) const;
-    bool is_left_by_vehicles(const Links& gaining, const SignalSurroundings& around) const;
-    bool is_left_by_pedestrians(const SignalSurroundings& around) const;
-    bool may_open(const SignalSurroundings& around) const;
-    bool waits_for_gap(const std::string& target, const SignalSurroundings& around);
-    bool knows_program(const SignalSurroundings& around) const;
+    bool is_left_by_vehicles(const Links& gaining, const SignalContext& around) const;
+    bool is_left_by_pedestrians(const SignalContext& around) const;
+    bool may_open(const SignalContext& around) const;
+    bool waits_for_gap(const std::string& target, const SignalContext& around);
+    bool knows_program(const SignalContext& around) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
     void return_to_program(core::Seconds now, const SignalTiming& timing,
@@ -108,12 +108,12 @@ class SignalControl {
     const roads::Signal& signal_;
     std::vector<std::vector<core::LaneIndex>> inner_lanes_;  ///< By link: its ways through the junction.
     LeaseQueue holds_;
-    LeaseQueue favours_;
-    Stage stage_ = Stage::own_program;
+    LeaseQueue adjustments_;
+    Stage stage_ = Stage::background_plan;
     core::Seconds stage_since_;
-    /// When the signal last left its own program, or was last handed over to links that conflict.
+    /// When the signal last left its background plan, or was last handed over to links that conflict.
     core::Seconds taken_since_;
-    core::Seconds cool_until_{-1e9};
+    core::Seconds lockout_until_{-1e9};
     bool capped_ = false;  ///< Held for the cap: on the way back whatever is asked.
     std::string shown_;
     Way way_;
@@ -121,7 +121,7 @@ class SignalControl {
     std::optional<core::Seconds> gap_awaited_;  ///< Since when a green is kept for want of a gap.
     bool asked_for_gap_ = false;                ///< In this step.
     bool program_known_ = false;                ///< Of the program that was left.
-    OwnProgram own_;
+    BackgroundPlan own_;
 };
 
 }  // namespace clearway::actuation::detail

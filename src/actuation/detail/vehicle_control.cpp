@@ -70,7 +70,7 @@ void VehicleControl::drop_all(const char* reason, Ledger& ledger) {
         queue.drop_all(reason, ledger);
 }
 
-void VehicleControl::step(const VehicleSurroundings& around, Ledger& ledger,
+void VehicleControl::step(const VehicleContext& around, Ledger& ledger,
                           std::vector<traffic::Command>& commands) {
     const core::Seconds now = around.snapshot.time;
     for (LeaseQueue& queue : queues_)
@@ -87,7 +87,7 @@ void VehicleControl::step(const VehicleSurroundings& around, Ledger& ledger,
     apply(judge(around, {*row, *info}, ledger), now, commands);
 }
 
-VehicleSettings VehicleControl::judge(const VehicleSurroundings& around, const Place& place, Ledger& ledger) {
+VehicleSettings VehicleControl::judge(const VehicleContext& around, const Place& place, Ledger& ledger) {
     VehicleSettings settings;
     for (LeaseQueue& queue : queues_) {
         for (HeldLease& held : queue.all()) {
@@ -111,8 +111,8 @@ VehicleSettings VehicleControl::judge(const VehicleSurroundings& around, const P
     return settings;
 }
 
-void VehicleControl::judge_speed(const VehicleSurroundings& around, const Place& place,
-                                 VehicleSettings& settings, Ledger& ledger) {
+void VehicleControl::judge_speed(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                                 Ledger& ledger) {
     HeldLease* held = queues_[speed].best();
     if (held == nullptr) return;
     if (std::holds_alternative<traffic::StopAtLine>(held->lease.action) &&
@@ -137,14 +137,14 @@ void VehicleControl::judge_speed(const VehicleSurroundings& around, const Place&
 }
 
 /// Whether the edge that the lease meant lies behind. The first call ties the lease to the present edge.
-bool VehicleControl::has_left_edge(const VehicleSurroundings& around, const Place& place, HeldLease& held) {
+bool VehicleControl::has_left_edge(const VehicleContext& around, const Place& place, HeldLease& held) {
     const core::EdgeIndex edge = around.network.lane(around.snapshot.lane[place.row]).edge;
     if (!held.edge.exists()) held.edge = edge;
     return held.edge != edge;
 }
 
 /// Speed on the way to a stop at the line. A stop that needs more than the usual deceleration is refused.
-std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleSurroundings& around,
+std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleContext& around,
                                                                 const Place& place, HeldLease& held,
                                                                 Ledger& ledger) const {
     const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
@@ -164,7 +164,7 @@ std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleSur
     return core::MetresPerSecond(braking_speed(room, deceleration, around.step.value));
 }
 
-void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Place& place,
+void VehicleControl::judge_lateral(const VehicleContext& around, const Place& place,
                                    VehicleSettings& settings, Ledger& ledger) {
     HeldLease* held = queues_[lateral].best();
     if (held == nullptr) return;
@@ -188,7 +188,7 @@ void VehicleControl::judge_lateral(const VehicleSurroundings& around, const Plac
     }
 }
 
-std::optional<LaneRequest> VehicleControl::judge_lane(const VehicleSurroundings& around, const Place& place,
+std::optional<LaneRequest> VehicleControl::judge_lane(const VehicleContext& around, const Place& place,
                                                       HeldLease& held, Ledger& ledger) const {
     const auto refuse = [&](const char* reason) {
         LeaseQueue::refuse(held, reason, ledger);

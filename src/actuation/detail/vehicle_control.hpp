@@ -15,7 +15,7 @@
 namespace clearway::actuation::detail {
 
 /// What judging a vehicle's leases needs to know.
-struct VehicleSurroundings {
+struct VehicleContext {
     const roads::Network& network;
     const truth::Snapshot& snapshot;
     const traffic::Roster& roster;
@@ -50,7 +50,7 @@ class VehicleControl {
     explicit VehicleControl(core::VehicleKey vehicle) : vehicle_(vehicle) {}
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
-    void step(const VehicleSurroundings& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    void step(const VehicleContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
     /// Gives everything back, when the vehicle was on the road at the last step.
     void restore(std::vector<traffic::Command>& commands);
 
@@ -67,16 +67,16 @@ class VehicleControl {
     static Channel channel_of(const traffic::Action& action);
 
     void drop_all(const char* reason, Ledger& ledger);
-    VehicleSettings judge(const VehicleSurroundings& around, const Place& place, Ledger& ledger);
-    void judge_speed(const VehicleSurroundings& around, const Place& place, VehicleSettings& settings,
+    VehicleSettings judge(const VehicleContext& around, const Place& place, Ledger& ledger);
+    void judge_speed(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                      Ledger& ledger);
-    static bool has_left_edge(const VehicleSurroundings& around, const Place& place, HeldLease& held);
-    std::optional<core::MetresPerSecond> stop_speed(const VehicleSurroundings& around, const Place& place,
+    static bool has_left_edge(const VehicleContext& around, const Place& place, HeldLease& held);
+    std::optional<core::MetresPerSecond> stop_speed(const VehicleContext& around, const Place& place,
                                                     HeldLease& held, Ledger& ledger) const;
-    void judge_lateral(const VehicleSurroundings& around, const Place& place, VehicleSettings& settings,
+    void judge_lateral(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                        Ledger& ledger);
-    std::optional<LaneRequest> judge_lane(const VehicleSurroundings& around, const Place& place,
-                                          HeldLease& held, Ledger& ledger) const;
+    std::optional<LaneRequest> judge_lane(const VehicleContext& around, const Place& place, HeldLease& held,
+                                          Ledger& ledger) const;
     void apply(const VehicleSettings& wanted, core::Seconds now, std::vector<traffic::Command>& commands);
     void apply_lane(const VehicleSettings& wanted, core::Seconds now,
                     std::vector<traffic::Command>& commands);

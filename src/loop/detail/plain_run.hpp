@@ -32,9 +32,8 @@ core::KeyedRandom random_of(const Order& job) {
     return core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{job.replication});
 }
 
-/// The sensor of a failure (sensing::failure_from) with exits `known` or `unknown`. Throws core::InputError
-/// for other words.
-std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, const std::string& exits,
+/// The sensor of a failure (sensing::failure_from). Throws core::InputError for another one.
+std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, sensing::Exits exits,
                                                 const core::KeyedRandom& random,
                                                 const sensing::SensorContext& context);
 

@@ -43,7 +43,7 @@ struct TraceHash::State {
         array(action.links);
         array(action.own_links);
     }
-    void operator()(const traffic::FavourLinks& action) { array(action.links); }
+    void operator()(const traffic::AdjustGreen& action) { array(action.links); }
     void operator()(const traffic::PassRed&) {}
     void operator()(core::VehicleKey vehicle) { value(vehicle.value); }
     void operator()(core::SignalIndex signal) { value(signal.value); }

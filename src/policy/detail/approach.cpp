@@ -60,8 +60,8 @@ std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicl
     return found;
 }
 
-std::size_t halted_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
-                         double halted_mps) {
+std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
+                        double halted_mps) {
     std::map<core::LaneIndex, std::size_t> by_lane;
     for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, core::Metres(distance_m))) {
         if (ahead.vehicle->state.speed_mps < halted_mps) ++by_lane[ahead.vehicle->state.lane];

@@ -25,8 +25,8 @@ std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicl
 
 /// Vehicles slower than `halted_mps` ahead on the way to a stop line `distance` away: on each edge the
 /// longest queue of its lanes.
-std::size_t halted_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
-                         double halted_mps);
+std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
+                        double halted_mps);
 
 /// Time to drive `distance` along the route at the speed the vehicle is allowed on each edge, s.
 double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);

@@ -138,7 +138,7 @@ void create_tables(Database& database, const FactorColumns& factors) {
                     "INTEGER)",
                     key_columns));
     database.execute(
-        fmt::format("CREATE TABLE failures ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
+        fmt::format("CREATE TABLE errors ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
 }
 
 /// An empty database in which a study begins.
@@ -163,15 +163,15 @@ struct DatabaseWriter::Tables {
                                                           1 + static_cast<int>(factors.names().size()))),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
           leases(database, "INSERT INTO leases VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
-          failures(database, "INSERT INTO failures VALUES (?, ?, ?, ?, ?, ?)") {}
+          errors(database, "INSERT INTO errors VALUES (?, ?, ?, ?, ?, ?)") {}
 
-    void add_failure(const experiment::RunKey& key, std::string_view outcome, std::string_view cause,
-                     std::string_view message) {
-        failures.add_key(key);
-        failures.add(outcome);
-        failures.add(cause);
-        failures.add(message);
-        failures.insert();
+    void add_error(const experiment::RunKey& key, std::string_view outcome, std::string_view cause,
+                   std::string_view message) {
+        errors.add_key(key);
+        errors.add(outcome);
+        errors.add(cause);
+        errors.add(message);
+        errors.insert();
     }
 
     Database database;
@@ -179,7 +179,7 @@ struct DatabaseWriter::Tables {
     Inserter runs;
     Inserter vehicles;
     Inserter leases;
-    Inserter failures;
+    Inserter errors;
 };
 
 DatabaseWriter::DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest)
@@ -245,12 +245,12 @@ void DatabaseWriter::add(const experiment::RunKey& key, const metrics::VehicleRo
     row.insert();
 }
 
-void DatabaseWriter::add(const FailureRecord& failure) {
-    tables_->add_failure(failure.key, "failed", name(failure.cause), failure.message);
+void DatabaseWriter::add(const RunError& error) {
+    tables_->add_error(error.key, "failed", name(error.cause), error.message);
 }
 
 void DatabaseWriter::add_missing(const experiment::RunKey& key) {
-    tables_->add_failure(key, "missing", "", "");
+    tables_->add_error(key, "missing", "", "");
 }
 
 void DatabaseWriter::finish() {

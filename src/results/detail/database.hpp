@@ -8,7 +8,7 @@
 namespace clearway::results::detail {
 
 /// Writes a study into one SQLite file, run by run: tables `study` (key, value), `runs`, `vehicles`,
-/// `failures`, with the columns of the CSV files. Written aside and renamed by `finish`; without it nothing
+/// `errors`, with the columns of the CSV files. Written aside and renamed by `finish`; without it nothing
 /// remains. All members throw core::EnvironmentError.
 class DatabaseWriter {
   public:
@@ -18,7 +18,7 @@ class DatabaseWriter {
     DatabaseWriter& operator=(const DatabaseWriter&) = delete;
 
     void add(const RunRecord& run);
-    void add(const FailureRecord& failure);
+    void add(const RunError& error);
     void add_missing(const experiment::RunKey& key);
     void finish();
 

@@ -218,34 +218,34 @@ RunTiming timing_from_json(const std::string& text, const std::string& where) {
     return timing;
 }
 
-std::string failure_to_json(const FailureRecord& failure) {
+std::string error_to_json(const RunError& error) {
     core::Json object;
-    write_key(object, failure.key);
-    object["cause"] = name(failure.cause);
-    object["message"] = failure.message;
-    object["exit_code"] = failure.exit_code;
-    object["signal"] = failure.signal;
-    object["attempts"] = failure.attempts;
-    object["log_tail"] = failure.log_tail;
-    object["command"] = failure.command;
+    write_key(object, error.key);
+    object["cause"] = name(error.cause);
+    object["message"] = error.message;
+    object["exit_code"] = error.exit_code;
+    object["signal"] = error.signal;
+    object["attempts"] = error.attempts;
+    object["log_tail"] = error.log_tail;
+    object["command"] = error.command;
     return core::to_text(object);
 }
 
-FailureRecord failure_from_json(const std::string& text, const std::string& where) {
+RunError error_from_json(const std::string& text, const std::string& where) {
     const core::Json object = core::parse_object(text, where);
-    FailureRecord failure;
+    RunError error;
     std::vector<core::Problem> problems;
     core::ObjectReader reader(object, where, problems);
-    read_key(reader, failure.key);
-    reader.read_name("cause", failure.cause, core::value_from<FailureCause>);
-    reader.read("message", failure.message);
-    reader.read("exit_code", failure.exit_code);
-    reader.read("signal", failure.signal);
-    reader.read("attempts", failure.attempts);
-    reader.read("log_tail", failure.log_tail);
-    reader.read_if_there("command", failure.command);
+    read_key(reader, error.key);
+    reader.read_name("cause", error.cause, core::value_from<ErrorCause>);
+    reader.read("message", error.message);
+    reader.read("exit_code", error.exit_code);
+    reader.read("signal", error.signal);
+    reader.read("attempts", error.attempts);
+    reader.read("log_tail", error.log_tail);
+    reader.read_if_there("command", error.command);
     if (!problems.empty()) throw core::InputError(problems);
-    return failure;
+    return error;
 }
 
 }  // namespace clearway::results::detail

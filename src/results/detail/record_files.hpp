@@ -25,7 +25,7 @@ std::string vehicle_cells(const metrics::VehicleRow& vehicle);
 
 std::string timing_to_json(const RunTiming& timing);
 RunTiming timing_from_json(const std::string& text, const std::string& where);
-std::string failure_to_json(const FailureRecord& failure);
-FailureRecord failure_from_json(const std::string& text, const std::string& where);
+std::string error_to_json(const RunError& error);
+RunError error_from_json(const std::string& text, const std::string& where);
 
 }  // namespace clearway::results::detail

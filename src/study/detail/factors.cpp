@@ -17,8 +17,8 @@ using Problems = std::vector<core::Problem>;
 
 constexpr const char* several = "set";
 constexpr const char* design_key = "design";
-const std::vector<std::string> condition_keys = {"bluelight", "engine",    "failure",
-                                                 "policy",    "predictor", "safety_checks"};
+const std::vector<std::string> condition_keys = {"bluelight", "traffic_model", "failure",
+                                                 "policy",    "predictor",     "safety_checks"};
 
 /// What a factor may be of: conditions, scenarios, several settings, or any component with settings.
 const std::vector<std::string>& groups() {
@@ -168,8 +168,9 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
     if (factor.key == "predictor") condition.predictor = value.text;
     if (factor.key == "policy")
         condition.policies = value.words.empty() ? std::vector{value.text} : value.words;
-    if (factor.key == "engine")
-        set_word(factor, value, core::value_from<experiment::Engine>, condition.engine, problems);
+    if (factor.key == "traffic_model")
+        set_word(factor, value, core::value_from<experiment::TrafficModel>, condition.traffic_model,
+                 problems);
     if (factor.key == "bluelight")
         set_word(factor, value, core::value_from<traffic::BlueLight>, condition.bluelight, problems);
     if (factor.key == "safety_checks")
@@ -308,8 +309,8 @@ experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assign
 bool is_varied(const experiment::ConditionSpec& condition) {
     experiment::ConditionSpec plain;
     plain.name = condition.name;
-    plain.engine = condition.engine;
-    return condition.engine != experiment::Engine::solo && condition != plain;
+    plain.traffic_model = condition.traffic_model;
+    return condition.traffic_model != experiment::TrafficModel::free_flow && condition != plain;
 }
 
 }  // namespace clearway::study::detail

@@ -189,22 +189,24 @@ void Commander::run(const traffic::SetSignalState& command) {
     require(
         command.state.find_first_not_of(signal_letters) == std::string::npos,
         fmt::format("signal '{}': '{}' has a letter other than {}", signal, command.state, signal_letters));
-    if (!own_programs_.contains(signal)) own_programs_.emplace(signal, sumo_.signal_program(signal));
+    if (!background_programs_.contains(signal))
+        background_programs_.emplace(signal, sumo_.signal_program(signal));
     sumo_.set_signal_state(signal, command.state);
 }
 
 void Commander::run(const traffic::RestoreProgram& command) {
     const std::string& signal = signal_name(command.signal);
-    const auto own = own_programs_.find(signal);
-    const std::string program = own == own_programs_.end() ? sumo_.signal_program(signal) : own->second;
+    const auto own = background_programs_.find(signal);
+    const std::string program =
+        own == background_programs_.end() ? sumo_.signal_program(signal) : own->second;
     if (command.phase) {
         const std::uint32_t phases = sumo_.phase_count(signal, program);
         require(*command.phase < phases,
                 fmt::format("signal '{}': program '{}' has {} phases, none with number {}", signal, program,
                             phases, *command.phase));
     }
-    if (own != own_programs_.end()) sumo_.set_signal_program(signal, program);
-    own_programs_.erase(signal);
+    if (own != background_programs_.end()) sumo_.set_signal_program(signal, program);
+    background_programs_.erase(signal);
     if (!command.phase) return;
     sumo_.set_signal_phase(signal, *command.phase);
     if (command.lasting) sumo_.set_signal_phase_duration(signal, command.lasting->value);

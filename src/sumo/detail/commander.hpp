@@ -61,7 +61,7 @@ class Commander {
     const NameTable& names_;
     traffic::LateralModel lateral_;
     double step_s_;
-    std::unordered_map<std::string, std::string> own_programs_;  ///< Of signals that show a set state.
+    std::unordered_map<std::string, std::string> background_programs_;  ///< Of signals that show a set state.
     std::uint64_t skipped_ = 0;
     std::uint64_t refused_ = 0;
 };

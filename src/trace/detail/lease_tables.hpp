@@ -123,7 +123,7 @@ class LeaseTables {
         } else if constexpr (std::is_same_v<Action, traffic::HoldGreen>) {
             members.links = number_list(action.links);
             members.own_links = number_list(action.own_links);
-        } else if constexpr (std::is_same_v<Action, traffic::FavourLinks>) {
+        } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
             members.links = number_list(action.links);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
@@ -141,7 +141,7 @@ class LeaseTables {
         } else if constexpr (std::is_same_v<Action, traffic::HoldGreen>) {
             action.links = numbers_from(members.links);
             action.own_links = numbers_from(members.own_links);
-        } else if constexpr (std::is_same_v<Action, traffic::FavourLinks>) {
+        } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
             action.links = numbers_from(members.links);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");

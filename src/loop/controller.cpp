@@ -1,4 +1,4 @@
-#include "loop/machinery.hpp"
+#include "loop/controller.hpp"
 
 #include <algorithm>
 
@@ -18,25 +18,26 @@ double yellow_s(double dry_s, double friction) {
 
 }  // namespace
 
-Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings) {
-    Machinery machinery;
-    machinery.chain = std::make_unique<pipeline::DecisionChain>(
-        condition, pipeline::ChainContext{.network = surroundings.network,
-                                          .random = surroundings.random,
-                                          .policy_period_s = surroundings.loop.policy_period_s,
-                                          .link_radius_m = surroundings.loop.link_radius_m});
+Controller make_controller(const experiment::ConditionSpec& condition, const ControllerContext& context) {
+    Controller controller;
+    controller.chain = std::make_unique<pipeline::DecisionChain>(
+        condition, pipeline::ChainContext{.network = context.network,
+                                          .random = context.random,
+                                          .policy_period_s = context.loop.policy_period_s,
+                                          .link_radius_m = context.loop.link_radius_m});
     actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
-    actuation.yellow_s = yellow_s(actuation.yellow_s, surroundings.friction);
-    if (!surroundings.has_pedestrians) actuation.walking_s = 0.0;
+    actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
+    if (!context.has_pedestrians) actuation.walking_s = 0.0;
     actuation.safety_checks = condition.safety_checks;
-    actuation.lateral_model = condition.engine == experiment::Engine::sublane ? traffic::LateralModel::sublane
-                                                                              : traffic::LateralModel::lane;
-    machinery.actuator = std::make_unique<actuation::Actuator>(surroundings.network, actuation);
-    const experiment::Sirens sirens = experiment::siren_config(condition, surroundings.siren);
+    actuation.lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
+                                  ? traffic::LateralModel::sublane
+                                  : traffic::LateralModel::lane;
+    controller.actuator = std::make_unique<actuation::Actuator>(context.network, actuation);
+    const experiment::Sirens sirens = experiment::siren_config(condition, context.siren);
     if (sirens.siren.compliance > 0.0)
-        machinery.siren = std::make_unique<drivers::Siren>(surroundings.network, surroundings.random,
-                                                           sirens.siren, sirens.reaction);
-    return machinery;
+        controller.siren =
+            std::make_unique<drivers::Siren>(context.network, context.random, sirens.siren, sirens.reaction);
+    return controller;
 }
 
 sumo::Names names_of(const roads::Network& network) {

@@ -1,4 +1,4 @@
-#include "prediction/road_ahead.hpp"
+#include "prediction/motion_context.hpp"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ class Outage {
 
     support::Scene& scene() { return scene_; }
 
-    RoadAhead after(double age_s, const char* dark, std::vector<traffic::DetectedLink> detected = {}) {
+    MotionContext after(double age_s, const char* dark, std::vector<traffic::DetectedLink> detected = {}) {
         see(support::perfect_observation(scene_));
         traffic::Observation now = testing::after_outage(scene_, age_s, {dark});
         now.detected_links = std::move(detected);
@@ -35,20 +35,20 @@ class Outage {
 
     support::Scene scene_;
     SceneBuilder scenes_;
-    RoadAheadBuilder builder_;
-    std::vector<RoadAhead> ahead_;
+    MotionContextBuilder builder_;
+    std::vector<MotionContext> ahead_;
 };
 
-TEST(RoadAhead, HoldsAVehicleAtARedLightAndNotAtAGreenOne) {
+TEST(MotionContext, HoldsAVehicleAtARedLightAndNotAtAGreenOne) {
     // a1's front is 75 m before the line and would be 25 m behind it after 5 s.
     Outage red(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a.......|r..........
         e.......|r..........
     )");
-    const RoadAhead held = red.after(5.0, "a1");
+    const MotionContext held = red.after(5.0, "a1");
     EXPECT_NEAR(held.line.distance_m, 75.0F, 0.01F);
-    EXPECT_EQ(held.line.letter, 'r');
+    EXPECT_EQ(held.line.state, 'r');
     EXPECT_TRUE(held.held_by_signal);
     EXPECT_NEAR(held.travelled_m, 100.0F, 0.01F);
     EXPECT_NEAR(held.displacement_m, 75.0F, 0.01F);
@@ -58,22 +58,22 @@ TEST(RoadAhead, HoldsAVehicleAtARedLightAndNotAtAGreenOne) {
         a.......|G..........
         e.......|r..........
     )");
-    const RoadAhead free = green.after(5.0, "a1");
+    const MotionContext free = green.after(5.0, "a1");
     EXPECT_FALSE(free.held_by_signal);
     EXPECT_NEAR(free.displacement_m, 100.0F, 0.01F);
     EXPECT_NEAR(free.place_at(free.displacement_m).x_m, 105.0F, 0.1F);
     EXPECT_FLOAT_EQ(free.direction_at(50.0F).x_m, 1.0F);
 }
 
-TEST(RoadAhead, TellsSinceWhenASignalShowsItsLetter) {
+TEST(MotionContext, TellsSinceWhenASignalShowsItsLetter) {
     Outage outage(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a.......|r..........
     )");
-    EXPECT_FLOAT_EQ(outage.after(5.0, "a1").line.letter_age_s, 5.0F);
+    EXPECT_FLOAT_EQ(outage.after(5.0, "a1").line.state_age_s, 5.0F);
 }
 
-TEST(RoadAhead, HoldsAVehicleBehindTheOneThatWasAheadOfIt) {
+TEST(MotionContext, HoldsAVehicleBehindTheOneThatWasAheadOfIt) {
     Outage outage(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a...h...............
@@ -81,7 +81,7 @@ TEST(RoadAhead, HoldsAVehicleBehindTheOneThatWasAheadOfIt) {
     )");
     outage.scene().set_speed("h1", core::MetresPerSecond(2.0));
     // h1 stands 40 m ahead and comes 10 m further; its rear is 5 m behind its front, the gap 2.5 m.
-    const RoadAhead ahead = outage.after(5.0, "a1");
+    const MotionContext ahead = outage.after(5.0, "a1");
     ASSERT_TRUE(ahead.leader.exists);
     EXPECT_TRUE(ahead.leader.known);
     EXPECT_NEAR(ahead.leader.distance_m, 50.0F, 0.01F);
@@ -90,7 +90,7 @@ TEST(RoadAhead, HoldsAVehicleBehindTheOneThatWasAheadOfIt) {
     EXPECT_FALSE(ahead.follower.exists);
 }
 
-TEST(RoadAhead, KnowsTheFollowerByWhatWasSeenBeforeTheOutage) {
+TEST(MotionContext, KnowsTheFollowerByWhatWasSeenBeforeTheOutage) {
     Outage outage(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         h..a................
@@ -98,13 +98,13 @@ TEST(RoadAhead, KnowsTheFollowerByWhatWasSeenBeforeTheOutage) {
     outage.scene().set_speed("a1", core::MetresPerSecond(0.0));
     outage.scene().set_speed("h1", core::MetresPerSecond(15.0));
     // h1 was 30 m behind and is now 45 m ahead of where a1 was seen: a1 must have gone on.
-    const RoadAhead ahead = outage.after(5.0, "a1");
+    const MotionContext ahead = outage.after(5.0, "a1");
     ASSERT_TRUE(ahead.follower.exists);
     EXPECT_NEAR(ahead.follower.distance_m, 45.0F, 0.01F);
     EXPECT_FALSE(ahead.leader.exists) << "who overtook by the map alone is no leader";
 }
 
-TEST(RoadAhead, DrawsAVehicleToWhereItsDetectionIsPossible) {
+TEST(MotionContext, DrawsAVehicleToWhereItsDetectionIsPossible) {
     Outage outage(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a...................
@@ -115,7 +115,7 @@ TEST(RoadAhead, DrawsAVehicleToWhereItsDetectionIsPossible) {
     const core::VehicleKey e1 = outage.scene().key("e1");
     const core::VehicleKey a1 = outage.scene().key("a1");
     // 140 m apart: presence pulls it to within 50 m, as far as 20 s allow; a range of 10 m further.
-    const RoadAhead near = outage.after(20.0, "a1", {{e1, a1, -1.0F, 0.0F}});
+    const MotionContext near = outage.after(20.0, "a1", {{e1, a1, -1.0F, 0.0F}});
     EXPECT_EQ(near.detections, 1u);
     EXPECT_GT(near.displacement_m, 70.0F);
     EXPECT_LT(near.displacement_m, 100.0F);
@@ -126,16 +126,16 @@ TEST(RoadAhead, DrawsAVehicleToWhereItsDetectionIsPossible) {
     )");
     ranged.scene().set_speed("a1", core::MetresPerSecond(0.0));
     ranged.scene().set_speed("e1", core::MetresPerSecond(0.0));
-    const RoadAhead measured = ranged.after(20.0, "a1", {{e1, a1, 10.0F, 1.0F}});
+    const MotionContext measured = ranged.after(20.0, "a1", {{e1, a1, 10.0F, 1.0F}});
     EXPECT_GT(measured.displacement_m, near.displacement_m + 10.0F);
 }
 
-TEST(RoadAhead, ReachesNoFurtherThanTheEndOfTheRoute) {
+TEST(MotionContext, ReachesNoFurtherThanTheEndOfTheRoute) {
     Outage outage(R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a.........
     )");
-    const RoadAhead ahead = outage.after(30.0, "a1");
+    const MotionContext ahead = outage.after(30.0, "a1");
     EXPECT_NEAR(ahead.route_left_m, 95.0F, 0.01F);
     EXPECT_NEAR(ahead.reach_m, 95.0F, 0.01F);
     EXPECT_NEAR(ahead.displacement_m, 95.0F, 0.01F);

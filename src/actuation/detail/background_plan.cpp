@@ -1,4 +1,4 @@
-#include "actuation/detail/own_program.hpp"
+#include "actuation/detail/background_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +37,13 @@ bool keeps_step(core::SignalIndex signal, const roads::Network& network) {
     });
 }
 
-OwnProgram::OwnProgram(const roads::Signal& signal, bool keeps_step)
+BackgroundPlan::BackgroundPlan(const roads::Signal& signal, bool keeps_step)
     : signal_(signal), keeps_step_(keeps_step) {
     for (const roads::Phase& phase : signal.program)
         cycle_s_ += phase.duration_s;
 }
 
-void OwnProgram::watch(const std::string& state, core::Seconds now) {
+void BackgroundPlan::watch(const std::string& state, core::Seconds now) {
     const bool is_new = state != state_;
     just_changed_ = is_new && !state_.empty();  // of what is shown at first sight nobody knows since when
     if (!is_new) return;
@@ -51,23 +51,23 @@ void OwnProgram::watch(const std::string& state, core::Seconds now) {
     since_ = now;
 }
 
-void OwnProgram::disturb(core::Seconds now) {
+void BackgroundPlan::disturb(core::Seconds now) {
     in_step_ = !keeps_step_ || cycle_s_ <= 0.0;
     disturbed_ = now;
 }
 
-bool OwnProgram::is_in_step(core::Seconds now) const {
+bool BackgroundPlan::is_in_step(core::Seconds now) const {
     return in_step_ || (now - disturbed_).value > most_cycles * cycle_s_;
 }
 
-std::optional<std::uint32_t> OwnProgram::next_after(core::Seconds least_green, core::Seconds now) const {
+std::optional<std::uint32_t> BackgroundPlan::next_after(core::Seconds least_green, core::Seconds now) const {
     if ((now - since_).value < least_green.value - time_tolerance_s) return std::nullopt;
     const auto phase = green_phase(signal_, state_);
     if (!phase) return std::nullopt;
     return (*phase + 1) % static_cast<std::uint32_t>(signal_.program.size());
 }
 
-std::optional<PhaseChange> OwnProgram::step_back(core::Seconds least_green, core::Seconds now) {
+std::optional<PhaseChange> BackgroundPlan::step_back(core::Seconds least_green, core::Seconds now) {
     if (in_step_ || !just_changed_) return std::nullopt;
     const auto phase = green_phase(signal_, state_);
     if (!phase) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<PhaseChange> OwnProgram::step_back(core::Seconds least_green, core
     return PhaseChange{*phase, core::Seconds(lasting_s)};
 }
 
-double OwnProgram::lag_s(std::uint32_t phase, core::Seconds now) const {
+double BackgroundPlan::lag_s(std::uint32_t phase, core::Seconds now) const {
     double starts_s = signal_.offset_s;
     for (std::uint32_t row = 0; row < phase; ++row)
         starts_s += signal_.program[row].duration_s;

@@ -7,9 +7,9 @@
 namespace clearway::testing {
 namespace {
 
-TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
+TEST(AdjustGreen, starts_the_program_where_most_of_its_links_are_served) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+    bench.offer(signal_a, traffic::AdjustGreen{west}, 60.0);
     std::vector<traffic::RestoreProgram> restored;
     for (int step = 0; step < 80; ++step) {
         if (step < 30) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
@@ -21,11 +21,11 @@ TEST(Favour, starts_the_program_where_most_of_its_links_are_served) {
     EXPECT_EQ(restored[0].phase, 2U);
 }
 
-TEST(Favour, starts_no_phase_of_a_program_that_another_has_replaced) {
+TEST(AdjustGreen, starts_no_phase_of_a_program_that_another_has_replaced) {
     for (const bool held : {true, false}) {
         ActuationBench bench;
         bench.self.program = "another";
-        bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+        bench.offer(signal_a, traffic::AdjustGreen{west}, 60.0);
         std::vector<traffic::RestoreProgram> restored;
         for (int step = 0; step < 80; ++step) {
             if (held && step < 30) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
@@ -36,22 +36,22 @@ TEST(Favour, starts_no_phase_of_a_program_that_another_has_replaced) {
         if (held) {
             EXPECT_FALSE(restored[0].phase.has_value()) << "by way of all red";
         }
-        EXPECT_EQ(bench.counts("part/favour_links").refused.at("unknown_program"), 1U);
+        EXPECT_EQ(bench.counts("part/adjust_green").refused.at("unknown_program"), 1U);
     }
 }
 
-TEST(Favour, of_what_is_green_needs_no_all_red_on_the_way_back) {
+TEST(AdjustGreen, of_what_is_green_needs_no_all_red_on_the_way_back) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::FavourLinks{north}, 60.0);
+    bench.offer(signal_a, traffic::AdjustGreen{north}, 60.0);
     const auto history = watch(bench, 20.0, hold_until(north, 8.0));
     for (const Shown& shown : history)
         EXPECT_EQ(shown.state[1], 'G') << "straight on from the north keeps its green at " << shown.from_s;
     EXPECT_EQ(history.back().state, history.front().state);
 }
 
-TEST(Favour, ends_a_green_that_serves_nobody_it_names_after_its_least_time) {
+TEST(AdjustGreen, ends_a_green_that_serves_nobody_it_names_after_its_least_time) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::FavourLinks{west}, 60.0);
+    bench.offer(signal_a, traffic::AdjustGreen{west}, 60.0);
     std::vector<std::pair<double, traffic::RestoreProgram>> sent;
     while (bench.now.value < 12.0) {
         for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
@@ -62,14 +62,14 @@ TEST(Favour, ends_a_green_that_serves_nobody_it_names_after_its_least_time) {
     EXPECT_EQ(sent[0].second.phase, 1U) << "the yellow of the program itself";
 }
 
-TEST(Favour, leaves_a_green_alone_that_serves_it) {
+TEST(AdjustGreen, leaves_a_green_alone_that_serves_it) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::FavourLinks{north}, 60.0);
+    bench.offer(signal_a, traffic::AdjustGreen{north}, 60.0);
     while (bench.now.value < 40.0)
         EXPECT_TRUE(bench.only<traffic::RestoreProgram>(bench.step()).empty());
 }
 
-TEST(Favour, leaves_a_program_of_fixed_times_in_step_in_the_end) {
+TEST(AdjustGreen, leaves_a_program_of_fixed_times_in_step_in_the_end) {
     ActuationBench bench;
     const roads::Signal& signal = two_crossings().signal(signal_a);
     std::size_t phase = 0;
@@ -78,7 +78,7 @@ TEST(Favour, leaves_a_program_of_fixed_times_in_step_in_the_end) {
     double cycle_began_s = 0.0;
     while (bench.now.value < 700.0) {
         if (bench.now.value < 20.0) bench.offer(signal_a, traffic::HoldGreen{west}, 2.0);
-        if (bench.now.value < 60.0) bench.offer(signal_a, traffic::FavourLinks{north}, 2.0);
+        if (bench.now.value < 60.0) bench.offer(signal_a, traffic::AdjustGreen{north}, 2.0);
         for (const traffic::Command& command : bench.step()) {
             if (std::holds_alternative<traffic::SetSignalState>(command)) in_program = false;
             const auto* restore = std::get_if<traffic::RestoreProgram>(&command);
@@ -99,14 +99,14 @@ TEST(Favour, leaves_a_program_of_fixed_times_in_step_in_the_end) {
     EXPECT_NEAR(std::remainder(cycle_began_s, 90.0), 0.0, 1.0) << "cycles begin at multiples of 90 s";
 }
 
-TEST(Favour, that_lapses_while_it_waits_for_a_gap_leaves_the_next_one_its_own_wait) {
+TEST(AdjustGreen, that_lapses_while_it_waits_for_a_gap_leaves_the_next_one_its_own_wait) {
     ActuationBench bench;
     bench.add({"h", traffic::VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 289.6 - 10.0, 8.0});
     double ended_s = 0.0;
     while (bench.now.value < 40.0 && ended_s == 0.0) {
         const double now_s = bench.now.value;
         const bool wants_west = now_s < 11.0 || now_s >= 30.0;
-        bench.offer(signal_a, traffic::FavourLinks{wants_west ? west : north}, 0.4);
+        bench.offer(signal_a, traffic::AdjustGreen{wants_west ? west : north}, 0.4);
         for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
             if (restore.phase == 1U) ended_s = bench.now.value;
     }

@@ -40,16 +40,16 @@ struct VehicleOnWay {
 
 /// A stop line with a signal on the way.
 struct LineOnWay {
-    float distance_m = -1.0F;   ///< Negative: there is none.
-    char letter = 0;            ///< What the vehicle's link shows there (SUMO's letter).
-    float letter_age_s = 0.0F;  ///< Since when, as far as was seen.
+    float distance_m = -1.0F;  ///< Negative: there is none.
+    char state = 0;            ///< What the vehicle's link shows there (SUMO's letter).
+    float state_age_s = 0.0F;  ///< Since when, as far as was seen.
 
     bool exists() const { return distance_m >= 0.0F; }
 };
 
 /// What route, map, signals and other reports say of a vehicle that was not heard just now. Displacements
 /// count along its route from where it was last seen.
-struct RoadAhead {
+struct MotionContext {
     std::uint32_t row = 0;      ///< Of the scene's tracks.
     float reach_m = 0.0F;       ///< It cannot have come further. > 0.
     float route_left_m = 0.0F;  ///< To the end of its route; at most `route_horizon_m` beyond the reach.
@@ -64,7 +64,7 @@ struct RoadAhead {
     float free_flow_m = 0.0F;     ///< At the speed limits of the lanes on its way, at most `reach_m`.
     float sigma_m = 0.0F;         ///< Standard deviation of the place where it was last seen, filtered.
     bool has_left = false;        ///< Past the end of its route, where no detector tells of exits.
-    float displacement_m = 0.0F;  ///< By the rule: see `RoadAheadBuilder`.
+    float displacement_m = 0.0F;  ///< By the rule: see `MotionContextBuilder`.
     bool held_by_signal = false;
     bool held_by_leader = false;
     std::uint32_t detections = 0;  ///< Neighbours with known places that still detect it.
@@ -75,7 +75,7 @@ struct RoadAhead {
 
 inline constexpr float route_horizon_m = 200.0F;
 
-/// Finds the `RoadAhead` of all vehicles that are not known, and says where the rule puts them:
+/// Finds the `MotionContext` of all vehicles that are not known, and says where the rule puts them:
 ///
 ///   1. it went on at its reported speed along its route (dead reckoning) from where it was last seen; noisy
 ///      places are filtered first (motion_filter.hpp),
@@ -88,13 +88,14 @@ inline constexpr float route_horizon_m = 200.0F;
 ///
 /// Keeps what reports do not repeat: who followed whom, mean speeds, since when a signal shows its letter.
 /// Call it with every observation, in order. One builder, one thread; no allocation once buffers have grown.
-class RoadAheadBuilder {
+class MotionContextBuilder {
   public:
     /// `network` outlives the builder.
-    RoadAheadBuilder(const roads::Network& network, const graph::LinkRules& rules);
+    MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules);
 
     /// `scene` was built from `observation`. `ahead` gets one entry a row that is not known, by row.
-    void build(const traffic::Observation& observation, const Scene& scene, std::vector<RoadAhead>& ahead);
+    void build(const traffic::Observation& observation, const Scene& scene,
+               std::vector<MotionContext>& ahead);
 
     /// Mean speed of the known vehicles in the lane of each row's last report, m/s; negative without any.
     const std::vector<float>& lane_speed_mps() const { return lane_speed_mps_; }
@@ -132,30 +133,30 @@ class RoadAheadBuilder {
     void remember(const traffic::Observation& observation, const Tracks& tracks);
     static void filter_report(const traffic::MotionState& seen, float sigma_m, double report_s, bool is_new,
                               Memory& memory);
-    void find_lines(const traffic::Observation& observation, RoadAhead& ahead) const;
+    void find_lines(const traffic::Observation& observation, MotionContext& ahead) const;
     void watch_signals(const traffic::Observation& observation);
-    void look_ahead(const traffic::Observation& observation, const Tracks& tracks, RoadAhead& ahead);
-    void lay_path(const Tracks& tracks, RoadAhead& ahead) const;
-    void list_places(const Tracks& tracks, const std::vector<RoadAhead>& ahead);
+    void look_ahead(const traffic::Observation& observation, const Tracks& tracks, MotionContext& ahead);
+    void lay_path(const Tracks& tracks, MotionContext& ahead) const;
+    void list_places(const Tracks& tracks, const std::vector<MotionContext>& ahead);
     void sort_places();
     void note_neighbours(const traffic::Observation& observation, const Tracks& tracks);
     core::VehicleKey leader_before(const traffic::Observation& observation, const Tracks& tracks,
                                    const LanePlace& place);
     void find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
-                         std::vector<RoadAhead>& ahead);
-    void hold_behind_leaders(std::vector<RoadAhead>& ahead) const;
-    void follow_detections(const Scene& scene, std::vector<RoadAhead>& ahead);
+                         std::vector<MotionContext>& ahead);
+    void hold_behind_leaders(std::vector<MotionContext>& ahead) const;
+    void follow_detections(const Scene& scene, std::vector<MotionContext>& ahead);
     void measure_lane_speeds(const Tracks& tracks);
     VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks,
-                        const std::vector<RoadAhead>& ahead, core::VehicleKey key,
+                        const std::vector<MotionContext>& ahead, core::VehicleKey key,
                         std::span<const roads::RouteStep> steps) const;
     std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) const;
 
     const roads::Network& network_;
     graph::LinkRules rules_;
     std::vector<Memory> memories_, old_memories_;  ///< One a row, by key.
-    std::vector<std::string> letters_;
-    std::vector<std::vector<double>> letter_since_s_;
+    std::vector<std::string> signal_states_;
+    std::vector<std::vector<double>> signal_state_since_s_;
     std::vector<roads::RouteStep> steps_, walked_;
     std::vector<Steps> steps_of_;
     std::vector<std::uint32_t> ahead_of_row_;  ///< Entry of `ahead`, or the number of rows.
@@ -171,7 +172,7 @@ namespace detail {
 
 /// The state of a vehicle after a displacement: on its lane along its route, at the place of the path.
 traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
-                                 const Tracks& tracks, const RoadAhead& ahead, float displacement_m);
+                                 const Tracks& tracks, const MotionContext& ahead, float displacement_m);
 
 }  // namespace detail
 

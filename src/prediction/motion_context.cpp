@@ -1,4 +1,4 @@
-#include "prediction/road_ahead.hpp"
+#include "prediction/motion_context.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,11 +80,11 @@ roads::Point Path::direction_at(float displacement_m, float reach_m) const {
     return {x_m / length_m, y_m / length_m};
 }
 
-RoadAheadBuilder::RoadAheadBuilder(const roads::Network& network, const graph::LinkRules& rules)
+MotionContextBuilder::MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules)
     : network_(network), rules_(rules) {}
 
-void RoadAheadBuilder::build(const traffic::Observation& observation, const Scene& scene,
-                             std::vector<RoadAhead>& ahead) {
+void MotionContextBuilder::build(const traffic::Observation& observation, const Scene& scene,
+                                 std::vector<MotionContext>& ahead) {
     const Tracks& tracks = scene.tracks;
     remember(observation, tracks);
     watch_signals(observation);
@@ -95,7 +95,7 @@ void RoadAheadBuilder::build(const traffic::Observation& observation, const Scen
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         if (tracks.known[row] != 0) continue;
         ahead_of_row_[row] = static_cast<std::uint32_t>(ahead.size());
-        RoadAhead& entry = ahead.emplace_back();
+        MotionContext& entry = ahead.emplace_back();
         entry.row = row;
         look_ahead(observation, tracks, entry);
     }
@@ -117,14 +117,14 @@ void RoadAheadBuilder::build(const traffic::Observation& observation, const Scen
     places_before_sorted_ = false;
 }
 
-std::uint32_t RoadAheadBuilder::row_of(const Tracks& tracks, core::VehicleKey key) const {
+std::uint32_t MotionContextBuilder::row_of(const Tracks& tracks, core::VehicleKey key) const {
     const auto found = std::ranges::lower_bound(tracks.key, key);
     return found != tracks.key.end() && *found == key ? static_cast<std::uint32_t>(found - tracks.key.begin())
                                                       : static_cast<std::uint32_t>(tracks.size());
 }
 
 /// Both lists are ordered by key.
-void RoadAheadBuilder::remember(const traffic::Observation& observation, const Tracks& tracks) {
+void MotionContextBuilder::remember(const traffic::Observation& observation, const Tracks& tracks) {
     std::swap(memories_, old_memories_);
     memories_.clear();
     auto old = old_memories_.begin();
@@ -147,8 +147,8 @@ void RoadAheadBuilder::remember(const traffic::Observation& observation, const T
 }
 
 /// A place without error needs no filter: what came before adds nothing to it.
-void RoadAheadBuilder::filter_report(const traffic::MotionState& seen, float sigma_m, double report_s,
-                                     bool is_new, Memory& memory) {
+void MotionContextBuilder::filter_report(const traffic::MotionState& seen, float sigma_m, double report_s,
+                                         bool is_new, Memory& memory) {
     constexpr FilterNoise noise;
     if (is_new || sigma_m == 0.0F) {
         start(seen, sigma_m, noise, memory.seen);
@@ -157,24 +157,24 @@ void RoadAheadBuilder::filter_report(const traffic::MotionState& seen, float sig
     prediction::follow(seen, sigma_m, static_cast<float>(report_s - memory.report_s), noise, memory.seen);
 }
 
-void RoadAheadBuilder::watch_signals(const traffic::Observation& observation) {
+void MotionContextBuilder::watch_signals(const traffic::Observation& observation) {
     const std::vector<std::string>& states = observation.signals.state;
-    letters_.resize(states.size());
-    letter_since_s_.resize(states.size());
+    signal_states_.resize(states.size());
+    signal_state_since_s_.resize(states.size());
     for (std::size_t signal = 0; signal < states.size(); ++signal) {
-        if (letters_[signal] == states[signal]) continue;
-        letter_since_s_[signal].resize(states[signal].size(), observation.time.value);
+        if (signal_states_[signal] == states[signal]) continue;
+        signal_state_since_s_[signal].resize(states[signal].size(), observation.time.value);
         for (std::size_t link = 0; link < states[signal].size(); ++link) {
             const bool same =
-                link < letters_[signal].size() && letters_[signal][link] == states[signal][link];
-            if (!same) letter_since_s_[signal][link] = observation.time.value;
+                link < signal_states_[signal].size() && signal_states_[signal][link] == states[signal][link];
+            if (!same) signal_state_since_s_[signal][link] = observation.time.value;
         }
-        letters_[signal] = states[signal];
+        signal_states_[signal] = states[signal];
     }
 }
 
-void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const Tracks& tracks,
-                                  RoadAhead& ahead) {
+void MotionContextBuilder::look_ahead(const traffic::Observation& observation, const Tracks& tracks,
+                                      MotionContext& ahead) {
     const std::uint32_t row = ahead.row;
     const traffic::MotionState& last = tracks.last[row];
     const float age_s = tracks.age_s[row];
@@ -203,7 +203,7 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
     lay_path(tracks, ahead);
     ahead.travelled_m = std::min(last.speed_mps * age_s, ahead.reach_m);
     ahead.displacement_m = ahead.travelled_m;
-    ahead.held_by_signal = ahead.line.exists() && !traffic::is_green(ahead.line.letter) &&
+    ahead.held_by_signal = ahead.line.exists() && !traffic::is_green(ahead.line.state) &&
                            ahead.line.distance_m < ahead.displacement_m;
     if (ahead.held_by_signal) {
         ahead.displacement_m = ahead.line.distance_m;
@@ -212,12 +212,12 @@ void RoadAheadBuilder::look_ahead(const traffic::Observation& observation, const
 }
 
 /// On the lanes of `walked_`.
-void RoadAheadBuilder::find_lines(const traffic::Observation& observation, RoadAhead& ahead) const {
+void MotionContextBuilder::find_lines(const traffic::Observation& observation, MotionContext& ahead) const {
     for (const roads::RouteStep& step : walked_) {
         if (!step.signal.exists() || step.end_m < 0.0F) continue;
         const std::string& letters = observation.signals.state[step.signal.value];
         if (step.signal_link >= letters.size()) continue;
-        const double since_s = letter_since_s_[step.signal.value][step.signal_link];
+        const double since_s = signal_state_since_s_[step.signal.value][step.signal_link];
         const LineOnWay line{step.end_m, letters[step.signal_link],
                              static_cast<float>(observation.time.value - since_s)};
         if (ahead.line.exists()) {
@@ -228,7 +228,7 @@ void RoadAheadBuilder::find_lines(const traffic::Observation& observation, RoadA
     }
 }
 
-void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
+void MotionContextBuilder::lay_path(const Tracks& tracks, MotionContext& ahead) const {
     const traffic::MotionState& last = tracks.last[ahead.row];
     const auto& [seen_x_m, seen_y_m, vx_mps, vy_mps] = memories_[ahead.row].seen.mean;
     const float spacing_m = ahead.reach_m / static_cast<float>(path_points - 1);
@@ -255,7 +255,7 @@ void RoadAheadBuilder::lay_path(const Tracks& tracks, RoadAhead& ahead) const {
     }
 }
 
-void RoadAheadBuilder::list_places(const Tracks& tracks, const std::vector<RoadAhead>& ahead) {
+void MotionContextBuilder::list_places(const Tracks& tracks, const std::vector<MotionContext>& ahead) {
     place_of_row_.resize(tracks.size());
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         LanePlace& place = place_of_row_[row];
@@ -273,14 +273,14 @@ void RoadAheadBuilder::list_places(const Tracks& tracks, const std::vector<RoadA
     }
 }
 
-void RoadAheadBuilder::sort_places() {
+void MotionContextBuilder::sort_places() {
     lane_places_.clear();
     std::ranges::copy_if(place_of_row_, std::back_inserter(lane_places_),
                          [](const LanePlace& place) { return place.lane.exists(); });
     std::ranges::sort(lane_places_);
 }
 
-void RoadAheadBuilder::measure_lane_speeds(const Tracks& tracks) {
+void MotionContextBuilder::measure_lane_speeds(const Tracks& tracks) {
     lane_speed_mps_.assign(tracks.size(), -1.0F);
     for (auto begin = lane_places_.begin(); begin != lane_places_.end();) {
         auto end = begin;
@@ -298,8 +298,8 @@ void RoadAheadBuilder::measure_lane_speeds(const Tracks& tracks) {
 }
 
 /// Who was next ahead in the same lane at the call before, or on the lanes that the route takes behind it.
-core::VehicleKey RoadAheadBuilder::leader_before(const traffic::Observation& observation,
-                                                 const Tracks& tracks, const LanePlace& place) {
+core::VehicleKey MotionContextBuilder::leader_before(const traffic::Observation& observation,
+                                                     const Tracks& tracks, const LanePlace& place) {
     auto next = std::ranges::upper_bound(places_before_, place);
     if (next != places_before_.end() && next->key == place.key) ++next;
     if (next != places_before_.end() && next->lane == place.lane) return next->key;
@@ -317,7 +317,7 @@ core::VehicleKey RoadAheadBuilder::leader_before(const traffic::Observation& obs
 }
 
 /// For those that fell silent now: who was before and behind them when they were last heard.
-void RoadAheadBuilder::note_neighbours(const traffic::Observation& observation, const Tracks& tracks) {
+void MotionContextBuilder::note_neighbours(const traffic::Observation& observation, const Tracks& tracks) {
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         Memory& memory = memories_[row];
         if (tracks.known[row] != 0 || memory.neighbours_noted) continue;
@@ -342,9 +342,9 @@ void RoadAheadBuilder::note_neighbours(const traffic::Observation& observation, 
 }
 
 // NOLINTNEXTLINE(readability-function-size): whose way, who on it, and what is believed of all
-VehicleOnWay RoadAheadBuilder::on_way(const traffic::Observation& observation, const Tracks& tracks,
-                                      const std::vector<RoadAhead>& ahead, core::VehicleKey key,
-                                      std::span<const roads::RouteStep> steps) const {
+VehicleOnWay MotionContextBuilder::on_way(const traffic::Observation& observation, const Tracks& tracks,
+                                          const std::vector<MotionContext>& ahead, core::VehicleKey key,
+                                          std::span<const roads::RouteStep> steps) const {
     if (key.value == 0) return {};
     const std::uint32_t row = row_of(tracks, key);
     if (row == tracks.size() || !place_of_row_[row].lane.exists()) return {};
@@ -365,8 +365,8 @@ VehicleOnWay RoadAheadBuilder::on_way(const traffic::Observation& observation, c
     return {};
 }
 
-void RoadAheadBuilder::find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
-                                       std::vector<RoadAhead>& ahead) {
+void MotionContextBuilder::find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
+                                           std::vector<MotionContext>& ahead) {
     for (std::size_t entry = 0; entry < ahead.size(); ++entry) {
         const std::span steps = std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
         const Memory& memory = memories_[ahead[entry].row];
@@ -375,9 +375,9 @@ void RoadAheadBuilder::find_neighbours(const traffic::Observation& observation, 
     }
 }
 
-void RoadAheadBuilder::hold_behind_leaders(std::vector<RoadAhead>& ahead) const {
+void MotionContextBuilder::hold_behind_leaders(std::vector<MotionContext>& ahead) const {
     constexpr float minimum_gap_m = 2.5F;
-    for (RoadAhead& entry : ahead) {
+    for (MotionContext& entry : ahead) {
         if (!entry.leader.exists) continue;
         const float room_m = entry.leader.distance_m - entry.leader.length_m - minimum_gap_m;
         const float free_m = entry.held_by_signal ? entry.line.distance_m : entry.travelled_m;
@@ -386,7 +386,7 @@ void RoadAheadBuilder::hold_behind_leaders(std::vector<RoadAhead>& ahead) const 
     }
 }
 
-void RoadAheadBuilder::follow_detections(const Scene& scene, std::vector<RoadAhead>& ahead) {
+void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<MotionContext>& ahead) {
     const Tracks& tracks = scene.tracks;
     detections_.clear();
     for (std::size_t at = 0; at < scene.detected.size(); ++at) {
@@ -414,7 +414,7 @@ void RoadAheadBuilder::follow_detections(const Scene& scene, std::vector<RoadAhe
         const auto end = std::find_if(begin, detections_.end(), [&](const Detection& detection) {
             return detection.row != begin->row;
         });
-        RoadAhead& entry = ahead[ahead_of_row_[begin->row]];
+        MotionContext& entry = ahead[ahead_of_row_[begin->row]];
         entry.detections = static_cast<std::uint32_t>(end - begin);
         const float scale_m = 1.0F + speed_change_mps * tracks.age_s[entry.row];
         const auto cost = [&](float displacement_m) {
@@ -443,7 +443,7 @@ void RoadAheadBuilder::follow_detections(const Scene& scene, std::vector<RoadAhe
 namespace detail {
 
 traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
-                                 const Tracks& tracks, const RoadAhead& ahead, float displacement_m) {
+                                 const Tracks& tracks, const MotionContext& ahead, float displacement_m) {
     traffic::MotionState state = tracks.last[ahead.row];
     const traffic::VehicleInfo* const info = info_of(observation, tracks.key[ahead.row]);
     if (on_route(info, state)) {

@@ -19,14 +19,14 @@ struct PhaseChange {
 /// stands within 800 m, up to where signals are usually coordinated (MUTCD 2009, section 4D.17: half a mile).
 bool keeps_step(core::SignalIndex signal, const roads::Network& network);
 
-/// What a signal's own program does while nothing is held: which phase it is in, since when, and what would
-/// bring it back into step with its neighbours after it was started at a phase of ours.
-class OwnProgram {
+/// What a signal's background plan does while nothing is held: which phase it is in, since when, and what
+/// would bring it back into step with its neighbours after it was started at a phase of ours.
+class BackgroundPlan {
   public:
     /// The signal outlives the object; `keeps_step`: see above.
-    OwnProgram(const roads::Signal& signal, bool keeps_step);
+    BackgroundPlan(const roads::Signal& signal, bool keeps_step);
 
-    /// What the signal shows while its own program runs.
+    /// What the signal shows while its background plan runs.
     void watch(const std::string& state, core::Seconds now);
     /// It was started at a phase, out of turn.
     void disturb(core::Seconds now);
@@ -50,7 +50,7 @@ class OwnProgram {
     const roads::Signal& signal_;
     bool keeps_step_ = false;
     double cycle_s_ = 0.0;
-    std::string state_;  ///< Empty while another than the own program runs.
+    std::string state_;  ///< Empty while another than the background plan runs.
     core::Seconds since_;
     bool in_step_ = true;
     core::Seconds disturbed_;

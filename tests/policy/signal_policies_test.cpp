@@ -150,7 +150,7 @@ TEST(RecoverSignals, favours_those_who_stand_where_the_next_green_serves_most) {
     scene.add({"h3", VehicleClass::human, {"south_a_A", "A_north_a"}, 1, 285.0, 0.0});
     const auto leases = act(part, scene);
     ASSERT_EQ(leases.size(), 1U);
-    EXPECT_EQ(std::get<traffic::FavourLinks>(leases[0].action).links,
+    EXPECT_EQ(std::get<traffic::AdjustGreen>(leases[0].action).links,
               (std::vector<std::uint16_t>{0, 1, 10, 11}));
 }
 
@@ -172,7 +172,7 @@ TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_mo
     for (int number = 1; number <= 5; ++number)
         scene.add(
             {"h" + std::to_string(number), VehicleClass::human, eastbound, 0, 490.0 - 8.0 * number, 0.0});
-    const auto served = [&] { return std::get<traffic::FavourLinks>(act(part, scene).front().action).links; };
+    const auto served = [&] { return std::get<traffic::AdjustGreen>(act(part, scene).front().action).links; };
     EXPECT_EQ(served().front(), 0U) << "one and the worth of a change against five";
     scene.add({"h6", VehicleClass::human, eastbound, 0, 440.0, 0.0});
     EXPECT_GE(served().front(), 12U);

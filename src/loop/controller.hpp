@@ -8,7 +8,7 @@
 namespace clearway::loop {
 
 /// What every condition of a worker shares; references outlive what is made from it.
-struct Surroundings {
+struct ControllerContext {
     const roads::Network& network;
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
@@ -19,7 +19,7 @@ struct Surroundings {
 
 /// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for names and settings
 /// that do not exist.
-Machinery make_machinery(const experiment::ConditionSpec& condition, const Surroundings& surroundings);
+Controller make_controller(const experiment::ConditionSpec& condition, const ControllerContext& context);
 
 /// The names that a session of this network speaks in indices of.
 sumo::Names names_of(const roads::Network& network);
