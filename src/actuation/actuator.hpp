@@ -56,7 +56,7 @@ class Actuator {
     Actuator(const Actuator&) = delete;
     Actuator& operator=(const Actuator&) = delete;
 
-    /// Takes new leases and renewals. A lease of the same part for the same target, beneficiary and kind of
+    /// Takes new leases and renewals. A lease of the same policy for the same target, beneficiary and kind of
     /// thing renews the running one. Leases for the `unreachable` vehicles (ordered by key) are refused, so
     /// that those running there expire.
     void accept(std::span<const traffic::Lease> leases, core::Seconds now,
@@ -72,7 +72,7 @@ class Actuator {
 
     /// Number of leases in force, waiting ones included.
     std::size_t active() const;
-    /// By `part/action`.
+    /// By `policy/action`.
     const std::map<std::string, LeaseCounts>& counts() const;
 
   private:

@@ -6,11 +6,11 @@
 
 namespace clearway::actuation {
 
-/// What became of the leases of one part and action.
+/// What became of the leases of one policy and action.
 struct LeaseCounts {
     std::uint64_t issued = 0;  ///< New leases, refused ones included, renewals not.
     std::uint64_t renewed =
-        0;  ///< Leases that prolonged or changed one of the same part, target and beneficiary.
+        0;  ///< Leases that prolonged or changed one of the same policy, target and beneficiary.
     std::uint64_t acted = 0;  ///< Leases that were carried out for a step at least.
     std::uint64_t expired =
         0;  ///< Ended by themselves: by time, or because the lane they named was left behind.

@@ -191,7 +191,7 @@ void count_outcomes(const Runs& runs, ConditionSummary& summary) {
 void add_leases(const std::vector<metrics::LeaseRow>& more, std::vector<metrics::LeaseRow>& total) {
     for (const metrics::LeaseRow& row : more) {
         auto place = std::ranges::find_if(total, [&](const metrics::LeaseRow& known) {
-            return known.part == row.part && known.action == row.action;
+            return known.policy == row.policy && known.action == row.action;
         });
         if (place == total.end()) {
             total.push_back(row);
@@ -213,7 +213,7 @@ std::optional<std::vector<metrics::LeaseRow>> leases_of(const Runs& runs) {
     }
     if (total) {
         std::ranges::sort(*total, {},
-                          [](const metrics::LeaseRow& row) { return std::tie(row.part, row.action); });
+                          [](const metrics::LeaseRow& row) { return std::tie(row.policy, row.action); });
     }
     return total;
 }

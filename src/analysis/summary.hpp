@@ -98,7 +98,7 @@ struct ConditionSummary {
     OutcomeCounts emergency;
     OutcomeCounts others;
     Objections objections;  ///< Against the baseline; nothing for baselines and solo.
-    /// Leases over all complete runs, by part, then action. Nothing where no run has them by action.
+    /// Leases over all complete runs, by policy, then action. Nothing where no run has them by action.
     std::optional<std::vector<metrics::LeaseRow>> leases;
     TravelTimeTail travel_time;
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.

@@ -37,7 +37,7 @@ core::Json to_json(const ConditionSpec& condition) {
     object["name"] = condition.name;
     object["failure"] = condition.failure;
     object["predictor"] = condition.predictor;
-    object["parts"] = condition.policies;
+    object["policies"] = condition.policies;
     object["traffic_model"] = experiment::name(condition.traffic_model);
     object["safety_checks"] = experiment::name(condition.safety_checks);
     write_settings(condition.settings, object);
@@ -55,7 +55,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     reader.read("name", condition.name);
     reader.read("failure", condition.failure);
     reader.read("predictor", condition.predictor);
-    reader.read("parts", condition.policies);
+    reader.read("policies", condition.policies);
     reader.read_name("traffic_model", condition.traffic_model, core::value_from<TrafficModel>);
     reader.read_name("safety_checks", condition.safety_checks, core::value_from<traffic::SafetyChecks>);
     read_settings(reader, condition.settings);

@@ -56,12 +56,12 @@ sumo::Names names_of(const roads::Network& network) {
 
 metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
     metrics::LeaseTotals totals;
-    for (const auto& [part, counts] : actuator.counts()) {
+    for (const auto& [key, counts] : actuator.counts()) {
         totals.issued += counts.issued;
         totals.renewed += counts.renewed;
         totals.expired += counts.expired;
-        const std::size_t slash = part.find('/');
-        totals.rows.push_back({part.substr(0, slash), part.substr(slash + 1), counts.issued, counts.renewed,
+        const std::size_t slash = key.find('/');
+        totals.rows.push_back({key.substr(0, slash), key.substr(slash + 1), counts.issued, counts.renewed,
                                counts.acted, counts.expired, counts.refused});
         for (const auto& [reason, refused] : counts.refused) {
             totals.refused += refused;

@@ -9,9 +9,9 @@
 
 namespace clearway::metrics {
 
-/// What became of the leases of one part of a policy and one action in a run.
+/// What became of the leases of one policy and one action in a run.
 struct LeaseRow {
-    std::string part;
+    std::string policy;
     std::string action;  ///< As traffic::name says: `change_lane`, ...
     std::uint64_t issued = 0;
     std::uint64_t renewed = 0;
@@ -29,7 +29,7 @@ struct LeaseRow {
         return sum;
     }
 
-    /// The numbers; part and action stand before them, refusals by reason after them.
+    /// The numbers; policy and action stand before them, refusals by reason after them.
     static constexpr auto fields() {
         using R = LeaseRow;
         using core::Field;

@@ -32,7 +32,7 @@ struct LeaseTotals {
     std::uint64_t renewed = 0;
     std::uint64_t refused = 0;
     std::uint64_t expired = 0;
-    std::vector<LeaseRow> rows = {};  ///< The same by part and action.
+    std::vector<LeaseRow> rows = {};  ///< The same by policy and action.
 
     bool operator==(const LeaseTotals&) const = default;
 };
@@ -252,7 +252,7 @@ struct RunSummary {
     std::vector<VehicleRow> vehicles;  ///< By planned departure, then id.
     std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
     TrafficTables traffic;             ///< Empty unless the recorder watched.
-    std::vector<LeaseRow> leases;      ///< By part, then action; those that were used alone.
+    std::vector<LeaseRow> leases;      ///< By policy, then action; those that were used alone.
 };
 
 }  // namespace clearway::metrics

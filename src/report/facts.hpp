@@ -223,7 +223,7 @@ inline constexpr std::size_t distribution_points = 200;  // as many as a figure 
 struct ConditionFacts {
     std::string name;
     std::string title;       ///< As in the dissertation where it has the condition, else the name.
-    std::string recipe;      ///< Failure, predictor and policy parts, in words.
+    std::string recipe;      ///< Failure, predictor and policies, in words.
     core::Settings factors;  ///< Of the study, `failure.dark_share` -> `0.3`; those of the scenario too.
     /// Index in the scenario of the condition that it is compared with (same traffic model). Empty for a
     /// baseline and for EVs alone on the road, which are a floor and not a condition to judge.

@@ -32,7 +32,7 @@ struct FailureLine {
 /// Benefit against failure: what is left of a policy's benefit when vehicles are dark a share of the time.
 struct FailureCurve {
     std::string scenario;
-    std::string policy;   ///< Parts, joined by ` + `.
+    std::string policy;   ///< Names, joined by ` + `.
     std::string failure;  ///< What the failures of all points have in common, as `mean_outage_s=10`.
     std::vector<FailureLine> lines;  ///< In the order of the study; `perfect` sensing last, at every share.
 };

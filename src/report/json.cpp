@@ -97,7 +97,7 @@ Json to_json(const analysis::Objections& objections) {
 Json to_json(const std::vector<metrics::LeaseRow>& leases) {
     Json rows = Json::array();
     for (const metrics::LeaseRow& lease : leases) {
-        rows.push_back({{"part", lease.part},
+        rows.push_back({{"policy", lease.policy},
                         {"action", lease.action},
                         {"issued", lease.issued},
                         {"renewed", lease.renewed},

@@ -150,7 +150,7 @@ std::string lease_sentence(const ConditionFacts& condition) {
     for (const metrics::LeaseRow& row : *condition.leases) {
         lane_changes = lane_changes || row.action == "change_lane";
         const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
-        std::string text = fmt::format("{}: {} {}, {} carried out", row.part, words_of(row.action), often,
+        std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
                                        grouped(row.acted));
         if (row.refusals() > 0) text += fmt::format(", refused: {}", reasons_of(row));
         found.push_back(std::move(text));

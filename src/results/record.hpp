@@ -31,7 +31,7 @@ struct RunRecord {
     std::vector<metrics::VehicleRow> vehicles;
     /// Where time was lost; empty for solo. Journeys are written and not read back: see Store::read_journeys.
     metrics::TrafficTables traffic;
-    /// By part, then action. Nothing in a record of a version that kept totals alone.
+    /// By policy, then action. Nothing in a record of a version that kept totals alone.
     std::optional<std::vector<metrics::LeaseRow>> leases = {};
 
     bool operator==(const RunRecord&) const = default;

@@ -73,14 +73,15 @@ std::string vehicles_header() {
 
 /// `leases.csv`: a line for each action asked and carried out or not, and one for each reason of refusal.
 std::string leases_header() {
-    return "scenario,condition,replication,part,action,outcome,reason,leases";
+    return "scenario,condition,replication,policy,action,outcome,reason,leases";
 }
 
 void append_leases(const RunRecord& run, std::string& text) {
     const std::string key = key_cells(run.key);
     if (!run.leases) return;
     for (const metrics::LeaseRow& lease : *run.leases) {
-        const std::string start = fmt::format("{},{},{}", key, csv_text(lease.part), csv_text(lease.action));
+        const std::string start =
+            fmt::format("{},{},{}", key, csv_text(lease.policy), csv_text(lease.action));
         core::for_each_field<metrics::LeaseRow>([&](const auto& field) {
             text += fmt::format("{},{},,{}\n", start, field.name, lease.*field.member);
         });

@@ -59,7 +59,7 @@ struct Lease {
     /// Of two leases for one target that cannot both be carried out the higher wins; then, of holds, the one
     /// that is carried out; then the earlier.
     int priority = 0;
-    const char* policy = "";       ///< Name of the part that issued it (static storage).
+    const char* policy = "";       ///< Name of the policy that issued it (static storage).
     const char* reason = "";       ///< Why, in a few words (static storage).
     core::VehicleKey beneficiary;  ///< The emergency vehicle it serves; value 0 for none.
 };

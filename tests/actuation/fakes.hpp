@@ -104,7 +104,7 @@ class ActuationBench {
     }
 
     void offer(traffic::Target target, traffic::Action action, double duration_s = 2.0, int priority = 0,
-               const char* policy = "part", core::VehicleKey beneficiary = {}) {
+               const char* policy = "policy", core::VehicleKey beneficiary = {}) {
         const traffic::Lease lease{
             target,   std::move(action), now + core::Seconds(duration_s), priority, policy,
             "a test", beneficiary,

@@ -78,8 +78,8 @@ TEST(SignalHold, ends_at_the_cap_and_may_start_again_after_a_cycle) {
     EXPECT_NEAR(left_s, 60.25, 0.3);
     EXPECT_NEAR(returned_s, left_s + 4.5, 0.3);
     EXPECT_NEAR(again_s, returned_s + 90.0, 0.3) << "41 + 4 + 41 + 4 s: everybody has had green";
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("hold_cap"), 1U);
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("lockout"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("hold_cap"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("lockout"), 1U);
 }
 
 TEST(SignalHold, that_ended_by_itself_may_start_again_after_the_cool_down) {
@@ -99,9 +99,9 @@ TEST(SignalHold, has_a_cap_of_its_own_when_it_takes_over_from_one_that_conflicts
     ActuationBench bench;
     const auto history = watch(bench, 130.0, [](ActuationBench& b) {
         if (b.now.value < 40.0)
-            b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "part", core::VehicleKey{1});
+            b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "policy", core::VehicleKey{1});
         if (b.now.value > 20.0)
-            b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "part", core::VehicleKey{2});
+            b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "policy", core::VehicleKey{2});
     });
     double taken_over_s = 0.0;
     double ended_s = 0.0;
@@ -137,8 +137,8 @@ TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_ot
     const core::VehicleKey first{1};
     const core::VehicleKey second{2};
     const auto history = watch(bench, 30.0, [&](ActuationBench& b) {
-        if (b.now.value < 8.0) b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "part", first);
-        if (b.now.value < 18.0) b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "part", second);
+        if (b.now.value < 8.0) b.offer(signal_a, traffic::HoldGreen{west}, 2.0, 0, "policy", first);
+        if (b.now.value < 18.0) b.offer(signal_a, traffic::HoldGreen{north}, 2.0, 0, "policy", second);
     });
     std::vector<std::string> greens;
     for (const Shown& shown : history) {
@@ -148,13 +148,13 @@ TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_ot
     ASSERT_EQ(greens.size(), 2U);
     EXPECT_EQ(greens[0], "GrrrGrrrrrrrGGGG");
     EXPECT_EQ(greens[1], "GGGGGrrrGrrrrrrr");
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("outranked"), 1U);
 }
 
 TEST(SignalHold, of_higher_priority_wins_over_an_earlier_one) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::HoldGreen{west}, 20.0, 0, "part", core::VehicleKey{1});
-    bench.offer(signal_a, traffic::HoldGreen{north}, 20.0, 5, "part", core::VehicleKey{2});
+    bench.offer(signal_a, traffic::HoldGreen{west}, 20.0, 0, "policy", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{north}, 20.0, 5, "policy", core::VehicleKey{2});
     bench.run_until(10.0);
     EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr");
 }
@@ -164,24 +164,24 @@ const traffic::HoldGreen from_south{{8, 9, 10, 11}, {9, 10}};
 
 TEST(SignalHold, for_two_that_only_pass_each_other_shows_the_phase_that_serves_both) {
     ActuationBench bench;
-    bench.offer(signal_a, from_north, 30.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, from_north, 30.0, 0, "policy", core::VehicleKey{1});
     bench.run_until(10.0);
     EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr") << "alone its approach yields to nobody";
-    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, from_south, 20.0, 0, "policy", core::VehicleKey{2});
     bench.run_until(20.0);
     EXPECT_EQ(bench.shown[0], "GGGgrrrrGGGgrrrr") << "left turns from both sides yield";
-    EXPECT_EQ(bench.counts("part/hold_green").refused.size(), 0U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.size(), 0U);
 }
 
 TEST(SignalHold, for_one_that_turns_left_stays_protected_when_another_comes_from_the_other_side) {
     for (const std::uint16_t own : {std::uint16_t{8}, std::uint16_t{11}}) {
         ActuationBench bench;
-        bench.offer(signal_a, traffic::HoldGreen{north, {3}}, 20.0, 0, "part", core::VehicleKey{1});
-        bench.offer(signal_a, traffic::HoldGreen{{8, 9, 10, 11}, {own}}, 20.0, 0, "part",
+        bench.offer(signal_a, traffic::HoldGreen{north, {3}}, 20.0, 0, "policy", core::VehicleKey{1});
+        bench.offer(signal_a, traffic::HoldGreen{{8, 9, 10, 11}, {own}}, 20.0, 0, "policy",
                     core::VehicleKey{2});
         bench.run_until(10.0);
         EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr") << own;
-        EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U) << own;
+        EXPECT_EQ(bench.counts("policy/hold_green").refused.at("outranked"), 1U) << own;
     }
 }
 
@@ -189,30 +189,32 @@ TEST(SignalHold, of_one_that_is_stuck_ends_at_its_cap_though_others_join_and_lea
     ActuationBench bench;
     watch(bench, 75.0, [&](ActuationBench& b) {
         const double now_s = b.now.value;
-        b.offer(signal_a, from_north, 2.0, 0, "part", core::VehicleKey{1});
-        if (now_s > 30.0 && now_s < 40.0) b.offer(signal_a, from_south, 2.0, 0, "part", core::VehicleKey{2});
+        b.offer(signal_a, from_north, 2.0, 0, "policy", core::VehicleKey{1});
+        if (now_s > 30.0 && now_s < 40.0)
+            b.offer(signal_a, from_south, 2.0, 0, "policy", core::VehicleKey{2});
     });
-    EXPECT_EQ(bench.counts("part/hold_green").refused.count("hold_cap"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.count("hold_cap"), 1U);
 }
 
 TEST(SignalHold, for_two_whose_own_ways_cross_serves_one_though_a_phase_has_both) {
     ActuationBench bench;
     const traffic::HoldGreen left_from_north{north, {3}};
-    bench.offer(signal_a, left_from_north, 20.0, 0, "part", core::VehicleKey{1});
-    bench.offer(signal_a, from_south, 20.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, left_from_north, 20.0, 0, "policy", core::VehicleKey{1});
+    bench.offer(signal_a, from_south, 20.0, 0, "policy", core::VehicleKey{2});
     bench.run_until(10.0);
     EXPECT_EQ(bench.shown[0], "GGGGrrrrGrrrrrrr");
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("outranked"), 1U);
 }
 
 TEST(SignalHold, that_is_served_beside_the_first_goes_on_before_one_that_waited_longer) {
     ActuationBench bench;
     const auto history = watch(bench, 40.0, [&](ActuationBench& b) {
         const double now_s = b.now.value;
-        if (now_s < 8.0) b.offer(signal_a, from_north, 1.0, 0, "part", core::VehicleKey{1});
+        if (now_s < 8.0) b.offer(signal_a, from_north, 1.0, 0, "policy", core::VehicleKey{1});
         if (now_s >= 2.0 && now_s < 26.0)
-            b.offer(signal_a, traffic::HoldGreen{west}, 1.0, 0, "part", core::VehicleKey{3});
-        if (now_s >= 4.0 && now_s < 14.0) b.offer(signal_a, from_south, 1.0, 0, "part", core::VehicleKey{2});
+            b.offer(signal_a, traffic::HoldGreen{west}, 1.0, 0, "policy", core::VehicleKey{3});
+        if (now_s >= 4.0 && now_s < 14.0)
+            b.offer(signal_a, from_south, 1.0, 0, "policy", core::VehicleKey{2});
         if (now_s >= 9.0 && now_s < 14.0) {
             EXPECT_EQ(b.shown[0].substr(9, 2), "GG") << now_s;
         }
@@ -224,12 +226,12 @@ TEST(SignalHold, that_is_served_beside_the_first_goes_on_before_one_that_waited_
 
 TEST(SignalHold, serves_requests_together_that_do_not_conflict) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::HoldGreen{{1, 2}}, 20.0, 0, "part", core::VehicleKey{1});
-    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 20.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, traffic::HoldGreen{{1, 2}}, 20.0, 0, "policy", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 20.0, 0, "policy", core::VehicleKey{2});
     bench.run_until(10.0);
     EXPECT_EQ(bench.shown[0].substr(1, 2), "GG");
     EXPECT_EQ(bench.shown[0].substr(9, 2), "GG");
-    EXPECT_EQ(bench.counts("part/hold_green").refused.size(), 0U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.size(), 0U);
 }
 
 TEST(SignalHold, for_links_that_do_not_exist_is_refused) {
@@ -239,10 +241,10 @@ TEST(SignalHold, for_links_that_do_not_exist_is_refused) {
     bench.offer(core::SignalIndex{99}, traffic::HoldGreen{{0}});
     bench.offer(core::SignalIndex::none(), traffic::HoldGreen{{0}});
     EXPECT_TRUE(bench.step().empty());
-    bench.offer(signal_a, traffic::HoldGreen{{0}, {99}}, 2.0, 0, "part", core::VehicleKey{1});
-    bench.offer(signal_a, traffic::HoldGreen{{0}, {1}}, 2.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, traffic::HoldGreen{{0}, {99}}, 2.0, 0, "policy", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{{0}, {1}}, 2.0, 0, "policy", core::VehicleKey{2});
     EXPECT_TRUE(bench.step().empty());
-    const auto& refused = bench.counts("part/hold_green").refused;
+    const auto& refused = bench.counts("policy/hold_green").refused;
     EXPECT_EQ(refused.at("own_link_not_held"), 2U);
     EXPECT_EQ(refused.at("no_such_link"), 1U);
     EXPECT_EQ(refused.at("no_links"), 1U);
@@ -255,7 +257,7 @@ TEST(SignalHold, at_a_signal_that_is_gone_is_dropped) {
     bench.step();
     bench.shown.clear();
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("signal_gone"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("signal_gone"), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
@@ -293,8 +295,8 @@ TEST(SignalHold, waits_for_a_turner_who_had_right_of_way_before_it_has_to_yield)
     bench.on_road[turner].lane = two_crossings().find_lane(":A_3_0").value();
     double opens_s = 0.0;
     watch(bench, 25.0, [&](ActuationBench& b) {
-        b.offer(signal_a, from_north, 2.0, 0, "part", core::VehicleKey{1});
-        if (b.now.value >= 10.0) b.offer(signal_a, from_south, 2.0, 0, "part", core::VehicleKey{2});
+        b.offer(signal_a, from_north, 2.0, 0, "policy", core::VehicleKey{1});
+        if (b.now.value >= 10.0) b.offer(signal_a, from_south, 2.0, 0, "policy", core::VehicleKey{2});
         if (b.now.value >= 14.0) b.on_road.erase(turner);
         if (opens_s == 0.0 && b.now.value > 10.0 && b.shown[0].substr(9, 2) == "GG") opens_s = b.now.value;
     });
@@ -304,14 +306,14 @@ TEST(SignalHold, waits_for_a_turner_who_had_right_of_way_before_it_has_to_yield)
 
 TEST(SignalHold, that_asks_for_another_approach_is_no_longer_the_one_that_has_green) {
     ActuationBench bench;
-    bench.offer(signal_a, traffic::HoldGreen{{12}}, 30.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{{12}}, 30.0, 0, "policy", core::VehicleKey{1});
     bench.run_until(10.0);
-    bench.offer(signal_a, traffic::HoldGreen{west}, 30.0, 0, "part", core::VehicleKey{2});
+    bench.offer(signal_a, traffic::HoldGreen{west}, 30.0, 0, "policy", core::VehicleKey{2});
     bench.run_until(12.0);
-    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 30.0, 0, "part", core::VehicleKey{1});
+    bench.offer(signal_a, traffic::HoldGreen{south_straight}, 30.0, 0, "policy", core::VehicleKey{1});
     bench.run_until(20.0);
     EXPECT_EQ(bench.shown[0].substr(12), "GGGG") << "the second has it";
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("outranked"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("outranked"), 1U);
 }
 
 }  // namespace

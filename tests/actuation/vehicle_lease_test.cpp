@@ -30,8 +30,8 @@ TEST_P(VehicleLeases, set_a_speed_once_and_release_it_once_at_expiry) {
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(commands).size(), 1U);
     EXPECT_EQ(commands.size(), 2U);
     EXPECT_EQ(bench.actuator.active(), 0U);
-    EXPECT_EQ(bench.counts("part/drive_at").expired, 1U);
-    EXPECT_EQ(bench.counts("part/drive_at").acted, 1U) << "once, however many steps it lasts";
+    EXPECT_EQ(bench.counts("policy/drive_at").expired, 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").acted, 1U) << "once, however many steps it lasts";
 }
 
 TEST_P(VehicleLeases, renewed_in_time_are_not_released) {
@@ -42,8 +42,8 @@ TEST_P(VehicleLeases, renewed_in_time_are_not_released) {
         const auto commands = bench.run_until(second + 1.0);
         EXPECT_EQ(commands.size(), second == 0 ? 1U : 0U);
     }
-    EXPECT_EQ(bench.counts("part/drive_at").issued, 1U);
-    EXPECT_EQ(bench.counts("part/drive_at").renewed, 4U);
+    EXPECT_EQ(bench.counts("policy/drive_at").issued, 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").renewed, 4U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, VehicleLeases, ::testing::Values(0.1, 0.25, 1.0));
@@ -57,12 +57,12 @@ TEST(VehicleLease, that_could_never_be_carried_out_is_refused_with_its_reason) {
     bench.offer(vehicle, drive_at(5.0), 0.0);
     bench.offer(vehicle, traffic::HoldGreen{{0}});
     EXPECT_TRUE(bench.step().empty());
-    const auto& refused = bench.counts("part/drive_at").refused;
+    const auto& refused = bench.counts("policy/drive_at").refused;
     EXPECT_EQ(refused.at("speed_not_finite"), 2U);
     EXPECT_EQ(refused.at("speed_negative"), 1U);
-    EXPECT_EQ(bench.counts("part/drive_at").acted, 0U);
+    EXPECT_EQ(bench.counts("policy/drive_at").acted, 0U);
     EXPECT_EQ(refused.at("expired_on_arrival"), 1U);
-    EXPECT_EQ(bench.counts("part/hold_green").refused.at("wrong_target"), 1U);
+    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("wrong_target"), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
@@ -74,15 +74,15 @@ TEST(VehicleLease, for_a_vehicle_that_commands_do_not_reach_is_refused_and_the_r
     bench.offer(far, drive_at(7.0), 2.0);
     EXPECT_EQ(bench.only<traffic::SetSpeed>(bench.run_until(1.0)).size(), 2U);
     const auto renewal_of = [&](core::VehicleKey vehicle) {
-        return traffic::Lease{vehicle, drive_at(7.0), bench.now + core::Seconds(2.0), 0, "part", "a test",
+        return traffic::Lease{vehicle, drive_at(7.0), bench.now + core::Seconds(2.0), 0, "policy", "a test",
                               {}};
     };
     bench.actuator.accept(std::vector{renewal_of(near), renewal_of(far)}, bench.now, std::vector{far});
     const auto commands = bench.run_until(2.75);
     ASSERT_EQ(commands.size(), 1U);
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(commands)[0].vehicle, far);
-    EXPECT_EQ(bench.counts("part/drive_at").refused.at("unreachable"), 1U);
-    EXPECT_EQ(bench.counts("part/drive_at").renewed, 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("unreachable"), 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").renewed, 1U);
 }
 
 TEST(VehicleLease, above_what_the_vehicle_may_drive_is_refused_and_never_reaches_it) {
@@ -90,7 +90,7 @@ TEST(VehicleLease, above_what_the_vehicle_may_drive_is_refused_and_never_reaches
     const auto vehicle = bench.add(automated("a"));
     bench.offer(vehicle, drive_at(16.7));
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/drive_at").refused.at("above_allowed_speed"), 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("above_allowed_speed"), 1U);
 }
 
 TEST(VehicleLease, is_released_when_the_limit_falls_below_it) {
@@ -108,7 +108,7 @@ TEST(VehicleLease, for_a_human_driver_is_refused) {
     const auto vehicle = bench.add({"h", VehicleClass::human, {"west_A", "A_B"}, 0, 100.0, 10.0});
     bench.offer(vehicle, drive_at(5.0));
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/drive_at").refused.at("not_controllable"), 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("not_controllable"), 1U);
 }
 
 TEST(VehicleLease, of_higher_priority_wins_and_the_other_follows_when_it_ends) {
@@ -139,7 +139,7 @@ TEST(VehicleLease, of_a_vehicle_that_left_is_dropped_and_what_it_set_is_given_ba
     const auto state = bench.on_road.at(vehicle);
     bench.on_road.erase(vehicle);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/drive_at").refused.at("vehicle_gone"), 1U);
+    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("vehicle_gone"), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
     bench.on_road[vehicle] = state;
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(bench.step()).size(), 1U);
@@ -152,7 +152,7 @@ TEST(LaneLease, requests_the_lane_only_when_there_is_room_and_tries_again) {
     bench.self.room_beside = false;
     bench.offer(vehicle, traffic::ChangeLane{1}, 4.0);
     EXPECT_TRUE(bench.run_until(1.0).empty());
-    EXPECT_EQ(bench.counts("part/change_lane").refused.at("no_room_beside"), 1U);
+    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("no_room_beside"), 1U);
     bench.self.room_beside = true;
     const auto requests = bench.only<traffic::RequestLane>(bench.step());
     ASSERT_EQ(requests.size(), 1U);
@@ -166,7 +166,7 @@ TEST(LaneLease, into_a_lane_that_does_not_continue_is_refused_unless_it_is_long)
     bench.self.outlook[1] = {1, 300.0F, -1};
     bench.offer(vehicle, traffic::ChangeLane{1}, 4.0);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/change_lane").refused.at("lane_does_not_continue"), 1U);
+    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("lane_does_not_continue"), 1U);
     bench.self.outlook[1].drivable_m = 301.0F;
     EXPECT_EQ(bench.only<traffic::RequestLane>(bench.step()).size(), 1U);
 }
@@ -176,7 +176,7 @@ TEST(LaneLease, to_a_lane_that_does_not_exist_is_refused) {
     const auto vehicle = bench.add(automated("a"));
     bench.offer(vehicle, traffic::ChangeLane{2}, 4.0);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/change_lane").refused.at("no_such_lane"), 1U);
+    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("no_such_lane"), 1U);
 }
 
 TEST(LaneLease, ends_with_the_edge_it_was_meant_for) {
@@ -221,7 +221,7 @@ TEST(StopAtLineLease, that_needs_hard_braking_is_refused) {
     const auto vehicle = bench.add(automated("a", 480.0, 16.0));
     bench.offer(vehicle, traffic::StopAtLine{});
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("part/stop_at_line").refused.at("cannot_stop_comfortably"), 1U);
+    EXPECT_EQ(bench.counts("policy/stop_at_line").refused.at("cannot_stop_comfortably"), 1U);
 }
 
 class StopAtLineLease : public ::testing::TestWithParam<double> {};
@@ -261,7 +261,7 @@ TEST(PassRedLease, is_for_emergency_vehicles_only) {
     EXPECT_EQ(set[0].vehicle, emergency);
     EXPECT_EQ(set[0].privilege, traffic::JunctionPrivilege::pass_red);
     EXPECT_EQ(set[1].privilege, traffic::JunctionPrivilege::none);
-    EXPECT_EQ(bench.counts("part/pass_red").refused.at("not_an_emergency_vehicle"), 1U);
+    EXPECT_EQ(bench.counts("policy/pass_red").refused.at("not_an_emergency_vehicle"), 1U);
 }
 
 TEST(PullAsideLease, needs_the_sublane_model) {
@@ -269,7 +269,7 @@ TEST(PullAsideLease, needs_the_sublane_model) {
     const auto vehicle = without.add(automated("a"));
     without.offer(vehicle, traffic::PullAside{traffic::Side::left});
     EXPECT_TRUE(without.step().empty());
-    EXPECT_EQ(without.counts("part/pull_aside").refused.at("needs_sublane_model"), 1U);
+    EXPECT_EQ(without.counts("policy/pull_aside").refused.at("needs_sublane_model"), 1U);
 
     actuation::Actuator::Config config;
     config.lateral_model = traffic::LateralModel::sublane;

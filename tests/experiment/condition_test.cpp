@@ -11,7 +11,7 @@ TEST(ConditionSpec, with_nothing_set_is_the_same_text_as_before_there_were_setti
     condition.failure = "B10";
     condition.policies = {"corridor"};
     EXPECT_EQ(to_json(condition).dump(),
-              R"({"name":"b10","failure":"B10","predictor":"none","parts":["corridor"],)"
+              R"({"name":"b10","failure":"B10","predictor":"none","policies":["corridor"],)"
               R"("traffic_model":"standard","safety_checks":"on"})");
     condition.settings = {{"loop.policy_period_s", "1"}};
     EXPECT_EQ(to_json(condition)["loop_settings"].dump(), R"({"policy_period_s":"1"})");

@@ -13,8 +13,8 @@ TEST(ClearLane, sends_automated_vehicles_far_ahead_out_of_the_lane_and_holds_the
         ..e..a........a.............a......
         ..........a........................
     )");
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("a1"), 0U);
     EXPECT_EQ(road.asked_lane("a2"), 0U) << "120 m ahead";
     EXPECT_FALSE(road.asked_lane("a3")) << "260 m ahead";
@@ -28,8 +28,8 @@ TEST(ClearLane, chooses_the_way_out_with_more_room) {
         ..e..a.............
         .....h.............
     )");
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("a1"), 2U);
 }
 
@@ -39,8 +39,8 @@ TEST(ClearLane, sends_nobody_into_a_lane_that_ends) {
         ..e..a.........+...........................................
         ...............+###########################################
     )");
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_FALSE(road.asked_lane("a1"));
 }
 
@@ -51,8 +51,8 @@ TEST(ClearLane, takes_the_emergency_vehicle_to_the_lane_with_less_delay) {
         ...................
     )");
     road.scene.set_speed("h1", core::MetresPerSecond(8.0));
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
 }
 
@@ -63,10 +63,10 @@ TEST(ClearLane, leaves_the_emergency_vehicle_where_a_change_is_not_worth_it) {
         ...................
     )");
     road.scene.set_speed("h1", core::MetresPerSecond(19.3));
-    policy::ClearLane part({road.scene.network()});
-    EXPECT_TRUE(road.act(part).empty()) << "0.3 s over the next kilometre";
+    policy::ClearLane policy({road.scene.network()});
+    EXPECT_TRUE(road.act(policy).empty()) << "0.3 s over the next kilometre";
     road.scene.set_speed("h1", core::MetresPerSecond(19.0));
-    EXPECT_FALSE(road.act(part).empty()) << "1.1 s";
+    EXPECT_FALSE(road.act(policy).empty()) << "1.1 s";
 }
 
 TEST(ClearLane, opens_a_gap_on_the_lane_that_the_emergency_vehicle_wants) {
@@ -76,8 +76,8 @@ TEST(ClearLane, opens_a_gap_on_the_lane_that_the_emergency_vehicle_wants) {
         .a.................
     )");
     road.scene.set_speed("h1", core::MetresPerSecond(5.0));
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
     EXPECT_NEAR(road.asked_speed("a1").value(), 12.0, 1e-5);
 }
@@ -90,8 +90,8 @@ TEST(ClearLane, counts_a_queue_and_takes_the_shorter_one) {
     )");
     for (const char* id : {"h1", "h2", "h3", "h4"})
         road.scene.set_speed(id, core::MetresPerSecond(0.0));
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
 }
 
@@ -110,8 +110,8 @@ void stop(StraightRoad& road, std::initializer_list<const char*> ids) {
 TEST(ClearLane, lets_the_emergency_vehicle_fall_back_to_a_gap_before_a_queue_and_keeps_it_open) {
     StraightRoad road(gap_behind);
     stop(road, {"h1", "h2", "h3", "h4"});
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
     EXPECT_NEAR(road.asked_speed("e1").value(), 10.0, 1e-5) << "5 m/s slower than the traffic there";
     EXPECT_NEAR(road.asked_speed("a1").value(), 12.0, 1e-5) << "the one behind the gap";
@@ -120,8 +120,8 @@ TEST(ClearLane, lets_the_emergency_vehicle_fall_back_to_a_gap_before_a_queue_and
 TEST(ClearLane, does_not_fall_back_for_less_than_it_costs) {
     StraightRoad road(gap_behind);
     stop(road, {"h1", "h2"});
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U) << "the lane beside is faster";
     EXPECT_FALSE(road.asked_speed("e1")) << "42 m back cost 3 s of the 4 that it gains";
     EXPECT_FALSE(road.asked_speed("a1"));
@@ -134,8 +134,8 @@ TEST(ClearLane, stays_beside_a_gap_that_is_wide_enough) {
         ........h........h...h...h...h...h...h.........|r...............................
     )");
     stop(road, {"h1", "h2", "h3", "h4"});
-    policy::ClearLane part({road.scene.network()});
-    road.act(part);
+    policy::ClearLane policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
     EXPECT_FALSE(road.asked_speed("e1"));
 }
@@ -146,8 +146,8 @@ TEST(ClearLane, does_nothing_on_a_free_road) {
         a.e................
         h..................
     )");
-    policy::ClearLane part({road.scene.network()});
-    EXPECT_TRUE(road.act(part).empty());
+    policy::ClearLane policy({road.scene.network()});
+    EXPECT_TRUE(road.act(policy).empty());
 }
 
 }  // namespace

@@ -69,12 +69,12 @@ void add_needless_scene(ActuationBench& bench) {
     bench.add({"h1", VehicleClass::human, eastbound, 1, 480.0, 0.0});
 }
 
-void PartRun::act() {
+void PolicyRun::act() {
     traffic::BelievedGraph& belief = bench_.scene.belief();
     belief.time = bench_.now;
     belief.signals.state = bench_.shown;
     std::vector<traffic::Lease> leases;
-    part_->act(belief, leases);
+    policy_->act(belief, leases);
     for (const traffic::Lease& lease : leases) {
         expect_legal(lease);
         leases_.push_back(describe(lease));
@@ -82,7 +82,7 @@ void PartRun::act() {
     bench_.actuator.accept(leases, bench_.now);
 }
 
-void PartRun::run_for(double duration_s) {
+void PolicyRun::run_for(double duration_s) {
     const double end_s = bench_.now.value + duration_s;
     while (bench_.now.value < end_s - 1e-9) {
         act();
@@ -92,12 +92,12 @@ void PartRun::run_for(double duration_s) {
     }
 }
 
-void PartRun::remove(core::VehicleKey vehicle) {
+void PolicyRun::remove(core::VehicleKey vehicle) {
     bench_.scene.remove(vehicle);
     bench_.on_road.erase(vehicle);
 }
 
-void PartRun::expect_legal(const traffic::Lease& lease) {
+void PolicyRun::expect_legal(const traffic::Lease& lease) {
     SCOPED_TRACE(describe(lease));
     EXPECT_GT(lease.expiry, bench_.now);
     EXPECT_LE(lease.expiry.value, bench_.now.value + 60.0);

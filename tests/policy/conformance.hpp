@@ -11,23 +11,23 @@
 
 namespace clearway::testing {
 
-/// The scene that every part has something to do in: an emergency vehicle 120 m before a red signal,
+/// The scene that every policy has something to do in: an emergency vehicle 120 m before a red signal,
 /// automated vehicles ahead of it on its lane and beside it, and queues of human drivers ahead of it and on
 /// the crossing street.
 void add_helpful_scene(ActuationBench& bench);
-/// The scene in which no part has: traffic of all kinds, but the emergency vehicle is past the last signal
+/// The scene in which no policy has: traffic of all kinds, but the emergency vehicle is past the last signal
 /// and alone.
 void add_needless_scene(ActuationBench& bench);
 
 /// Key of the emergency vehicle of these scenes.
 core::VehicleKey emergency_key();
 
-/// Runs a part at a period of 0.5 s on what is believed of the bench's vehicles, with its leases carried out.
-/// Vehicles stand still. Checks that each lease is legal, and keeps them all.
-class PartRun {
+/// Runs a policy at a period of 0.5 s on what is believed of the bench's vehicles, with its leases carried
+/// out. Vehicles stand still. Checks that each lease is legal, and keeps them all.
+class PolicyRun {
   public:
-    PartRun(std::unique_ptr<policy::Policy> part, ActuationBench& bench)
-        : part_(std::move(part)), bench_(bench) {}
+    PolicyRun(std::unique_ptr<policy::Policy> policy, ActuationBench& bench)
+        : policy_(std::move(policy)), bench_(bench) {}
 
     void run_for(double duration_s);
     void remove(core::VehicleKey vehicle);
@@ -40,7 +40,7 @@ class PartRun {
     void act();
     void expect_legal(const traffic::Lease& lease);
 
-    std::unique_ptr<policy::Policy> part_;
+    std::unique_ptr<policy::Policy> policy_;
     ActuationBench& bench_;
     std::vector<std::string> leases_;
     std::vector<traffic::Command> commands_;

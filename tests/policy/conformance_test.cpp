@@ -1,4 +1,4 @@
-// What every registered part must do, whatever it is for.
+// What every registered policy must do, whatever it is for.
 
 #include "policy/conformance.hpp"
 
@@ -7,75 +7,75 @@ namespace {
 
 using traffic::VehicleClass;
 
-class EveryPart : public ::testing::TestWithParam<std::string> {
+class EveryPolicy : public ::testing::TestWithParam<std::string> {
   protected:
     static std::unique_ptr<policy::Policy> make() {
         return policy::make_policy(GetParam(), policy::PolicyContext{two_crossings()});
     }
 };
 
-TEST_P(EveryPart, knows_its_name) {
+TEST_P(EveryPolicy, knows_its_name) {
     EXPECT_EQ(make()->name(), GetParam());
 }
 
-TEST_P(EveryPart, acts_in_a_scene_made_for_it) {
+TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
     ActuationBench bench;
     add_helpful_scene(bench);
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(5.0);
     EXPECT_FALSE(run.leases().empty());
 }
 
-TEST_P(EveryPart, does_nothing_in_a_scene_made_against_it) {
+TEST_P(EveryPolicy, does_nothing_in_a_scene_made_against_it) {
     ActuationBench bench;
     add_needless_scene(bench);
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(5.0);
     EXPECT_EQ(run.leases(), std::vector<std::string>{});
 }
 
-TEST_P(EveryPart, gives_the_same_leases_for_the_same_belief) {
+TEST_P(EveryPolicy, gives_the_same_leases_for_the_same_belief) {
     std::vector<std::vector<std::string>> leases;
     for (int repeat = 0; repeat < 2; ++repeat) {
         ActuationBench bench;
         add_helpful_scene(bench);
-        PartRun run(make(), bench);
+        PolicyRun run(make(), bench);
         run.run_for(10.0);
         leases.push_back(run.leases());
     }
     EXPECT_EQ(leases[0], leases[1]);
 }
 
-TEST_P(EveryPart, does_nothing_on_an_empty_road) {
+TEST_P(EveryPolicy, does_nothing_on_an_empty_road) {
     ActuationBench bench;
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(5.0);
     EXPECT_TRUE(run.leases().empty());
 }
 
-TEST_P(EveryPart, does_nothing_for_one_vehicle_that_is_no_emergency_vehicle) {
+TEST_P(EveryPolicy, does_nothing_for_one_vehicle_that_is_no_emergency_vehicle) {
     for (const VehicleClass kind : {VehicleClass::human, VehicleClass::automated}) {
         ActuationBench bench;
         bench.add({"only", kind, {"west_A", "A_B"}, 0, 400.0, 10.0});
-        PartRun run(make(), bench);
+        PolicyRun run(make(), bench);
         run.run_for(5.0);
         EXPECT_TRUE(run.leases().empty());
     }
 }
 
-TEST_P(EveryPart, gives_legal_leases_for_an_emergency_vehicle_alone_or_first_in_the_queue) {
+TEST_P(EveryPolicy, gives_legal_leases_for_an_emergency_vehicle_alone_or_first_in_the_queue) {
     for (const double position_m : {0.5, 300.0, 488.0}) {
         ActuationBench bench;
         bench.add({"e", VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 0, position_m, 0.0});
-        PartRun run(make(), bench);
+        PolicyRun run(make(), bench);
         run.run_for(10.0);
     }
 }
 
-TEST_P(EveryPart, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
+TEST_P(EveryPolicy, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
     ActuationBench bench;
     add_helpful_scene(bench);
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(1.0);
     const core::LaneIndex inside = two_crossings().find_lane(":A_13_0").value();
     for (traffic::BelievedVehicle& own : bench.scene.belief().own_states)
@@ -87,12 +87,12 @@ TEST_P(EveryPart, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
     run.run_for(3.0);
 }
 
-TEST_P(EveryPart, serves_two_emergency_vehicles_that_cross) {
+TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
     ActuationBench bench;
     add_helpful_scene(bench);
     bench.add({"e2", VehicleClass::emergency, {"north_a_A", "A_south_a"}, 1, 220.0, 12.0});
     bench.add({"a3", VehicleClass::automated, {"north_a_A", "A_south_a"}, 1, 245.0, 8.0});
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(20.0);
     EXPECT_FALSE(run.leases().empty());
     run.remove(emergency_key());
@@ -106,10 +106,10 @@ TEST_P(EveryPart, serves_two_emergency_vehicles_that_cross) {
     }
 }
 
-TEST_P(EveryPart, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
+TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     ActuationBench bench;
     add_helpful_scene(bench);
-    PartRun run(make(), bench);
+    PolicyRun run(make(), bench);
     run.run_for(10.0);
     run.remove(emergency_key());
     run.run_for(60.0);
@@ -139,8 +139,8 @@ std::vector<std::string> policy_names() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Parts, EveryPart, ::testing::ValuesIn(policy_names()),
-                         [](const auto& part) { return part.param; });
+INSTANTIATE_TEST_SUITE_P(Policies, EveryPolicy, ::testing::ValuesIn(policy_names()),
+                         [](const auto& policy) { return policy.param; });
 
 }  // namespace
 }  // namespace clearway::testing

@@ -12,8 +12,8 @@ TEST(Dissertation, lets_the_emergency_vehicle_drive_at_what_it_is_allowed) {
         10 m per cell, limit 20 m/s, speed 10 m/s
         ..e..h.............
     )");
-    policy::Dissertation part({road.scene.network()});
-    road.act(part);
+    policy::Dissertation policy({road.scene.network()});
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("e1").value(), 20.0, 1e-5);
 }
 
@@ -23,8 +23,8 @@ TEST(Dissertation, sends_an_automated_vehicle_ahead_to_the_other_lane) {
         ..e..a.............
         ...................
     )");
-    policy::Dissertation part({road.scene.network()});
-    road.act(part);
+    policy::Dissertation policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("a1"), 0U);
     EXPECT_FALSE(road.asked_speed("a1"));
 }
@@ -35,11 +35,11 @@ TEST(Dissertation, slows_an_automated_vehicle_beside_but_never_to_a_standstill) 
         ..e................
         ..a................
     )");
-    policy::Dissertation part({road.scene.network()});
-    road.act(part);
+    policy::Dissertation policy({road.scene.network()});
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("a1").value(), 8.0, 1e-5);
     road.scene.set_speed("e1", core::MetresPerSecond(0.0));
-    road.act(part);
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("a1").value(), 5.0, 1e-5);
 }
 
@@ -49,8 +49,8 @@ TEST(Dissertation, leaves_alone_those_behind_and_those_far_ahead_on_another_lane
         a....e.............
         .........a.........
     )");
-    policy::Dissertation part({road.scene.network()});
-    road.act(part);
+    policy::Dissertation policy({road.scene.network()});
+    road.act(policy);
     EXPECT_FALSE(road.asked_lane("a1"));
     EXPECT_FALSE(road.asked_speed("a1"));
     EXPECT_FALSE(road.asked_lane("a2"));
@@ -63,8 +63,8 @@ TEST(Dissertation, sends_nobody_into_a_lane_that_ends) {
         ..e..a.........+...........................................
         ...............+###########################################
     )");
-    policy::Dissertation part({road.scene.network()});
-    road.act(part);
+    policy::Dissertation policy({road.scene.network()});
+    road.act(policy);
     EXPECT_FALSE(road.asked_lane("a1"));
 }
 
@@ -74,8 +74,8 @@ TEST(Dissertation, asks_a_human_driver_for_nothing) {
         ..e..h.............
         ..h................
     )");
-    policy::Dissertation part({road.scene.network()});
-    EXPECT_EQ(road.act(part).size(), 1U);
+    policy::Dissertation policy({road.scene.network()});
+    EXPECT_EQ(road.act(policy).size(), 1U);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ TEST(Listing55, speeds_the_emergency_vehicle_up_by_a_tenth_and_slows_linked_auto
         ....a.....h.......a
         ..e................
     )");
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("e1").value(), 11.0, 1e-5);
     EXPECT_NEAR(road.asked_speed("a1").value(), 8.0, 1e-5);
     EXPECT_FALSE(road.asked_speed("a2")) << "160 m away: not linked";
@@ -26,8 +26,8 @@ TEST(Listing55, does_not_ask_for_more_than_the_limit) {
         10 m per cell, limit 20 m/s, speed 19 m/s
         ..e.a..............
     )");
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("e1").value(), 20.0, 1e-5);
 }
 
@@ -37,8 +37,8 @@ TEST(Listing55, keeps_an_emergency_vehicle_that_stands_standing_as_published) {
         ..e.a..............
     )");
     road.scene.set_speed("e1", core::MetresPerSecond(0.0));
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     EXPECT_DOUBLE_EQ(road.asked_speed("e1").value(), 0.0);
 }
 
@@ -47,12 +47,12 @@ TEST(Listing55, never_releases_a_speed_although_the_link_is_gone_as_published) {
         10 m per cell, limit 40 m/s, speed 10 m/s
         ..e..a.............
     )");
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     road.scene.set_speed("e1", core::MetresPerSecond(1.0));
     road.scene.set_speed("a1", core::MetresPerSecond(14.0));
     road.scene.pass(core::Seconds(9.0));
-    road.act(part);
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("a1").value(), 8.0, 1e-5) << "the speed set when it was linked";
 }
 
@@ -62,8 +62,8 @@ TEST(Listing55, leaves_the_lane_of_an_automated_vehicle_outwards) {
         ..e..a.............
         ...................
     )");
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
 }
 
@@ -92,8 +92,8 @@ TEST(Listing55, stays_where_the_other_lane_is_taken_beside_it) {
         ...h...............
         ..e................
     )");
-    policy::Listing55 part({road.scene.network()});
-    road.act(part);
+    policy::Listing55 policy({road.scene.network()});
+    road.act(policy);
     EXPECT_FALSE(road.asked_lane("e1"));
 }
 
@@ -102,8 +102,8 @@ TEST(Listing55, needs_enough_edges) {
         10 m per cell, limit 20 m/s, speed 10 m/s
         ..e..a.............
     )");
-    policy::Listing55 part({road.scene.network()}, {.min_edges = 2});
-    EXPECT_TRUE(road.act(part).empty());
+    policy::Listing55 policy({road.scene.network()}, {.min_edges = 2});
+    EXPECT_TRUE(road.act(policy).empty());
 }
 
 }  // namespace

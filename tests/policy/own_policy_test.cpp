@@ -14,8 +14,8 @@ TEST(OwnPolicyExample, slows_who_follows_closely_and_nobody_else) {
         a...a.e.a..........
         ....a..............
     )");
-    policy::KeepDistance part({road.scene.network()});
-    road.act(part);
+    policy::KeepDistance policy({road.scene.network()});
+    road.act(policy);
     EXPECT_NEAR(road.asked_speed("a2").value(), 8.0, 1e-5);
     EXPECT_FALSE(road.asked_speed("a1"));
     EXPECT_FALSE(road.asked_speed("a3"));

@@ -34,64 +34,64 @@ CrossingScene emergency_at(double before_line_m, double speed_mps = 16.0,
 }
 
 TEST(PreemptSignals, asks_eight_seconds_before_arrival_and_not_earlier) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene far = emergency_at(130.0);
-    EXPECT_TRUE(act(part, far).empty());
+    EXPECT_TRUE(act(policy, far).empty());
     CrossingScene near = emergency_at(126.0);
-    const auto leases = act(part, near);
+    const auto leases = act(policy, near);
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), two_crossings().find_signal("A"));
     EXPECT_EQ(leases[0].beneficiary, core::vehicle_key("e"));
 }
 
 TEST(PreemptSignals, asks_two_seconds_earlier_for_each_vehicle_in_the_longest_queue_ahead) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(180.0);
     scene.add({"h1", VehicleClass::human, eastbound, 1, 485.0, 0.0});
     scene.add({"h2", VehicleClass::human, eastbound, 0, 485.0, 0.0});
-    EXPECT_TRUE(act(part, scene).empty()) << "11.25 s away, lead 10 s: two queues of one";
+    EXPECT_TRUE(act(policy, scene).empty()) << "11.25 s away, lead 10 s: two queues of one";
     scene.add({"h3", VehicleClass::human, eastbound, 0, 477.0, 0.0});
-    EXPECT_EQ(act(part, scene).size(), 1U) << "lead 12 s";
+    EXPECT_EQ(act(policy, scene).size(), 1U) << "lead 12 s";
 }
 
 TEST(PreemptSignals, keeps_asking_until_the_vehicle_has_passed) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(180.0);
     for (int number = 0; number < 3; ++number)
         scene.add(
             {"h" + std::to_string(number), VehicleClass::human, eastbound, 1, 485.0 - 8.0 * number, 0.0});
-    EXPECT_EQ(act(part, scene).size(), 1U);
+    EXPECT_EQ(act(policy, scene).size(), 1U);
     for (int number = 0; number < 3; ++number)
         scene.remove(core::vehicle_key("h" + std::to_string(number)));
-    EXPECT_EQ(act(part, scene).size(), 1U) << "11.25 s away behind a queue that has just begun to move";
+    EXPECT_EQ(act(policy, scene).size(), 1U) << "11.25 s away behind a queue that has just begun to move";
     policy::PreemptSignals fresh({two_crossings()});
     EXPECT_TRUE(act(fresh, scene).empty());
     scene.remove(core::vehicle_key("e"));
-    EXPECT_TRUE(act(part, scene).empty());
+    EXPECT_TRUE(act(policy, scene).empty());
 }
 
 TEST(PreemptSignals, asks_for_the_whole_approach_and_nothing_else) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(50.0);
-    const auto leases = act(part, scene);
+    const auto leases = act(policy, scene);
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).links,
               (std::vector<std::uint16_t>{12, 13, 14, 15}));
 }
 
 TEST(PreemptSignals, tells_which_of_the_links_its_vehicle_takes) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(50.0, 10.0, {"west_A", "A_north_a"});
-    const auto leases = act(part, scene);
+    const auto leases = act(policy, scene);
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).own_links, (std::vector<std::uint16_t>{15}));
 }
 
 TEST(PreemptSignals, asks_for_as_long_as_two_decisions_take) {
     for (const double period_s : {0.5, 3.0}) {
-        policy::PreemptSignals part({two_crossings(), core::Seconds(period_s)});
+        policy::PreemptSignals policy({two_crossings(), core::Seconds(period_s)});
         CrossingScene scene = emergency_at(50.0);
-        const auto leases = act(part, scene);
+        const auto leases = act(policy, scene);
         ASSERT_EQ(leases.size(), 1U);
         EXPECT_DOUBLE_EQ(leases[0].expiry.value - 100.0, 2.0 * period_s);
     }
@@ -99,91 +99,93 @@ TEST(PreemptSignals, asks_for_as_long_as_two_decisions_take) {
 
 TEST(RedPrivilege, asks_again_before_its_lease_ends_however_seldom_it_decides) {
     for (const double period_s : {0.5, 3.0}) {
-        policy::RedPrivilege part({two_crossings(), core::Seconds(period_s)});
+        policy::RedPrivilege policy({two_crossings(), core::Seconds(period_s)});
         CrossingScene scene = emergency_at(50.0);
-        const auto leases = act(part, scene);
+        const auto leases = act(policy, scene);
         ASSERT_FALSE(leases.empty());
         EXPECT_DOUBLE_EQ(leases[0].expiry.value - 100.0, std::max(2.0, 2.0 * period_s));
     }
 }
 
 TEST(PreemptSignals, serves_a_left_turn_with_its_approach) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(50.0, 10.0, {"west_A", "A_north_a"});
-    const auto leases = act(part, scene);
+    const auto leases = act(policy, scene);
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<traffic::HoldGreen>(leases[0].action).links,
               (std::vector<std::uint16_t>{12, 13, 14, 15}));
 }
 
 TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_it) {
-    policy::PreemptSignals part({two_crossings()});
+    policy::PreemptSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(50.0);
     scene.belief();
     traffic::BelievedGraph belief = scene.belief();
     belief.vehicles.clear();
     belief.first_link = {0};
     std::vector<traffic::Lease> leases;
-    part.act(belief, leases);
+    policy.act(belief, leases);
     EXPECT_EQ(leases.size(), 1U);
 }
 
 TEST(GreenWave, opens_each_signal_around_the_planned_arrival_whatever_happens) {
-    policy::GreenWave part({two_crossings()});
+    policy::GreenWave policy({two_crossings()});
     CrossingScene scene = emergency_at(200.0);
-    EXPECT_TRUE(act(part, scene, 100.0).empty()) << "200 m at 16.67 m/s: 12 s, asked for 8 s before";
-    const auto first = act(part, scene, 104.5);
+    EXPECT_TRUE(act(policy, scene, 100.0).empty()) << "200 m at 16.67 m/s: 12 s, asked for 8 s before";
+    const auto first = act(policy, scene, 104.5);
     ASSERT_EQ(first.size(), 1U);
     EXPECT_EQ(std::get<core::SignalIndex>(first[0].target), two_crossings().find_signal("A"));
-    const auto second = act(part, scene, 128.0);
+    const auto second = act(policy, scene, 128.0);
     ASSERT_EQ(second.size(), 1U) << "it still stands where it was";
     EXPECT_EQ(std::get<core::SignalIndex>(second[0].target), two_crossings().find_signal("B"));
-    EXPECT_TRUE(act(part, scene, 150.0).empty());
+    EXPECT_TRUE(act(policy, scene, 150.0).empty());
 }
 
 TEST(RecoverSignals, favours_those_who_stand_where_the_next_green_serves_most) {
-    policy::RecoverSignals part({two_crossings()});
+    policy::RecoverSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(100.0);
-    EXPECT_TRUE(act(part, scene).empty()) << "nobody waits";
+    EXPECT_TRUE(act(policy, scene).empty()) << "nobody waits";
     scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
     scene.add({"h2", VehicleClass::human, {"B_A", "A_west"}, 0, 275.0, 0.0});
     scene.add({"h3", VehicleClass::human, {"south_a_A", "A_north_a"}, 1, 285.0, 0.0});
-    const auto leases = act(part, scene);
+    const auto leases = act(policy, scene);
     ASSERT_EQ(leases.size(), 1U);
     EXPECT_EQ(std::get<traffic::AdjustGreen>(leases[0].action).links,
               (std::vector<std::uint16_t>{0, 1, 10, 11}));
 }
 
 TEST(RecoverSignals, goes_on_for_a_while_after_the_emergency_vehicle_has_passed) {
-    policy::RecoverSignals part({two_crossings()});
+    policy::RecoverSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(10.0);
     scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
-    EXPECT_EQ(act(part, scene, 100.0).size(), 1U);
+    EXPECT_EQ(act(policy, scene, 100.0).size(), 1U);
     scene.remove(core::vehicle_key("e"));
-    EXPECT_EQ(act(part, scene, 159.0).size(), 1U);
-    EXPECT_TRUE(act(part, scene, 160.5).empty());
+    EXPECT_EQ(act(policy, scene, 159.0).size(), 1U);
+    EXPECT_TRUE(act(policy, scene, 160.5).empty());
 }
 
 TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_more) {
-    policy::RecoverSignals part({two_crossings()});
+    policy::RecoverSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(100.0);
     // The first phase serves north and south: one vehicle comes near on green, others stand in the west.
     scene.add({"h0", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 280.0, 10.0});
     for (int number = 1; number <= 5; ++number)
         scene.add(
             {"h" + std::to_string(number), VehicleClass::human, eastbound, 0, 490.0 - 8.0 * number, 0.0});
-    const auto served = [&] { return std::get<traffic::AdjustGreen>(act(part, scene).front().action).links; };
+    const auto served = [&] {
+        return std::get<traffic::AdjustGreen>(act(policy, scene).front().action).links;
+    };
     EXPECT_EQ(served().front(), 0U) << "one and the worth of a change against five";
     scene.add({"h6", VehicleClass::human, eastbound, 0, 440.0, 0.0});
     EXPECT_GE(served().front(), 12U);
 }
 
 TEST(RedPrivilege, slows_the_emergency_vehicle_down_to_20_kmh_at_the_line) {
-    policy::RedPrivilege part({two_crossings()});
+    policy::RedPrivilege policy({two_crossings()});
     const std::string red(16, 'r');
     const auto speed_at = [&](double before_line_m) -> std::optional<double> {
         CrossingScene scene = emergency_at(before_line_m);
-        for (const traffic::Lease& lease : act(part, scene, 100.0, red))
+        for (const traffic::Lease& lease : act(policy, scene, 100.0, red))
             if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) return drive->speed.value;
         return std::nullopt;
     };
@@ -193,12 +195,12 @@ TEST(RedPrivilege, slows_the_emergency_vehicle_down_to_20_kmh_at_the_line) {
 }
 
 TEST(RedPrivilege, is_asked_for_before_red_and_not_before_green) {
-    policy::RedPrivilege part({two_crossings()});
+    policy::RedPrivilege policy({two_crossings()});
     CrossingScene scene = emergency_at(100.0);
-    ASSERT_EQ(act(part, scene).size(), 1U) << "the first phase serves north and south";
-    EXPECT_TRUE(act(part, scene, 100.0, "rrrrGGGgrrrrGGGg").empty());
+    ASSERT_EQ(act(policy, scene).size(), 1U) << "the first phase serves north and south";
+    EXPECT_TRUE(act(policy, scene, 100.0, "rrrrGGGgrrrrGGGg").empty());
     CrossingScene far = emergency_at(250.0);
-    EXPECT_TRUE(act(part, far).empty());
+    EXPECT_TRUE(act(policy, far).empty());
 }
 
 }  // namespace

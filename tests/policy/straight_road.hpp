@@ -10,7 +10,7 @@
 
 namespace clearway::testing {
 
-/// What a part does in one moment on a drawn road.
+/// What a policy does in one moment on a drawn road.
 class StraightRoad {
   public:
     explicit StraightRoad(std::string_view drawing) : scene(drawing) {}

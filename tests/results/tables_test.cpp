@@ -89,7 +89,7 @@ TEST(Tables, HaveALineForEveryOutcomeOfTheLeasesOfAnAction) {
     EXPECT_EQ(store.read(run.key)->leases, run.leases);
     write_tables(store, read_results(store));
     EXPECT_EQ(core::read_file(folder.path() / "leases.csv"),
-              "scenario,condition,replication,part,action,outcome,reason,leases\n"
+              "scenario,condition,replication,policy,action,outcome,reason,leases\n"
               "alpha,treated,0,listing_5_5,change_lane,issued,,5\n"
               "alpha,treated,0,listing_5_5,change_lane,renewed,,2\n"
               "alpha,treated,0,listing_5_5,change_lane,acted,,1\n"

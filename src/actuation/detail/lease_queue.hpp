@@ -13,7 +13,7 @@
 
 namespace clearway::actuation::detail {
 
-/// Counts of a run by `part/action`.
+/// Counts of a run by `policy/action`.
 class Ledger {
   public:
     LeaseCounts& of(const traffic::Lease& lease);
@@ -36,7 +36,8 @@ struct HeldLease {
 };
 
 /// Leases in force for one target, of which only one kind of thing can be done at a time, best first: by
-/// priority, then by age. A lease of the same part for the same beneficiary is a renewal and keeps its place.
+/// priority, then by age. A lease of the same policy for the same beneficiary is a renewal and keeps its
+/// place.
 class LeaseQueue {
   public:
     void offer(const traffic::Lease& lease, Ledger& ledger);

@@ -12,7 +12,7 @@ namespace {
 /// No cycle counts as longer than this, s: a program that never changes has none.
 constexpr double longest_cycle_s = 180.0;
 
-/// Ascending, without repetition, whatever the order of what a part asked for.
+/// Ascending, without repetition, whatever the order of what a policy asked for.
 Links united(Links links, const Links& others) {
     links.insert(links.end(), others.begin(), others.end());
     std::ranges::sort(links);

@@ -226,7 +226,7 @@ void DatabaseWriter::add(const experiment::RunKey& key, const metrics::LeaseRow&
                          std::string_view outcome, std::string_view reason, std::uint64_t count) {
     Inserter& row = tables_->leases;
     row.add_key(key);
-    row.add(std::string_view(lease.part));
+    row.add(std::string_view(lease.policy));
     row.add(std::string_view(lease.action));
     row.add(outcome);
     row.add(reason);

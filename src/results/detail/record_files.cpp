@@ -91,7 +91,7 @@ core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
     core::Json rows = core::Json::array();
     for (const metrics::LeaseRow& lease : leases) {
         core::Json row;
-        row["part"] = lease.part;
+        row["part"] = lease.policy;
         row["action"] = lease.action;
         core::write_fields(row, lease);
         row["refused"] = lease.refused;
@@ -109,7 +109,7 @@ std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json&
     for (const core::Json& row : *found) {
         metrics::LeaseRow& lease = leases.emplace_back();
         core::ObjectReader reader(row, where + ": leases", problems);
-        reader.read("part", lease.part);
+        reader.read("part", lease.policy);
         reader.read("action", lease.action);
         reader.read_fields(lease);
         reader.read("refused", lease.refused);

@@ -164,7 +164,7 @@ class LeaseTables {
         rows_, {"own_links", "", "Row in /texts: those that the beneficiary may take itself"}};
     Column<double> expiry_s_{rows_, {"expiry_s", "s", "Simulation time at which the lease ends"}};
     Column<std::int32_t> priority_{rows_, {"priority", "1", "The higher wins"}};
-    Column<std::uint32_t> policy_{rows_, {"policy", "", "Row in /texts: the part that asked"}};
+    Column<std::uint32_t> policy_{rows_, {"policy", "", "Row in /texts: the policy that asked"}};
     Column<std::uint32_t> reason_{rows_, {"reason", "", "Row in /texts"}};
     Column<std::uint32_t> beneficiary_{
         rows_,
