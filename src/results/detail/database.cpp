@@ -134,7 +134,7 @@ void create_tables(Database& database, const FactorColumns& factors) {
                     "PRIMARY KEY (scenario, condition, replication, id)) WITHOUT ROWID",
                     key_columns, columns<metrics::VehicleRow>()));
     database.execute(
-        fmt::format("CREATE TABLE leases ({}, part TEXT, action TEXT, outcome TEXT, reason TEXT, leases "
+        fmt::format("CREATE TABLE leases ({}, policy TEXT, action TEXT, outcome TEXT, reason TEXT, leases "
                     "INTEGER)",
                     key_columns));
     database.execute(
