@@ -267,7 +267,7 @@ void adjust(ScenarioSummary& scenario) {
     }
 }
 
-/// Runs and failures of a study by scenario and condition.
+/// Runs and errors of a study by scenario and condition.
 class Index {
   public:
     explicit Index(const results::Results& results) : replications_(results.manifest.replications) {
@@ -276,23 +276,23 @@ class Index {
             runs.resize(replications_);
             runs.at(run.key.replication) = &run;
         }
-        for (const results::RunError& failure : results.errors)
-            ++failures_[{failure.key.scenario, failure.key.condition}];
+        for (const results::RunError& error : results.errors)
+            ++errors_[{error.key.scenario, error.key.condition}];
     }
     Runs runs(const std::string& scenario, const std::string& condition) const {
         const auto found = runs_.find({scenario, condition});
         return found == runs_.end() ? Runs(replications_) : found->second;
     }
-    std::size_t failures(const std::string& scenario, const std::string& condition) const {
-        const auto found = failures_.find({scenario, condition});
-        return found == failures_.end() ? 0 : found->second;
+    std::size_t errors(const std::string& scenario, const std::string& condition) const {
+        const auto found = errors_.find({scenario, condition});
+        return found == errors_.end() ? 0 : found->second;
     }
 
   private:
     using Cell = std::pair<std::string, std::string>;
     std::size_t replications_;
     std::map<Cell, Runs> runs_;
-    std::map<Cell, std::size_t> failures_;
+    std::map<Cell, std::size_t> errors_;
 };
 
 /// Compares a condition with its baseline, which is summarised.
@@ -322,7 +322,7 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     const Runs runs = index.runs(scenario, condition.name);
     count_outcomes(runs, summary);
     summary.leases = leases_of(runs);
-    summary.failed_runs = index.failures(scenario, condition.name);
+    summary.failed_runs = index.errors(scenario, condition.name);
     summary.missing_runs = runs.size() - summary.complete_runs - summary.failed_runs;
     summary.travel_time = tail_of(runs, resamples);
     std::vector<Values> values = values_of(runs);
@@ -349,7 +349,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(describe_condition(index, entry.name, condition, resamples));
-    const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::engine);
+    const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
         const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
         if (baseline == nullptr) continue;

@@ -7,8 +7,11 @@
 
 #include "core/error.hpp"
 #include "scenario/config.hpp"
+#include "sensing/failure_config.hpp"
 
 namespace clearway::links {
+
+using sensing::Exits;
 
 /// Replications `first` to `first + count - 1`.
 struct SeedRange {
