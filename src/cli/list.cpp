@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/common_options.hpp"
+#include "cli/reference_pages.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"
@@ -74,9 +76,7 @@ Json parameters_of(const sensing::FailureConfig& config) {
         const auto& value = config.*field.member;
         using Member = std::remove_cvref_t<decltype(value)>;
         if constexpr (std::is_enum_v<Member>) {
-            const auto known = sensing::spellings(Member{});
-            parameters[field.name] =
-                std::ranges::find(known, value, [](const auto& spelling) { return spelling.first; })->second;
+            parameters[field.name] = core::name(value);
         } else {
             parameters[field.name] = value;
         }
@@ -144,14 +144,19 @@ struct Arguments {
     bool as_markdown = false;
 };
 
-core::ExitCode list_settings(const Arguments& arguments) {
-    constexpr const char* settings = "settings";
-    if (arguments.words.empty() || arguments.words.front() != settings)
-        throw core::InputError({"list",
-                                arguments.words.empty()
-                                    ? "--markdown goes with settings"
-                                    : fmt::format("`{}` cannot be listed alone", arguments.words.front()),
-                                settings, "Say `clearway list`, or `clearway list settings`"});
+/// What is wrong with `clearway list WORD`.
+core::InputError unknown_list(const std::string& word, const std::vector<ReferencePage>& pages) {
+    std::vector<std::string> known = {"settings"};
+    for (const ReferencePage& page : pages)
+        known.emplace_back(page.name);
+    const std::string allowed = fmt::format("{}", fmt::join(known, ", "));
+    if (word.empty()) return core::InputError({"list", "--markdown needs the name of a page", allowed, ""});
+    const std::string near = core::nearest(word, known);
+    return core::InputError({"list", fmt::format("`{}` cannot be listed alone", word), allowed,
+                             near.empty() ? "Say `clearway list`" : fmt::format("Did you mean `{}`?", near)});
+}
+
+void list_settings(const Arguments& arguments) {
     const std::vector<experiment::Component> components =
         experiment::components_named(arguments.words.size() > 1 ? arguments.words.back() : "");
     if (arguments.as_markdown) {
@@ -161,7 +166,28 @@ core::ExitCode list_settings(const Arguments& arguments) {
     } else {
         fmt::print("{}", experiment::settings_console(components));
     }
-    return core::ExitCode::ok;
+}
+
+void list_page(const ReferencePage& page, const Arguments& arguments) {
+    if (arguments.words.size() > 1)
+        throw core::InputError({"list", fmt::format("`{}` is one word too many", arguments.words.back()),
+                                fmt::format("list {}", page.name), ""});
+    if (arguments.as_markdown) {
+        fmt::print("{}", to_markdown(page));
+    } else if (arguments.printing == Printing::json) {
+        fmt::print("{}", core::fields_json(page.tables));
+    } else {
+        fmt::print("{}", core::fields_console(page.tables, page.use));
+    }
+}
+
+void list_alone(const Arguments& arguments) {
+    const std::string word = arguments.words.empty() ? "" : arguments.words.front();
+    if (word == "settings") return list_settings(arguments);
+    const std::vector<ReferencePage> pages = reference_pages();
+    const auto found = std::ranges::find(pages, word, &ReferencePage::name);
+    if (found == pages.end()) throw unknown_list(word, pages);
+    list_page(*found, arguments);
 }
 
 }  // namespace
@@ -169,15 +195,19 @@ core::ExitCode list_settings(const Arguments& arguments) {
 Action configure_list(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
-    app.add_option("what", arguments->words,
-                   "`settings`: every number that a condition may set, or those of NAME")
+    app.add_option(
+           "what", arguments->words,
+           "`settings`: every number that a condition may set, or those of NAME; `columns`: every number of "
+           "a run; `scenario-keys`: every key of scenario.toml")
         ->expected(0, 2)
-        ->option_text("settings [NAME] [the names alone]");
+        ->option_text("settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");
-    app.add_flag("--markdown", arguments->as_markdown,
-                 "Print the settings as docs/reference/settings.md has them");
+    app.add_flag("--markdown", arguments->as_markdown, "Print them as the page of docs/reference has them");
     return [arguments](const Invocation&) {
-        if (!arguments->words.empty() || arguments->as_markdown) return list_settings(*arguments);
+        if (!arguments->words.empty() || arguments->as_markdown) {
+            list_alone(*arguments);
+            return core::ExitCode::ok;
+        }
         const std::vector<Section> sections = {scenarios(), conditions(), failures(), predictors(),
                                                policies()};
         arguments->printing == Printing::json ? print_json(sections) : print_text(sections);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -38,5 +39,11 @@ template <class Struct, class Visitor>
 constexpr void for_each_field(Visitor&& visit) {
     std::apply([&](const auto&... field) { (visit(field), ...); }, Struct::fields());
 }
+
+/// Whether a member may be absent.
+template <class Member>
+struct OptionalMember : std::false_type {};
+template <class Value>
+struct OptionalMember<std::optional<Value>> : std::true_type {};
 
 }  // namespace clearway::core

@@ -20,11 +20,6 @@ namespace clearway::core {
 /// Keeps the order of its keys, so that equal values give equal bytes.
 using Json = nlohmann::ordered_json;
 
-template <class Value>
-struct OptionalValue : std::false_type {};
-template <class Value>
-struct OptionalValue<std::optional<Value>> : std::true_type {};
-
 /// Text of a value: two blanks of indent, a line end at the end. Bytes that are not UTF-8 are replaced, for
 /// names come from files of others.
 std::string to_text(const Json& json);
@@ -39,7 +34,7 @@ class ObjectReader {
     void read(const char* key, Value& target) {
         const Json* node = find(key);
         if (node == nullptr) return;
-        if constexpr (OptionalValue<Value>::value) {
+        if constexpr (OptionalMember<Value>::value) {
             if (node->is_null()) {
                 target = std::nullopt;
             } else {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -13,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 
 namespace clearway::core {
 
@@ -37,23 +41,24 @@ inline std::string setting_text(const std::string& text) {
 template <class Member>
 std::vector<std::string> words_of() {
     std::vector<std::string> words;
-    if constexpr (std::is_enum_v<Member>) {
-        for (const auto& [value, spelling] : spellings(Member{}))
-            words.emplace_back(spelling);
+    if constexpr (Spelled<Member>) {
+        for (const auto& [value, word] : spellings(Member{}))
+            words.emplace_back(word);
     } else if constexpr (std::is_same_v<Member, bool>) {
         words = {"true", "false"};
     }
     return words;
 }
 
-/// A member's value as the text that sets it.
+/// A member's value as the text that sets it; empty for an empty optional.
 template <class Member>
 std::string member_text(const Member& value) {
-    if constexpr (std::is_enum_v<Member>) {
-        for (const auto& [known, spelling] : spellings(Member{})) {
-            if (known == value) return spelling;
-        }
-        return {};
+    if constexpr (Spelled<Member>) {
+        return std::string(name(value));
+    } else if constexpr (OptionalMember<Member>::value) {
+        return value ? member_text(*value) : "";
+    } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+        return fmt::format("{}", fmt::join(value, ", "));
     } else {
         return fmt::format("{}", value);
     }
@@ -64,15 +69,12 @@ std::string member_text(const Member& value) {
 template <class Field, class Member>
 std::optional<Problem> set_member(const Field& field, const std::string& text, const std::string& where,
                                   Member& target) {
-    if constexpr (std::is_enum_v<Member>) {
-        for (const auto& [value, spelling] : spellings(Member{})) {
-            if (text == spelling) {
-                target = value;
-                return std::nullopt;
-            }
-        }
-        return Problem{where, fmt::format("\"{}\" is not known", text),
-                       fmt::format("{}", fmt::join(words_of<Member>(), ", ")), ""};
+    if constexpr (Spelled<Member>) {
+        const auto value = value_from<Member>(text);
+        if (!value)
+            return Problem{where, fmt::format("\"{}\" is not known", text), spelling_list<Member>(), ""};
+        target = *value;
+        return std::nullopt;
     } else if constexpr (std::is_same_v<Member, bool>) {
         if (text != "true" && text != "false")
             return Problem{where, fmt::format("\"{}\" is not known", text), "true, false", ""};
@@ -154,18 +156,27 @@ struct SettingsTable {
     std::vector<Problem> (*check)(const Settings& settings, const std::string& where) = nullptr;
 };
 
-/// The table of one struct or several, whose defaults are those of their members.
+/// The rows of a struct's field table; defaults are those of its members.
+template <class Struct>
+std::vector<SettingInfo> field_rows(const std::string& prefix = "") {
+    std::vector<SettingInfo> rows;
+    const Struct defaults{};
+    for_each_field<Struct>([&](const auto& field) {
+        using Member = std::remove_cvref_t<decltype(defaults.*field.member)>;
+        rows.push_back({prefix + field.name, field.unit, field.minimum, field.maximum, words_of<Member>(),
+                        member_text(defaults.*field.member), field.doc, field.source});
+    });
+    return rows;
+}
+
+/// The table of one struct or several.
 template <class... Structs>
 SettingsTable settings_table() {
     SettingsTable table;
-    [[maybe_unused]] const auto add = [&]<class Struct>(const Struct& defaults) {
-        for_each_field<Struct>([&](const auto& field) {
-            using Member = std::remove_cvref_t<decltype(defaults.*field.member)>;
-            table.rows.push_back({field.name, field.unit, field.minimum, field.maximum, words_of<Member>(),
-                                  member_text(defaults.*field.member), field.doc, field.source});
-        });
+    [[maybe_unused]] const auto add = [&](std::vector<SettingInfo> rows) {
+        std::ranges::move(rows, std::back_inserter(table.rows));
     };
-    (add(Structs{}), ...);
+    (add(field_rows<Structs>()), ...);
     table.check = [](const Settings& settings, const std::string& where) {
         std::tuple<Structs...> targets;
         return std::apply([&](auto&... target) { return apply_settings(settings, where, target...); },

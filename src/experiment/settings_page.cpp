@@ -1,49 +1,25 @@
 #include "experiment/settings_page.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
+#include "core/field_page.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
 namespace {
 
-constexpr std::size_t columns = 80;
-
-/// `text` in lines of at most `columns`, each behind `indent`.
-std::string wrapped(const std::string& text, const std::string& indent) {
-    std::istringstream words(text);
-    std::string lines;
-    std::string line;
-    for (std::string word; words >> word;) {
-        if (!line.empty() && indent.size() + line.size() + 1 + word.size() > columns) {
-            lines += indent + line + "\n";
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + word;
+std::vector<core::FieldTable> field_tables(const std::vector<Component>& components) {
+    std::vector<core::FieldTable> tables;
+    for (const Component& component : components) {
+        core::FieldTable& table =
+            tables.emplace_back(core::FieldTable{component.name, component.summary, component.table.rows});
+        for (core::SettingInfo& row : table.rows)
+            row.name = component.name + "." + row.name;
     }
-    return lines + indent + line + "\n";
-}
-
-std::string unit_of(const core::SettingInfo& row) {
-    return row.unit == "1" ? "" : row.unit;
-}
-
-/// `0 to 60`, or the words.
-std::string range_of(const core::SettingInfo& row) {
-    return row.words.empty() ? fmt::format("{} to {}", row.minimum, row.maximum)
-                             : fmt::format("{}", fmt::join(row.words, ", "));
-}
-
-/// A bar would end a cell.
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
-        text.insert(at, "\\");
-    return text;
+    return tables;
 }
 
 std::vector<std::string> names_of(const std::vector<Component>& components) {
@@ -78,63 +54,24 @@ std::vector<Component> components_named(const std::string& name) {
 }
 
 std::string settings_console(const std::vector<Component>& components) {
-    std::string text;
-    for (const Component& component : components) {
-        text += text.empty() ? "" : "\n";
-        text += wrapped(fmt::format("{}: {}", component.name, component.summary), "");
-        for (const core::SettingInfo& row : component.table.rows) {
-            const std::string unit = unit_of(row);
-            text += wrapped(fmt::format("{}.{} = {}{}{} ({})", component.name, row.name, row.preset,
-                                        unit.empty() ? "" : " ", unit, range_of(row)),
-                            "  ");
-            text += wrapped(row.doc + ".", "      ");
-            if (!row.source.empty()) text += wrapped("Why: " + row.source + ".", "      ");
-        }
-    }
-    return text;
+    return core::fields_console(field_tables(components), core::FieldUse::set);
 }
 
 std::string settings_json(const std::vector<Component>& components) {
-    using Json = nlohmann::ordered_json;
-    Json list = Json::array();
-    for (const Component& component : components) {
-        for (const core::SettingInfo& row : component.table.rows) {
-            Json item = {{"name", component.name + "." + row.name},
-                         {"component", component.name},
-                         {"unit", row.unit},
-                         {"default", row.preset}};
-            if (row.words.empty()) {
-                item["minimum"] = row.minimum;
-                item["maximum"] = row.maximum;
-            } else {
-                item["words"] = row.words;
-            }
-            item["description"] = row.doc;
-            item["reason"] = row.source;
-            list.push_back(std::move(item));
-        }
-    }
-    return list.dump(2) + "\n";
+    return core::fields_json(field_tables(components));
 }
 
 std::string settings_markdown(const std::vector<Component>& components) {
-    std::string text =
-        "# Settings\n\n"
-        "Every number that a condition may set, by its full name: `--set preempt_signals.lead_s=12` on the\n"
-        "command line, `set = { \"preempt_signals.lead_s\" = 12 }` in a `[[condition]]` of a study file, or\n"
-        "`preempt_signals.lead_s = [4, 8, 16]` below `[factors]`. This page is generated from the program's\n"
-        "tables: `clearway list settings --markdown > docs/reference/settings.md`.\n";
-    for (const Component& component : components) {
-        text += fmt::format("\n## {}\n\n{}.\n\n", component.name, component.summary);
-        text +=
-            "| name | default | unit | allowed | what it is | why this default "
-            "|\n|---|---|---|---|---|---|\n";
-        for (const core::SettingInfo& row : component.table.rows) {
-            text += fmt::format("| `{}.{}` | {} | {} | {} | {} | {} |\n", component.name, row.name,
-                                row.preset, unit_of(row), range_of(row), cell(row.doc), cell(row.source));
-        }
-    }
-    return text;
+    return "# Settings\n\n"
+           "Every number that a condition may set, by its full name: `--set preempt_signals.lead_s=12` on "
+           "the\n"
+           "command line, `set = { \"preempt_signals.lead_s\" = 12 }` in a `[[condition]]` of a study file, "
+           "or\n"
+           "`preempt_signals.lead_s = [4, 8, 16]` below `[factors]`. The conditions are about emergency "
+           "vehicles\n"
+           "(EV) and the traffic around them. This page is generated from the program's tables:\n"
+           "`clearway list settings --markdown > docs/reference/settings.md`.\n" +
+           core::fields_markdown(field_tables(components), core::FieldUse::set);
 }
 
 }  // namespace clearway::experiment

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files.hpp"
 #include "user.hpp"
 
 namespace clearway::cli {
@@ -174,6 +175,25 @@ TEST_F(HelpTest, list_as_json_has_units_in_the_names_of_parameters) {
         if (failure["name"] != "B10") continue;
         EXPECT_EQ(failure["parameters"]["mean_outage_s"], 10.0);
     }
+}
+
+TEST_F(HelpTest, reference_pages_are_those_that_are_committed) {
+    for (const std::string page : {"settings", "columns", "scenario-keys"}) {
+        const std::filesystem::path file =
+            std::filesystem::path(CLEARWAY_SOURCE_DIR) / "docs" / "reference" / (page + ".md");
+        EXPECT_EQ(core::read_file(file), clearway({"list", page, "--markdown"}).out)
+            << "renew it: clearway list " << page << " --markdown > docs/reference/" << page << ".md";
+        EXPECT_THAT(clearway({"list", page}).out, HasSubstr("emergency"));
+        EXPECT_FALSE(nlohmann::json::parse(clearway({"list", page, "--json"}).out).empty());
+    }
+}
+
+TEST_F(HelpTest, a_list_that_is_unknown_is_told_the_nearest) {
+    const Ended ended = clearway({"list", "colums"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("settings, columns, scenario-keys"), HasSubstr("`columns`?")));
+    EXPECT_EQ(clearway({"list", "--markdown"}).code, 3);
+    EXPECT_EQ(clearway({"list", "columns", "more"}).code, 3);
 }
 
 TEST_F(HelpTest, full_standard_output_exits_with_4) {

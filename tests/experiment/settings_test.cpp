@@ -179,13 +179,6 @@ TEST(Settings, OfAModelKeepItsContent) {
     EXPECT_NE(condition.model_hash, before);
 }
 
-TEST(SettingsPage, IsTheOneThatIsCommitted) {
-    const std::filesystem::path page =
-        std::filesystem::path(CLEARWAY_SOURCE_DIR) / "docs" / "reference" / "settings.md";
-    EXPECT_EQ(core::read_file(page), settings_markdown(components()))
-        << "renew it: clearway list settings --markdown > docs/reference/settings.md";
-}
-
 TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
     const std::vector<Component> found = components_named("corridor");
     ASSERT_EQ(found.size(), 3U);
