@@ -21,7 +21,7 @@ std::string csv_text(std::string_view text);
 /// Shortest decimal text that reads back as the same number.
 template <class Value>
 std::string csv_cell(const Value& value) {
-    if constexpr (OptionalValue<Value>::value) {
+    if constexpr (OptionalMember<Value>::value) {
         return value ? csv_cell(*value) : std::string();
     } else if constexpr (std::is_arithmetic_v<Value>) {
         return fmt::format("{}", value);
@@ -74,7 +74,7 @@ class CsvReader {
 /// The opposite of `csv_cell`. Throws std::runtime_error for text that is no such value.
 template <class Value>
 void read_cell(std::string_view cell, Value& target) {
-    if constexpr (OptionalValue<Value>::value) {
+    if constexpr (OptionalMember<Value>::value) {
         if (cell.empty()) {
             target = std::nullopt;
         } else {

@@ -70,7 +70,7 @@ class Inserter {
 
 template <class Value>
 constexpr const char* column_type() {
-    if constexpr (core::OptionalValue<Value>::value) {
+    if constexpr (core::OptionalMember<Value>::value) {
         return column_type<typename Value::value_type>();
     } else if constexpr (std::is_integral_v<Value>) {
         return "INTEGER";
