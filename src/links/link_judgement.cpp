@@ -10,7 +10,7 @@ namespace {
 
 using detail::Drawn;
 
-/// The same case of some runs.
+/// Case `number` of each run.
 std::vector<const LinkCase*> cases_of(std::span<const LinkRun> runs, std::size_t number) {
     std::vector<const LinkCase*> cases;
     for (const LinkRun& run : runs)
