@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t columns = 80;
 
-/// `text` in lines of at most `columns`, each behind `indent`.
+/// Wraps `text` to lines of at most `columns`, each starting with `indent`.
 std::string wrapped(const std::string& text, const std::string& indent) {
     std::istringstream words(text);
     std::string lines;
@@ -33,13 +33,13 @@ std::string unit_of(const core::SettingInfo& row) {
     return row.unit == "1" ? "" : row.unit;
 }
 
-/// `0 to 60`, or the words.
+/// `0 to 60`, or the allowed words.
 std::string range_of(const core::SettingInfo& row) {
     return row.words.empty() ? fmt::format("{} to {}", row.minimum, row.maximum)
                              : fmt::format("{}", fmt::join(row.words, ", "));
 }
 
-/// A bar would end a cell.
+/// Escapes bars, which would end a table cell.
 std::string cell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
         text.insert(at, "\\");
