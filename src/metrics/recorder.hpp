@@ -55,8 +55,8 @@ struct RunEnd {
     std::vector<std::filesystem::path> tripinfo_files;
     std::vector<PlannedVehicle> planned;
     core::Seconds time;
-    /// Maximum duration of a run: the travel time with which an emergency vehicle counts that did not arrive.
-    /// It must not depend on the condition.
+    /// Maximum duration of a run; an emergency vehicle that did not arrive counts with this travel time. It
+    /// must not depend on the condition.
     core::Seconds horizon;
     LeaseTotals leases;
 };

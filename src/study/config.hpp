@@ -48,7 +48,7 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge", "my/crossing"]        # names, folders or files, relative to this file
 ///     conditions = ["baseline", "graph_graphsage", "solo"]
 ///
-///     [[scenario]]                                # beside the named ones: with overrides of its own
+///     [[scenario]]                                # in addition to the named ones, with its own overrides
 ///     name = "crossing_dense"
 ///     from = "my/crossing"
 ///     variant = "dense"
@@ -71,7 +71,7 @@ enum class Extent : std::uint8_t {
 ///     design = "all_combinations"                 # or "one_at_a_time"
 ///     scenario.demand.human = [40, 80]
 ///
-///     [[condition]]                               # beside the named ones
+///     [[condition]]                               # in addition to the named ones
 ///     name = "b20"
 ///     failure = "B20"
 ///     predictor = "graphsage_corrected"
