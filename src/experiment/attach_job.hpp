@@ -21,7 +21,7 @@ struct AttachJob {
     ConditionSpec condition;
     std::filesystem::path output;
 
-    /// All but the condition.
+    /// All members but the condition.
     static constexpr auto fields() {
         using Self = AttachJob;
         return std::make_tuple(

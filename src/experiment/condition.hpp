@@ -35,7 +35,7 @@ struct ConditionSpec {
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     /// `preempt_signals.lead_s` -> `12`, as experiment/settings.hpp knows them.
     core::Settings settings = {};
-    std::string model_file = {};  ///< Of a learned predictor; absolute; empty: the model in the program.
+    std::string model_file = {};  ///< Absolute path, for a learned predictor; empty: the built-in model.
     std::string model_hash = {};  ///< Hash of that file's content: a changed model makes another condition.
     /// Factors of the study from which it was made, `failure.dark_share` -> `0.3`; they repeat what other
     /// members hold.

@@ -7,7 +7,7 @@
 
 namespace clearway::experiment {
 
-/// A condition that comes with Clearway.
+/// A built-in condition.
 struct BuiltInCondition {
     std::string summary;  ///< One line for `clearway list`.
     ConditionSpec condition;

@@ -16,7 +16,7 @@ namespace clearway::experiment {
 /// What a data set is for.
 enum class DatasetKind : std::uint8_t {
     published,  ///< One snapshot as chapter 5.4 of the dissertation stores it: three CSV files.
-    samples,    ///< What predictors were given at many moments, with the answers: one file per failure model.
+    samples,    ///< Inputs of predictors at many moments, with labels: one file per failure model.
     repair,     ///< The same for the improved net, `graphsage`.
     /// The features of every candidate pair, for the logistic pair model; also per failure model.
     pair_samples,

@@ -14,7 +14,7 @@ namespace clearway::experiment {
 /// What one worker process does: `clearway-run FILE`.
 using Job = std::variant<RunJob, DatasetJob, LinkJob, AttachJob>;
 
-/// JSON; the key `kind` (`run`, `dataset`, `links`, `attach`) tells the alternative.
+/// The job as JSON; the key `kind` (`run`, `dataset`, `links`, `attach`) names the alternative.
 std::string to_json(const Job& job);
 
 /// Throws core::InputError with every problem: a key that is missing, unknown or of the wrong type, a number

@@ -36,7 +36,7 @@ struct LinkJob : Simulation {
     std::vector<sensing::Exits> exits;
     std::vector<JudgedPredictor> predictors;
 
-    /// All but the predictors.
+    /// All members but the predictors.
     static constexpr auto fields() {
         using Self = LinkJob;
         return std::make_tuple(

@@ -10,11 +10,11 @@
 
 namespace clearway::links {
 
-/// The grid on which probabilities of links are counted: fine in the odds at both ends, where rankings are
-/// decided. Bins are ordered by probability. From 2^-24 to 1 - 2^-24 a bin spans at most 1/64 of the smaller
-/// of p and 1 - p; below 2^-24 it spans an eighth of an octave. Everything below 2^-64 is one bin, and so is
-/// 1 (the next smaller float is 1 - 2^-24). Ranking measures from these counts differ from exact ones only by
-/// the order of pairs within a bin.
+/// The grid on which link probabilities are counted. It is fine near 0 and 1, where rankings are decided.
+/// Bins are ordered by probability. From 2^-24 to 1 - 2^-24 a bin spans at most 1/64 of the smaller of p and
+/// 1 - p; below 2^-24 it spans an eighth of an octave. Everything below 2^-64 is one bin, and so is 1 (the
+/// next smaller float is 1 - 2^-24). Ranking measures from these counts differ from exact ones only by the
+/// order of pairs within a bin.
 struct LinkGrid {
     static constexpr std::uint32_t size = 3267;
     /// `probability` in [0, 1]; not checked.

@@ -44,7 +44,7 @@ struct LinkResult {
     double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
     std::array<LinkMeasures, link_subsets.size()> subsets;
     LinkEndToEnd end_to_end;
-    double report_us = 0.0;        ///< Wall time of one prediction.
+    double report_us = 0.0;        ///< Mean wall time of one prediction.
     double report_vehicles = 0.0;  ///< Mean number in an observation.
 
     const LinkMeasures& of(LinkSubset subset) const { return subsets[static_cast<std::size_t>(subset)]; }

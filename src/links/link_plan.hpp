@@ -39,8 +39,8 @@ struct LinkPlan {
     std::string opponent() const;
 };
 
-/// Where the runs of a plan are: `runs/SCENARIO/REPLICATION/PREDICTOR-KEY.links`, where the key follows from
-/// everything that the content depends on, the program that does the runs included.
+/// Paths of the runs of a plan: `runs/SCENARIO/REPLICATION/PREDICTOR-KEY.links`. The key is a hash of
+/// everything that the content depends on, including the program that makes the runs.
 class LinkRunFiles {
   public:
     /// `worker_hash` identifies that program. The plan outlives this object. Reads the scenarios' files.

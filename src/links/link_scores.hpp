@@ -21,7 +21,7 @@ std::string_view name(LinkSubset subset);
 
 /// A pair is hard when simple kinematics does not decide it: dead reckoning puts it within half a link radius
 /// of the radius (25 to 75 m for 50 m), or the last reports and dead reckoning disagree on whether it is
-/// linked. Depends on no predictor.
+/// linked. Does not depend on the predictor.
 bool is_hard(float last_seen_m, float dead_reckoned_m, float radius_m);
 
 /// Upper bounds of the age classes, s, by the older of the two reports. The last class has no bound.

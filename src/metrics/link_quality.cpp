@@ -22,8 +22,8 @@ Counts totals(ScoredLinks links) {
     return {positives, links.linked.size() - positives};
 }
 
-/// Calls `visit(score, above, upto)` for each distinct score, from the highest: the counts of pairs scored
-/// higher, and of those scored as high or higher.
+/// Calls `visit(score, above, upto)` for each distinct score, from the highest down, with the counts of pairs
+/// scored higher and of pairs scored at least as high.
 template <class Visit>
 void for_each_score(ScoredLinks links, Visit&& visit) {
     std::vector<std::size_t> order(links.probability.size());

@@ -258,7 +258,7 @@ struct Recorder::State {
     RunMetrics counted;  ///< Counts from events and snapshots so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
     RoadLayout layout;
-    std::vector<core::VehicleKey> keys;     ///< Of the step before.
+    std::vector<core::VehicleKey> keys;     ///< Keys at the step before.
     std::vector<std::uint32_t> row_before;  ///< Row of each vehicle at the step before.
     std::optional<detail::TrafficWatch> traffic;
     std::optional<detail::FlowWatch> flow;

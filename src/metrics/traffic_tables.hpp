@@ -61,7 +61,7 @@ struct RecoveryRow {
 struct JourneyRow {
     std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
     std::string signal;   ///< Empty: the row is a position of the vehicle.
-    std::string state;    ///< `green`, `yellow` or `red` for the vehicle's way; empty without a signal.
+    std::string state;    ///< `green`, `yellow` or `red` for the vehicle's path; empty without a signal.
     double time_s = 0.0;
     double distance_m = 0.0;
 

@@ -21,7 +21,7 @@ enum class VehicleOutcome : std::uint8_t {
     running_at_end,  ///< Still on the road at the end of the run.
     teleported,      ///< Taken out of a jam by SUMO, even when it arrived later.
     not_inserted,    ///< Never found room to depart.
-    removed,         ///< Gone without arriving.
+    removed,         ///< Removed before it arrived.
 };
 constexpr core::Spellings<VehicleOutcome, 5> spellings(VehicleOutcome) {
     return {{{VehicleOutcome::arrived, "arrived"},

@@ -29,7 +29,7 @@ struct ChainContext {
 /// replay agree because both use this class. One thread.
 class DecisionChain {
   public:
-    /// Throws core::InputError for names and settings that do not exist, and for a model that does not fit.
+    /// Throws core::InputError for unknown names and settings, and for a model that does not fit.
     DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context);
 
     /// Call at every step: takes the observation of the sensors. References outlive the step.
@@ -44,9 +44,9 @@ class DecisionChain {
     /// Vehicles that commands cannot reach now (sensing::SensorModel).
     std::span<const core::VehicleKey> unreachable() const { return sensor_->unreachable(); }
     const prediction::Predictor& predictor() const { return *predictor_; }
-    /// Of the last decision.
+    /// Belief of the last decision.
     const traffic::BelievedGraph& belief() const { return belief_; }
-    /// Of the last decision; empty when none was made in this step.
+    /// Leases of the last decision; empty when no decision was made in this step.
     std::span<const traffic::Lease> leases() const { return leases_; }
 
   private:

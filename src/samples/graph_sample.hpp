@@ -27,7 +27,7 @@ struct ObservedEdge {
     bool operator==(const ObservedEdge&) const = default;
 };
 
-/// One moment of one run: what a predictor was given, and the answer. Rows follow the observation's order.
+/// One moment of one run: what a predictor was given, and the labels. Rows follow the observation's order.
 struct GraphSample {
     double time_s = 0.0;
     std::uint32_t vehicle_count = 0;

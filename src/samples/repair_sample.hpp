@@ -10,7 +10,7 @@
 
 namespace clearway::samples {
 
-/// One moment of one run: what the improved net was given, and the answers.
+/// One moment of one run: what the improved net was given, and the labels.
 struct RepairSample {
     double time_s = 0.0;
     prediction::RepairInputs inputs;

@@ -12,7 +12,8 @@ struct SampleOrigin {
     std::string scenario;
     std::string failure;                 ///< Name of the sensing preset, for example `B10`.
     prediction::FeatureSchema features;  ///< Meaning of the numbers; width in [1, 256].
-    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
+    /// Forms the seed with `replication`. Training puts all runs of a seed in one part of the split.
+    std::uint64_t study_seed = 1;
     std::uint32_t replication = 0;
     double link_radius_m = 50.0;
 

@@ -23,10 +23,10 @@ struct RunnerOptions {
 
 /// Progress of a study, in runs.
 struct StudyProgress {
-    std::size_t done = 0;  ///< Complete, earlier ones included.
+    std::size_t done = 0;  ///< Complete runs, including earlier ones.
     std::size_t failed = 0;
     std::size_t total = 0;
-    std::size_t resumed = 0;  ///< Complete before this start.
+    std::size_t resumed = 0;  ///< Runs that were complete before this call.
     double elapsed_s = 0.0;
 };
 

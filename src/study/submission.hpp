@@ -14,7 +14,7 @@ enum class SubmitEngine : std::uint8_t {
     local,     ///< Processes of this host.
 };
 
-/// A study divided for many machines. Paths are absolute and the same on all of them.
+/// A study divided among many machines. Paths are absolute and the same on all of them.
 struct Submission {
     SubmitEngine engine = SubmitEngine::local;
     std::uint32_t shards = 1;

@@ -19,7 +19,7 @@ struct LinkScore {
     std::uint64_t scored = 0;   ///< Of them, those at report rounds.
     metrics::LinkCounts links;  ///< All links.
     metrics::LinkCounts dark;   ///< Links with an end whose newest report did not arrive.
-    std::uint64_t leases = 0;   ///< Issued by the policy, renewals included.
+    std::uint64_t leases = 0;   ///< Leases issued, renewals included.
 };
 
 /// How many recorded structs the replay reproduced bit for bit.
@@ -35,7 +35,7 @@ struct ReplayResult {
     double end_s = 0.0;
     std::uint64_t steps = 0;
     std::uint64_t vehicle_steps = 0;
-    LinkScore recorded;  ///< Without decisions where the recorded condition has no policy.
+    LinkScore recorded;  ///< No decisions if the recorded condition has no policy.
     LinkScore replayed;
     /// Quality of the predictor's probabilities for all candidates (pairs with a dark end) at report rounds.
     metrics::LinkQuality candidates;

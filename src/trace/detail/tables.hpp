@@ -205,7 +205,7 @@ class TableWriter {
         : file_(create_file(file)), steps_(create_group(file_.get(), "steps")) {}
 
     hid_t id() const { return file_.get(); }
-    /// The group of what each step has once.
+    /// The group of columns with one row per step.
     hid_t steps() const { return steps_.get(); }
     void add(ColumnFile& column) { columns_.push_back(&column); }
     void end_step() {
@@ -265,7 +265,7 @@ class TableReader {
         : file_(open_file(file)), steps_(H5Gopen2(file_.get(), "steps", H5P_DEFAULT), H5Gclose) {}
 
     hid_t id() const { return file_.get(); }
-    /// The group of what each step has once.
+    /// The group of columns with one row per step.
     hid_t steps() const { return steps_.get(); }
     void add(ColumnFile& column) { columns_.push_back(&column); }
     void start_step() {
@@ -369,7 +369,7 @@ class Names {
 
     void write(TableWriter& file) const;
     void read(TableReader& file);
-    /// Adds all of it.
+    /// Adds all names to the hash.
     void add_to(RunningHash& hash) const;
 
   private:
