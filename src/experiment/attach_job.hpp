@@ -10,7 +10,7 @@
 
 namespace clearway::experiment {
 
-/// A simulation that runs elsewhere, and the condition under which it is to go on.
+/// A simulation that runs elsewhere, and the condition under which it continues.
 struct AttachJob {
     std::string host;
     int port = 0;
@@ -21,11 +21,11 @@ struct AttachJob {
     ConditionSpec condition;
     std::filesystem::path output;
 
-    /// All but the condition.
+    /// All members but the condition.
     static constexpr auto fields() {
         using Self = AttachJob;
         return std::make_tuple(
-            core::Field{"host", "", &Self::host, 0, 0, "Machine on which that SUMO runs", "localhost"},
+            core::Field{"host", "", &Self::host, 0, 0, "Machine on which SUMO runs", "localhost"},
             core::Field{"port", "1", &Self::port, 1, 65535, "Its --remote-port", "given"},
             core::Field{"network", "", &Self::network, 0, 0, "Network file; empty: the one that SUMO names",
                         "as SUMO says"},
@@ -35,7 +35,7 @@ struct AttachJob {
                         "Vehicle types of SUMO that count as emergency vehicles", "none"},
             core::Field{"study_seed", "1", &Self::study_seed, 0, 1.8446744073709552e19,
                         "Seed of sensor failures", "any"},
-            core::Field{"output", "", &Self::output, 0, 0, "Run folder; made", "given"});
+            core::Field{"output", "", &Self::output, 0, 0, "Run folder; created", "given"});
     }
     bool operator==(const AttachJob&) const = default;
 };

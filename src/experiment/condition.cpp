@@ -8,7 +8,7 @@
 namespace clearway::experiment {
 namespace {
 
-/// Settings of the loop have had a key of their own since before there were others.
+/// For compatibility: settings of the loop had this key before other settings existed.
 constexpr const char* loop_component = "loop";
 constexpr const char* loop_key = "loop_settings";
 

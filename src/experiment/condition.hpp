@@ -11,7 +11,7 @@
 
 namespace clearway::experiment {
 
-/// SUMO options that a whole process shares; conditions of one process differ in everything else.
+/// SUMO options that a whole process shares. Conditions of one process may differ in everything else.
 enum class TrafficModel : std::uint8_t {
     standard,
     sublane,    ///< --lateral-resolution.
@@ -30,19 +30,20 @@ struct ConditionSpec {
     std::string name;
     std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
     std::string predictor = "none";
-    std::vector<std::string> policies;  ///< In this order; empty: the car-following model alone.
+    std::vector<std::string> policies;  ///< Applied in this order; empty: the car-following model alone.
     TrafficModel traffic_model = TrafficModel::standard;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     /// `preempt_signals.lead_s` -> `12`, as experiment/settings.hpp knows them.
     core::Settings settings = {};
-    std::string model_file = {};  ///< Of a learned predictor; absolute; empty: the model in the program.
-    std::string model_hash = {};  ///< Of that file's content, so that a changed model is another condition.
-    /// Factors of the study that made it, `failure.dark_share` -> `0.3`; they say what the rest already
-    /// holds.
+    std::string model_file = {};  ///< Absolute path, for a learned predictor; empty: the built-in model.
+    std::string model_hash = {};  ///< Hash of that file's content: a changed model makes another condition.
+    /// Factors of the study from which it was made, `failure.dark_share` -> `0.3`; they repeat what other
+    /// members hold.
     core::Settings factors = {};
-    traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< SUMO's own model of a rescue lane.
+    /// SUMO's own rescue lane model (blue light device).
+    traffic::BlueLight bluelight = traffic::BlueLight::off;
 
-    /// Whether anything is done for emergency vehicles; a condition where nothing is can be a baseline.
+    /// Whether anything is done for emergency vehicles. Otherwise the condition can be a baseline.
     bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
 
     bool operator==(const ConditionSpec&) const = default;

@@ -31,12 +31,13 @@ std::vector<BuiltInCondition> make_conditions() {
     corridor.name = usual_condition;
     corridor.policies = {"corridor"};
     return {
-        {"The car-following model alone (IDM); what all others are compared with", baseline},
-        {"Signals preempted, the lane cleared and the crossing traffic recovered, with perfect sensing; what "
-         "`clearway run` compares with the baseline",
+        {"The car-following model alone (IDM), with which all others are compared", baseline},
+        {"Signals preempted, the lane cleared and the crossing traffic recovered, with perfect sensing; "
+         "`clearway run` compares it with the baseline",
          corridor},
-        with_policy("graph_simulation", "perfect", "none",
-                    "The dissertation's policy on the graph from simulation attributes: perfect sensing"),
+        with_policy(
+            "graph_simulation", "perfect", "none",
+            "The dissertation's policy on the graph from simulation attributes, with perfect sensing"),
         with_policy("graph_graphsage", usual_failure, "graphsage_corrected",
                     "The dissertation's policy on the graph that GraphSAGE rebuilds under B10 failures"),
         with_policy("b10_no_repair", usual_failure, "none", "Control: the same failures without repair"),
@@ -62,8 +63,7 @@ ConditionSpec built_in_condition(const std::string& name, const std::string& whe
         list += (list.empty() ? "" : ", ") + known.condition.name;
     }
     const std::string near = core::nearest(name, names);
-    throw core::InputError({where, fmt::format("'{}' is not a condition that comes with Clearway", name),
-                            list,
+    throw core::InputError({where, fmt::format("'{}' is not a built-in condition", name), list,
                             near.empty() ? "Define it in [[condition]], or use a known name"
                                          : fmt::format("Did you mean '{}'?", near)});
 }

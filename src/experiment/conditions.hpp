@@ -7,20 +7,20 @@
 
 namespace clearway::experiment {
 
-/// A condition that comes with Clearway.
+/// A built-in condition.
 struct BuiltInCondition {
     std::string summary;  ///< One line for `clearway list`.
     ConditionSpec condition;
 };
 
-/// What is run where no condition is named.
+/// The condition that runs when none is named.
 inline constexpr const char* usual_condition = "corridor";
 
 /// `baseline`, the usual condition, the dissertation's `graph_simulation` and `graph_graphsage` with the
 /// controls `b10_no_repair` and `b10_dead_reckoning`, then `solo`, the practical floor.
 const std::vector<BuiltInCondition>& built_in_conditions();
 
-/// Throws core::InputError, saying `where`, for an unknown name and names the nearest.
+/// Throws core::InputError, saying `where`, for an unknown name; it suggests the nearest name.
 ConditionSpec built_in_condition(const std::string& name, const std::string& where);
 
 }  // namespace clearway::experiment

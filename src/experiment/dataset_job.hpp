@@ -16,9 +16,10 @@ namespace clearway::experiment {
 /// What a data set is for.
 enum class DatasetKind : std::uint8_t {
     published,  ///< One snapshot as chapter 5.4 of the dissertation stores it: three CSV files.
-    samples,    ///< What predictors were given at many moments, with the answers: one file per failure model.
+    samples,    ///< Inputs of predictors at many moments, with labels: one file per failure model.
     repair,     ///< The same for the improved net, `graphsage`.
-    pair_samples,  ///< The features of every candidate pair, for the logistic pair model; likewise.
+    /// The features of every candidate pair, for the logistic pair model; also per failure model.
+    pair_samples,
 };
 constexpr core::Spellings<DatasetKind, 4> spellings(DatasetKind) {
     return {{{DatasetKind::published, "published"},
@@ -65,7 +66,8 @@ struct DatasetJob : Simulation {
     bool operator==(const DatasetJob&) const = default;
 };
 
-/// The file of the job's samples of one failure. `ending` tells what is in it; see prediction.
+/// The file for the job's samples of one failure. `ending` tells the kind of samples; see
+/// samples::sample_ending.
 std::filesystem::path sample_file(const DatasetJob& job, const std::string& failure, std::string_view ending);
 
 }  // namespace clearway::experiment

@@ -17,11 +17,11 @@ namespace {
 using core::Json;
 using core::ObjectReader;
 
-/// In the order of Job's alternatives.
+/// In the order of the alternatives of Job.
 constexpr std::array kind_names = {"run", "dataset", "links", "attach"};
 static_assert(kind_names.size() == std::variant_size_v<Job>);
 
-/// One JSON object of a job file and what is wrong with it.
+/// One JSON object of a job file, and the list for its problems.
 struct Source {
     const Json& object;
     std::string where;
@@ -44,7 +44,7 @@ void check_ranges(const Source& source, const Value& value) {
     });
 }
 
-/// Members of a field table, which may be that of a base, and their ranges.
+/// Reads the members of a field table, which may be that of a base class, and checks their ranges.
 template <class Table, class Value>
 void read_table(const Source& source, ObjectReader& reader, Value& value) {
     const std::size_t before = source.problems.size();
@@ -52,7 +52,7 @@ void read_table(const Source& source, ObjectReader& reader, Value& value) {
     if (source.problems.size() == before) check_ranges<Table>(source, value);
 }
 
-/// An object that holds the members of a field table and nothing else.
+/// Reads an object that holds the members of a field table and nothing else.
 template <class Value>
 void read_object(const Source& source, Value& value) {
     ObjectReader reader(source.object, source.where, source.problems);
@@ -123,7 +123,7 @@ void read(const Source& source, ObjectReader& reader, AttachJob& job) {
                                    source.where + ": condition", source.problems);
 }
 
-/// A job of the kind `index`, with nothing in it; of the first kind for an index that is none.
+/// An empty job of the kind `index`; of the first kind if the index is out of range.
 template <std::size_t... indices>
 Job empty_job(std::size_t index, std::index_sequence<indices...>) {
     Job job;

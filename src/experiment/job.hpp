@@ -14,11 +14,11 @@ namespace clearway::experiment {
 /// What one worker process does: `clearway-run FILE`.
 using Job = std::variant<RunJob, DatasetJob, LinkJob, AttachJob>;
 
-/// JSON; the key `kind` (`run`, `dataset`, `links`, `attach`) tells the alternative.
+/// The job as JSON; the key `kind` (`run`, `dataset`, `links`, `attach`) names the alternative.
 std::string to_json(const Job& job);
 
-/// Throws core::InputError with every problem: a key that is missing, unknown or of another type, a number
-/// out of its range.
+/// Throws core::InputError with every problem: a key that is missing, unknown or of the wrong type, a number
+/// out of range.
 Job read_job(const std::filesystem::path& file);
 
 }  // namespace clearway::experiment

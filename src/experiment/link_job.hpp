@@ -10,7 +10,7 @@
 
 namespace clearway::experiment {
 
-/// One predictor to judge, and where its LinkRun goes.
+/// One predictor to evaluate, and where its LinkRun goes.
 struct JudgedPredictor {
     std::string name;
     std::string model_file;
@@ -22,25 +22,25 @@ struct JudgedPredictor {
         return std::make_tuple(
             core::Field{"name", "", &Self::name, 0, 0, "Name of the predictor", "given"},
             core::Field{"model_file", "", &Self::model_file, 0, 0, "Weights; empty: as shipped", "shipped"},
-            core::Field{"settings", "", &Self::settings, 0, 0,
-                        "Fields of prediction::PredictionConfig that differ", "none"},
+            core::Field{"settings", "", &Self::settings, 0, 0, "Settings that differ from their defaults",
+                        "none"},
             core::Field{"output", "", &Self::output, 0, 0, "The file of its LinkRun", "given"});
     }
     bool operator==(const JudgedPredictor&) const = default;
 };
 
-/// An evaluation of links: one simulation without a policy, in which predictors are judged.
+/// One simulation without a policy, on which the links of predictors are evaluated.
 struct LinkJob : Simulation {
     std::filesystem::path work_folder;
     std::vector<std::string> failures;
     std::vector<sensing::Exits> exits;
     std::vector<JudgedPredictor> predictors;
 
-    /// All but the predictors.
+    /// All members but the predictors.
     static constexpr auto fields() {
         using Self = LinkJob;
         return std::make_tuple(
-            core::Field{"work_folder", "", &Self::work_folder, 0, 0, "For SUMO's files; removed in the end",
+            core::Field{"work_folder", "", &Self::work_folder, 0, 0, "For SUMO's files; removed at the end",
                         "given"},
             core::Field{"failures", "", &Self::failures, 0, 0, "Presets of sensing", "given"},
             core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left", "given"});

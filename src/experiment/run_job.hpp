@@ -13,21 +13,21 @@
 
 namespace clearway::experiment {
 
-/// Whether every step of a run is kept in a file (trace/recording.hpp). It changes no result.
+/// Whether every step of a run is recorded in a file (trace/recording.hpp). Does not change results.
 enum class StepRecording : std::uint8_t { off, on };
 constexpr core::Spellings<StepRecording, 2> spellings(StepRecording) {
     return {{{StepRecording::off, "off"}, {StepRecording::on, "on"}}};
 }
 
-/// What a run may use before it is ended. A run over a limit has failed; the others of its job go on.
+/// What a run may use before it is killed. A run over a limit has an error; the others of its job continue.
 struct RunLimits {
-    double wall_s = 3600.0;  ///< > 0, shared warm-up excluded. Assumed: far above any run met so far.
-    long memory_mib = 0;     ///< Resident size of its process; 0: no limit. Looked at 20 times a second.
+    double wall_s = 3600.0;  ///< > 0, shared warm-up excluded. Assumed: far above any run seen so far.
+    long memory_mib = 0;     ///< Resident size of its process; 0: no limit. Checked 20 times per second.
 
     bool operator==(const RunLimits&) const = default;
 };
 
-/// A run that is watched while it happens. It changes no result.
+/// How a run is shown while it happens. Does not change results.
 struct WindowSpec {
     double delay_s = 0.05;
     std::filesystem::path settings_file;  ///< Empty: Clearway's own.
@@ -37,23 +37,23 @@ struct WindowSpec {
         using Self = WindowSpec;
         return std::make_tuple(
             core::Field{"delay_s", "s", &Self::delay_s, 0, 10,
-                        "Wall time that a step takes at least, from where conditions part",
-                        "a step of 0.5 s passes ten times as fast as it happens"},
+                        "Minimum wall time of a step, once conditions have forked",
+                        "a step of 0.5 s runs ten times faster than real time"},
             core::Field{"settings_file", "", &Self::settings_file, 0, 0, "View settings of sumo-gui",
                         "Clearway's own"},
-            core::Field{"program", "", &Self::program, 0, 0, "The SUMO that runs it", "sumo-gui"});
+            core::Field{"program", "", &Self::program, 0, 0, "The SUMO program that runs it", "sumo-gui"});
     }
     bool operator==(const WindowSpec&) const = default;
 };
 
-/// Runs: several conditions of one simulation and one traffic model, forked from one warm-up.
+/// Several conditions of one simulation and traffic model, forked from one warm-up.
 struct RunJob : Simulation {
     TrafficModel traffic_model = TrafficModel::standard;
-    StepRecording recording = StepRecording::off;  ///< Of all conditions but those in free flow.
+    StepRecording recording = StepRecording::off;  ///< Applies to all conditions except free flow.
     std::vector<ConditionSpec> conditions;
     RunLimits limits;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
-    std::optional<WindowSpec> window = std::nullopt;  ///< Of a job of one condition.
+    std::optional<WindowSpec> window = std::nullopt;  ///< Only for a job with one condition.
 
     bool operator==(const RunJob&) const = default;
 };

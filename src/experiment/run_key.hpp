@@ -9,7 +9,7 @@
 
 namespace clearway::experiment {
 
-/// Which run of a study.
+/// Identifies a run of a study.
 struct RunKey {
     std::string scenario;
     std::string condition;
@@ -21,7 +21,7 @@ struct RunKey {
 /// `city/baseline/7`.
 std::string to_text(const RunKey& key);
 
-/// What a run was made from: with the manifest, enough to make it again.
+/// What a run was made from. Together with the manifest, this is enough to repeat it.
 struct Provenance {
     std::string clearway_version;
     std::string sumo_version;

@@ -20,14 +20,14 @@ constexpr const char* loop_name = "loop";
 constexpr const char* failure_name = "failure";
 constexpr const char* actuation_name = "actuation";
 constexpr const char* siren_name = "siren";
-/// Longest name that a description makes; longer ones end in digits of their hash.
+/// Maximum length of a described name; longer ones are cut and end in digits of their hash.
 constexpr std::size_t longest_name = 80;
 
 std::vector<Component> make_components() {
     std::vector<Component> all = {
         {loop_name, "The closed loop", core::settings_table<LoopConfig>()},
         {failure_name,
-         "Sensors: on top of the named failure, whose own values may differ from the defaults here",
+         "Sensors: override the named failure, whose own values may differ from the defaults here",
          core::settings_table<sensing::FailureConfig>()}};
     for (const prediction::PredictorEntry& entry : prediction::predictors())
         all.push_back({entry.name, "Predictor: " + entry.summary, prediction::settings_of(entry.name)});
@@ -36,7 +36,7 @@ std::vector<Component> make_components() {
     }
     all.push_back({actuation_name, "How leases are carried out: signal transitions and their limits",
                    core::settings_table<actuation::ActuatorConfig>()});
-    all.push_back({siren_name, "Human drivers who hear a siren: on top of what the scenario says",
+    all.push_back({siren_name, "Human drivers who hear a siren: override what the scenario says",
                    core::settings_table<drivers::SirenConfig, drivers::ReactionConfig>()});
     return all;
 }
@@ -46,14 +46,14 @@ const Component* component_named(const std::string& name) {
     return found == components().end() ? nullptr : &*found;
 }
 
-/// Component and name of `component.name`; the first is empty where there is no dot.
+/// Splits `component.name`; the component is empty without a dot.
 std::pair<std::string, std::string> parted(const std::string& name) {
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) return {"", name};
     return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Every setting of these components, in full.
+/// Full names of all settings of these components.
 std::vector<std::string> full_names(const std::vector<std::string>& of) {
     std::vector<std::string> names;
     for (const Component& component : components()) {
@@ -71,7 +71,7 @@ std::vector<std::string> component_names() {
     return names;
 }
 
-/// The full name that is meant by one without a component or with a wrong one.
+/// The full name probably meant by a name without a component or with a wrong one.
 std::string meant(const std::string& name, const std::vector<std::string>& of) {
     const std::vector<std::string> known = full_names(of);
     const std::string last = parted(name).second;
@@ -103,7 +103,7 @@ void check_model(const ConditionSpec& condition, const std::string& where,
     }
 }
 
-/// What cannot be in the name of a folder, and what separates fields, becomes `_`.
+/// Replaces characters that a folder name cannot have, and the separator of fields, with `_`.
 std::string folder_text(std::string text) {
     for (char& letter : text) {
         if (letter == '=' || !core::is_folder_name(std::string("x") + letter)) letter = '_';
@@ -111,7 +111,7 @@ std::string folder_text(std::string text) {
     return text;
 }
 
-/// `lead_s_12`; with its component where two settings end alike.
+/// `lead_s_12`; with the component if several settings share the last name.
 std::string setting_word(const std::string& name, const std::string& value, const core::Settings& all) {
     const std::string last = parted(name).second;
     const auto alike =
@@ -165,8 +165,8 @@ void set(ConditionSpec& condition, const std::string& name, const std::string& v
 
 void set_model(ConditionSpec& condition, const std::string& file, const std::string& where) {
     if (!std::filesystem::is_regular_file(file))
-        throw core::InputError(
-            {where, fmt::format("{} is no file", file), "a file of weights", "`clearway train` writes one"});
+        throw core::InputError({where, fmt::format("{} is not a file", file), "a file of weights",
+                                "`clearway train` writes one"});
     condition.model_file = std::filesystem::absolute(file).lexically_normal().string();
     condition.model_hash = core::content_hash(core::read_file(file));
 }
@@ -174,9 +174,9 @@ void set_model(ConditionSpec& condition, const std::string& file, const std::str
 std::string checked_model(const ConditionSpec& condition) {
     if (condition.model_file.empty()) return {};
     if (core::content_hash(core::read_file(condition.model_file)) != condition.model_hash)
-        throw core::InputError({condition.model_file, "is not the model that was given, it has changed",
+        throw core::InputError({condition.model_file, "has changed since it was given as the model",
                                 "content hash " + condition.model_hash,
-                                "Bring that file back, or begin a new study"});
+                                "Restore that file, or begin a new study"});
     return condition.model_file;
 }
 

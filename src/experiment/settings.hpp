@@ -12,7 +12,7 @@
 
 namespace clearway::experiment {
 
-/// Something with numbers that a condition may set: a policy, a predictor, the actuation, ...
+/// Something with settings that a condition may change: a policy, a predictor, the actuation, ...
 struct Component {
     std::string name;     ///< `preempt_signals`.
     std::string summary;  ///< One line.
@@ -25,47 +25,46 @@ const std::vector<Component>& components();
 /// Names of the components that a condition has, in the order of `components`.
 std::vector<std::string> components_of(const ConditionSpec& condition);
 
-/// Sets `component.name` to a value as text, whatever they are: `check_settings` judges. What is set of a
-/// failure becomes a part of the condition's `failure`, in the place of what stands there.
+/// Sets `component.name` to a value given as text, without checks: see `check_settings`. A setting of the
+/// failure is added to the condition's `failure`, replacing an earlier value.
 void set(ConditionSpec& condition, const std::string& name, const std::string& value);
 
 /// Sets the model of a condition from a file: its absolute path and the hash of its content. Throws
 /// core::InputError, naming `where`, for a file that cannot be read.
 void set_model(ConditionSpec& condition, const std::string& file, const std::string& where);
 
-/// The model file of a condition, empty for the model in the program. Throws core::InputError when the file
-/// is gone or has changed since it was given.
+/// The model file of a condition; empty for the built-in model. Throws core::InputError when the file is gone
+/// or has changed since it was given.
 std::string checked_model(const ConditionSpec& condition);
 
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
-/// condition does not have, a value of another type or out of its range, a model that its predictor does not
-/// take. `where` stands before the names in messages. Names of failures, predictors and policies themselves
+/// condition does not have, a value of the wrong type or out of range, a model that its predictor does not
+/// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves
 /// are not checked.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
 
-/// What is wrong with one setting, whatever the condition; nothing when it may be set of some.
+/// What is wrong with one setting, regardless of the condition; empty if some condition may have it.
 std::vector<core::Problem> check_setting(const std::string& name, const std::string& value,
                                          const std::string& where);
 
 /// `preempt_signals.lead_s=12 model=net.weights`; empty when a condition has neither settings nor a model.
 std::string settings_text(const ConditionSpec& condition);
 
-/// The name of a condition after what it is, fit for a folder: `corridor_B10_graphsage`,
-/// `corridor_lead_s_12`.
+/// A name that describes a condition, usable for a folder: `corridor_B10_graphsage`, `corridor_lead_s_12`.
 std::string described_name(const ConditionSpec& condition);
 
-// The configurations of a condition; each throws core::InputError for settings that do not exist.
+// The configurations of a condition. Each throws core::InputError for unknown settings.
 
-/// On top of `usual`, which a recording may state.
+/// Settings of the condition applied to `usual`, which may come from a recording.
 LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual = {});
-/// On top of `usual`.
+/// Settings of the condition applied to `usual`.
 actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual);
 /// How human drivers react to a siren.
 struct Sirens {
     drivers::SirenConfig siren;
     drivers::ReactionConfig reaction;
 };
-/// On top of what the scenario says.
+/// Settings of the condition applied to what the scenario says.
 Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& of_scenario);
 
 }  // namespace clearway::experiment

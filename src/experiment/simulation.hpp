@@ -22,7 +22,7 @@ struct Simulation {
         return std::make_tuple(
             core::Field{"scenario", "", &Self::scenario, 0, 0, "Name of the scenario", "given"},
             core::Field{"scenario_file", "", &Self::scenario_file, 0, 0, "The effective configuration, TOML",
-                        "stored before"},
+                        "stored beforehand"},
             core::Field{"network_folder", "", &Self::network_folder, 0, 0, "Where the network is",
                         "built once for all replications"},
             core::Field{"study_seed", "1", &Self::study_seed, 0, 1.8446744073709552e19,

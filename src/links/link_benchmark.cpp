@@ -42,10 +42,10 @@ void read_scenario(const toml::table& table, const std::string& file, Problems& 
         const std::string hash = scenario::configuration_hash(config);
         if (hash != configuration) {
             reader.problem("configuration",
-                           fmt::format("scenario {} is not the one the benchmark was frozen with: its "
+                           fmt::format("scenario {} has changed since the benchmark was frozen: its "
                                        "configuration has the hash {}",
                                        name, hash),
-                           configuration, "Take the scenario back, or give the benchmark a new name");
+                           configuration, "Restore the scenario, or give the benchmark a new name");
         }
         benchmark.scenarios.push_back(std::move(config));
     } catch (const core::InputError& error) {
@@ -62,7 +62,7 @@ std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& v
         problems.push_back({where, "no seeds to test on", "at least one", "Give a number of test seeds"});
     if (validation.count == 0) {
         problems.push_back({where, "no seeds to validate on", "at least one",
-                            "The threshold of F1 is chosen on them: give a number of validation seeds"});
+                            "Give a number of validation seeds: the F1 threshold is chosen on them"});
     }
     const std::uint64_t test_end = std::uint64_t{test.first} + test.count;
     const std::uint64_t validation_end = std::uint64_t{validation.first} + validation.count;
@@ -72,8 +72,8 @@ std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& v
             {where,
              fmt::format("test seeds {} to {} and validation seeds {} to {} overlap", test.first,
                          test_end - 1, validation.first, validation_end - 1),
-             "seeds of one kind each",
-             fmt::format("Let validation begin at {} or above", std::max<std::uint64_t>(test_end, 100))});
+             "disjoint seeds",
+             fmt::format("Start validation at {} or above", std::max<std::uint64_t>(test_end, 100))});
     }
     return problems;
 }

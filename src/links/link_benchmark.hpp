@@ -21,25 +21,25 @@ struct SeedRange {
     bool operator==(const SeedRange&) const = default;
 };
 
-/// What is wrong with the seeds of a judgement: none to test on, none to choose thresholds on, or some in
-/// both. `where` is the option or file that set them.
+/// What is wrong with the seeds of an evaluation: none for testing, none for choosing thresholds, or some
+/// used for both. `where` is the option or file that set them.
 std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& validation,
                                        const std::string& where);
 
-/// On what predictors are judged.
+/// What predictors are evaluated on.
 struct LinkBenchmark {
     std::string name;
     std::uint64_t study_seed = 1;
-    SeedRange test;        ///< On which figures are taken.
-    SeedRange validation;  ///< On which thresholds are chosen and settings tuned.
+    SeedRange test;        ///< Figures are measured on these.
+    SeedRange validation;  ///< Thresholds are chosen and settings tuned on these.
     std::vector<std::string> failures;
     std::vector<Exits> exits;
     std::vector<scenario::ScenarioConfig> scenarios;
 };
 
-/// Reads a benchmark file (TOML, strict). Each scenario states the hash of its effective configuration;
-/// throws core::InputError with all problems, among them a scenario that is not what the benchmark was frozen
-/// with. Names of failures are not checked here.
+/// Reads a benchmark file (TOML, strict). Each scenario states the hash of its effective configuration.
+/// Throws core::InputError with all problems, including a scenario that has changed since the benchmark was
+/// frozen. Names of failures are not checked here.
 LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
 
 }  // namespace clearway::links

@@ -15,13 +15,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Pairs count as the policy's within this distance along the route: that of policy::ClearLane. (Candidates
-/// are nearer than that in any case.)
+/// Pairs within this distance along the route count as relevant to the policy; the horizon of
+/// policy::ClearLane. (Candidates are always nearer.)
 constexpr core::Metres policy_horizon{150.0};
-/// Slack for step times that are sums of decimals, s.
+/// Tolerance for step times, which are sums of decimals, s.
 constexpr double time_slack_s = 1e-6;
 
-/// Distance from one vehicle to another ahead on its route; nothing where either has no place on it.
+/// Distance from one vehicle to another ahead on its route; empty if either has no place on it.
 std::optional<core::Metres> distance_ahead(const roads::Network& network, const traffic::Roster& roster,
                                            core::VehicleKey emergency, const traffic::MotionState& state,
                                            const traffic::MotionState& other) {

@@ -18,7 +18,8 @@
 
 namespace clearway::links {
 
-/// What there is to find at one step: links, and who is ahead of an emergency vehicle. Keeps its buffers.
+/// What there is to find at one step: true links, and the vehicles ahead of an emergency vehicle. Keeps its
+/// buffers.
 class LinkTruthView {
   public:
     /// `network` outlives the view.
@@ -35,7 +36,7 @@ class LinkTruthView {
     std::vector<prediction::RowPair> policy_links_;
 };
 
-/// One sensor, and the predictors that all look through it.
+/// One sensor, and the predictors that use its observations.
 class LinkTrial {
   public:
     struct Setup {
@@ -48,12 +49,12 @@ class LinkTrial {
     LinkTrial(const roads::Network& network, const graph::LinkRules& rules, Setup setup);
 
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
-    /// A report round took place at the last `observe`.
+    /// Whether a report round took place at the last `observe`.
     bool has_report() const { return observation_.is_report; }
     /// Asks every predictor, and scores the answers when `scored`; otherwise they only warm up.
     void ask(const truth::Snapshot& snapshot, const LinkTruthView& truth, bool scored);
 
-    /// Of predictor number `predictor` so far.
+    /// Result of predictor number `predictor` so far.
     LinkCase result(std::size_t predictor) const;
     LinkTiming::Case timing(std::size_t predictor) const;
 
@@ -90,11 +91,12 @@ class LinkTrial {
     metrics::BeliefMatch match_;
 };
 
-/// Judges predictors by every report of a run: one trial for each failure and exits. Scores at most once a
-/// second.
+/// Evaluates predictors on the reports of a run, with one trial per failure and exits. Scores at most once
+/// per second.
 class LinkEvaluator : public trace::StepListener {
   public:
-    /// `network` outlives the evaluator. Scores from `score_from` on; before, sensors and predictors warm up.
+    /// `network` outlives the evaluator. Scores from `score_from` on; before that, sensors and predictors
+    /// warm up.
     LinkEvaluator(const roads::Network& network, const graph::LinkRules& rules, core::Seconds score_from);
     void add(LinkTrial::Setup setup);
 

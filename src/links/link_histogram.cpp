@@ -11,9 +11,9 @@ namespace {
 
 // The parts of the grid, by ascending probability.
 constexpr std::uint32_t coarse_octaves = 40;  // 2^-64 to 2^-24
-constexpr std::uint32_t coarse_shift = 20;    // of a float's bits: 8 bins an octave
+constexpr std::uint32_t coarse_shift = 20;    // of a float's bits: 8 bins per octave
 constexpr std::uint32_t fine_octaves = 23;    // 2^-24 to 2^-1
-constexpr std::uint32_t fine_shift = 17;      // 64 bins an octave
+constexpr std::uint32_t fine_shift = 17;      // 64 bins per octave
 constexpr std::uint32_t first_fine = 1 + coarse_octaves * 8;
 constexpr std::uint32_t first_upper = first_fine + fine_octaves * 64;  // the bin of 0.5
 constexpr std::uint32_t last_upper = first_upper + fine_octaves * 64;  // 1 - p from 2^-24 on
@@ -41,7 +41,7 @@ std::size_t calibration_bin(float probability) {
 }
 
 double loss_of(double probability, bool linked) {
-    constexpr double margin = 1e-15;  // as log_loss of link_quality.hpp
+    constexpr double margin = 1e-15;  // as log_loss in link_quality.hpp
     const double held = std::clamp(probability, margin, 1.0 - margin);
     return linked ? -std::log(held) : -std::log1p(-held);
 }
@@ -96,7 +96,7 @@ float LinkGrid::lower_edge(std::uint32_t bin) {
     if (bin < first_fine) return value_at(bin - 1, least_coarse, coarse_shift);
     if (bin < first_upper) return value_at(bin - first_fine, least_fine, fine_shift);
     if (bin >= certain) return 1.0F;
-    // Within the upper half a bin holds 1 - p from a value of the grid up to, not with, the next.
+    // In the upper half, a bin holds values of 1 - p from one grid value up to, but not including, the next.
     const float above = value_at(last_upper - bin + 1, least_fine, fine_shift);
     float edge = std::max(0.5F, 1.0F - above);
     while (1.0F - edge >= above)

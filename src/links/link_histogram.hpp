@@ -10,11 +10,11 @@
 
 namespace clearway::links {
 
-/// The grid on which probabilities of links are counted: fine in the odds at both ends, where rankings are
-/// decided. Bins are ordered by probability. From 2^-24 to 1 - 2^-24 a bin spans at most 1/64 of the smaller
-/// of p and 1 - p; below 2^-24 an eighth of an octave; below 2^-64 is one bin, and so is 1 (the next smaller
-/// float is 1 - 2^-24). Ranking measures from counts on it differ from exact ones only by the order of pairs
-/// within a bin.
+/// The grid on which link probabilities are counted. It is fine near 0 and 1, where rankings are decided.
+/// Bins are ordered by probability. From 2^-24 to 1 - 2^-24 a bin spans at most 1/64 of the smaller of p and
+/// 1 - p; below 2^-24 it spans an eighth of an octave. Everything below 2^-64 is one bin, and so is 1 (the
+/// next smaller float is 1 - 2^-24). Ranking measures from these counts differ from exact ones only by the
+/// order of pairs within a bin.
 struct LinkGrid {
     static constexpr std::uint32_t size = 3267;
     /// `probability` in [0, 1]; not checked.
@@ -23,11 +23,11 @@ struct LinkGrid {
     static float lower_edge(std::uint32_t bin);
 };
 
-/// Number of bins of the calibration error and of reliability curves.
+/// Number of bins for the calibration error and reliability curves.
 inline constexpr std::size_t calibration_bins = 15;
 
-/// Scored pairs of one kind, summed up: counts on the grid, and sums from which log loss and calibration
-/// error follow. All sums are integers, so adding up summaries gives the same in any order.
+/// Summary of scored pairs of one kind: counts on the grid, and sums from which log loss and calibration
+/// error follow. All sums are integers, so the order in which summaries are added does not matter.
 struct LinkSummary {
     struct Bin {
         std::uint32_t bin = 0;  ///< On LinkGrid.
@@ -50,12 +50,12 @@ struct LinkSummary {
 
     std::uint64_t pairs() const;
     std::uint64_t true_links() const;
-    /// Counts add up; linear in the bins of both.
+    /// Adds all counts; linear in the bins of both.
     void add(const LinkSummary& other);
     bool operator==(const LinkSummary&) const = default;
 };
 
-/// Counts pairs one by one. O(1) a pair; allocates at the first one.
+/// Counts pairs one by one. O(1) per pair; allocates at the first one.
 class LinkHistogram {
   public:
     void add(float probability, bool linked);
@@ -67,11 +67,11 @@ class LinkHistogram {
         std::uint32_t unlinked = 0;
     };
     std::vector<Counts> counts_;  ///< By bin; empty until the first pair.
-    LinkSummary sums_;            ///< Without bins.
+    LinkSummary sums_;            ///< All but the bins.
 };
 
-/// Counts by ascending probability, one entry a bin, possibly weighted. Both spans have one length. The
-/// measures of link_quality.hpp with a bin's pairs tied.
+/// Counts by ascending probability, one entry per bin, possibly weighted. Both spans have the same length.
+/// The functions below are those of link_quality.hpp with the pairs of a bin tied.
 struct RankedCounts {
     std::span<const double> linked;
     std::span<const double> unlinked;
@@ -81,12 +81,12 @@ std::optional<double> average_precision(RankedCounts counts);
 /// Bins from `first` on count as predicted.
 std::optional<double> f1_score(RankedCounts counts, std::size_t first);
 
-/// As link_quality.hpp defines them, from a summary; log loss and ECE to rounding, F1 exactly for a threshold
-/// on the grid (others are taken down to the lower edge of their bin), AUC and AP up to the order within
-/// bins.
+/// The measures of link_quality.hpp, from a summary: log loss and ECE up to rounding, F1 exactly for a
+/// threshold on the grid (others are rounded down to the lower edge of their bin), AUC and AP up to the order
+/// within bins.
 metrics::LinkQuality link_quality(const LinkSummary& summary, double threshold = 0.5);
 
-/// Threshold on the grid with the greatest F1, the highest such; 0.5 without true links.
+/// The threshold on the grid with the greatest F1, the highest if several; 0.5 without true links.
 double best_f1_threshold(const LinkSummary& summary);
 
 /// A point of a precision-recall curve.
@@ -95,7 +95,7 @@ struct PrecisionRecall {
     double precision = 0.0;
     double recall = 0.0;
 };
-/// One point a non-empty bin, from the highest probability down. Empty without true links.
+/// One point per non-empty bin, from the highest probability down. Empty without true links.
 std::vector<PrecisionRecall> precision_recall(const LinkSummary& summary);
 
 }  // namespace clearway::links

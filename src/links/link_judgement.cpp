@@ -10,7 +10,7 @@ namespace {
 
 using detail::Drawn;
 
-/// The same case of some runs.
+/// Case `number` of each run.
 std::vector<const LinkCase*> cases_of(std::span<const LinkRun> runs, std::size_t number) {
     std::vector<const LinkCase*> cases;
     for (const LinkRun& run : runs)
@@ -97,7 +97,7 @@ LinkResult result_for(const LinkRun& run, std::size_t number, double threshold) 
     return result;
 }
 
-/// 1 - (1 - one) / (1 - other), of the values and of every draw.
+/// 1 - (1 - one) / (1 - other), for the values and for every draw.
 Drawn reduction(const Drawn& one, const Drawn& other) {
     const auto formula = [](double better, double worse) { return 1.0 - (1.0 - better) / (1.0 - worse); };
     Drawn drawn;

@@ -12,22 +12,22 @@
 
 namespace clearway::links {
 
-/// What of a kind of candidate pairs was predicted how well.
+/// How well one kind of candidate pairs was predicted.
 struct LinkMeasures {
     std::uint64_t pairs = 0;
     std::uint64_t true_links = 0;
     analysis::Measured ap, auc, f1, log_loss, ece;  ///< As metrics::LinkQuality.
 };
 
-/// The believed graph against the true one, at the predictor's own link threshold: true links outside the
-/// candidates and of vehicles never seen are misses.
+/// The believed graph compared with the true one, at the predictor's own link threshold. True links outside
+/// the candidates, or with a vehicle never seen, are misses.
 struct LinkEndToEnd {
     LinkTruth truth;
     LinkBelief belief;
     analysis::Measured precision, recall, f1;
     analysis::Measured policy_recall;  ///< Of links between an emergency vehicle and one ahead on its route.
 
-    /// True links that were known of, in reach, and not listed.
+    /// True links within reach between vehicles known of, but not listed.
     std::uint64_t predicted_away() const {
         return truth.true_links - truth.never_seen - truth.outside - belief.listed_true;
     }
@@ -35,7 +35,7 @@ struct LinkEndToEnd {
     std::optional<double> ghosts_per_report() const;
 };
 
-/// How one predictor does under one failure, in one scenario or in all together.
+/// How one predictor performs under one failure, in one scenario or all of them pooled.
 struct LinkResult {
     std::string scenario;  ///< Empty: all, pooled.
     std::string failure;
@@ -44,15 +44,16 @@ struct LinkResult {
     double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
     std::array<LinkMeasures, link_subsets.size()> subsets;
     LinkEndToEnd end_to_end;
-    double report_us = 0.0;        ///< Wall time of one prediction.
-    double report_vehicles = 0.0;  ///< In an observation, on average.
+    double report_us = 0.0;        ///< Mean wall time of one prediction.
+    double report_vehicles = 0.0;  ///< Mean number in an observation.
 
     const LinkMeasures& of(LinkSubset subset) const { return subsets[static_cast<std::size_t>(subset)]; }
-    /// The pairs themselves, for curves; of the pooled result alone.
+    /// Scores of the pairs, for curves; only in the pooled result.
     LinkScoreSummary scores;
 };
 
-/// Error of a predictor against an opponent's, pooled: 1 means that nothing is left, 0 no difference.
+/// Error of a predictor compared with an opponent's, pooled. A reduction of 1 means that no error is left, 0
+/// no difference.
 struct LinkGain {
     std::string failure;
     Exits exits = Exits::known;
@@ -63,24 +64,24 @@ struct LinkGain {
     analysis::Measured f1_error_reduction;  ///< The same with F1.
 };
 
-/// The runs of one predictor. Test runs scenario by scenario, in one order for all predictors.
+/// The runs of one predictor. Test runs are grouped by scenario, in the same order for all predictors.
 struct LinkRuns {
     std::vector<LinkRun> test;
     std::vector<LinkTiming> test_timing;
     std::vector<LinkRun> validation;
 };
 
-/// Judges predictors one after the other, so that only one predictor's runs need be in memory.
+/// Evaluates predictors one after the other, so that only one predictor's runs have to be in memory.
 class LinkJudgement {
   public:
     /// Number of test runs of each scenario, in the order of LinkRuns::test.
     explicit LinkJudgement(const std::vector<std::size_t>& runs_by_scenario);
 
-    /// All runs hold the same cases in the same order. Results follow in the order of the calls: pooled
-    /// first, then scenario by scenario, each case by case.
+    /// All runs hold the same cases in the same order. Results are in the order of the calls: per call pooled
+    /// first, then by scenario, each by case.
     void add(const LinkRuns& runs);
     const std::vector<LinkResult>& results() const { return results_; }
-    /// Every other predictor against this one. Empty when it was not added.
+    /// Every other predictor compared with this one. Empty when this one was not added.
     std::vector<LinkGain> gains(const std::string& against) const;
 
   private:

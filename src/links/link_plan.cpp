@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Predictors that do not learn, the strongest first.
+/// Predictors that are not learned, strongest first.
 constexpr std::array opponents = {"route_rule", "kalman", "dead_reckoning", "last_seen", "none"};
 
 std::vector<std::uint32_t> replications(const SeedRange& range) {
@@ -49,7 +49,7 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
     return jobs;
 }
 
-/// The runs of a scenario that are missing.
+/// The missing runs of a scenario.
 std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunFiles& files,
                                             const scenario::ScenarioConfig& config) {
     const fs::path folder = files.scenario_folder(config);
@@ -72,7 +72,7 @@ std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunF
     return jobs;
 }
 
-/// One predictor's runs of some seeds, scenario by scenario.
+/// One predictor's runs of a range of seeds, by scenario.
 std::vector<fs::path> files_of(const LinkPlan& plan, const LinkRunFiles& files,
                                const LinkPredictor& predictor, const SeedRange& range) {
     std::vector<fs::path> paths;

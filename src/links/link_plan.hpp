@@ -12,38 +12,38 @@
 
 namespace clearway::links {
 
-/// A predictor to judge.
+/// A predictor to evaluate.
 struct LinkPredictor {
     std::string name;
     std::string model_file;   ///< Empty: as shipped.
-    core::Settings settings;  ///< That differ from the defaults.
+    core::Settings settings;  ///< Those that differ from the defaults.
 };
-/// `link_threshold=0.4 `, a setting after the other; empty for defaults.
+/// `link_threshold=0.4 `, one setting after another; empty for defaults.
 std::string settings_text(const LinkPredictor& predictor);
 
-/// On which seeds figures are taken. Thresholds are always chosen on the validation seeds.
+/// The seeds on which figures are measured. Thresholds are always chosen on the validation seeds.
 enum class LinkSplit { test, validation };
 
-/// Which predictors are judged on what, and where the runs are kept.
+/// Which predictors are evaluated on what, and where the runs are kept.
 struct LinkPlan {
     LinkBenchmark benchmark;
     std::vector<LinkPredictor> predictors;
     LinkSplit split = LinkSplit::test;
-    std::string against;  ///< Empty: the strongest predictor of the plan that does not learn.
+    std::string against;  ///< Empty: the strongest predictor of the plan that is not learned.
     std::filesystem::path folder;
 
     const SeedRange& own_seeds() const {
         return split == LinkSplit::test ? benchmark.test : benchmark.validation;
     }
-    /// Against whom errors are compared; empty when only predictors that learn are there.
+    /// The predictor that errors are compared with; empty if the plan has only learned predictors.
     std::string opponent() const;
 };
 
-/// Where the runs of a plan are: `runs/SCENARIO/REPLICATION/PREDICTOR-KEY.links`, where the key follows from
-/// everything that the content depends on, the program that does the runs included.
+/// Paths of the runs of a plan: `runs/SCENARIO/REPLICATION/PREDICTOR-KEY.links`. The key is a hash of
+/// everything that the content depends on, including the program that makes the runs.
 class LinkRunFiles {
   public:
-    /// `worker_hash` identifies that program. The plan outlives the files. Reads the files of the scenarios.
+    /// `worker_hash` identifies that program. The plan outlives this object. Reads the scenarios' files.
     LinkRunFiles(const LinkPlan& plan, std::string worker_hash);
 
     std::filesystem::path file(const scenario::ScenarioConfig& config, std::uint32_t replication,
@@ -57,20 +57,20 @@ class LinkRunFiles {
 
     const LinkPlan& plan_;
     std::string worker_hash_;
-    std::map<std::string, std::string> scenario_hashes_;  ///< By that of the configuration alone.
+    std::map<std::string, std::string> scenario_hashes_;  ///< By the hash of the configuration alone.
 };
 
-/// What the folder lacks: one order for each scenario and replication, in the plan's job. Stores and builds
-/// the scenarios that have one. Throws core::Error.
+/// The runs that the folder lacks: one job per scenario and replication. Stores and builds the scenarios that
+/// have a job. Throws core::Error.
 std::vector<experiment::LinkJob> missing_runs(const LinkPlan& plan, const LinkRunFiles& files);
 
-/// What a plan's runs came to.
+/// The results of a plan's runs.
 struct LinkVerdict {
     std::vector<LinkResult> results;
     std::vector<LinkGain> gains;
 };
-/// Reads the runs, all of which are there, and judges, with progress on standard error. Throws
-/// core::InputError for a damaged one.
+/// Reads and evaluates the runs, all of which must be there, with progress on standard error. Throws
+/// core::InputError for a damaged run.
 LinkVerdict judge(const LinkPlan& plan, const LinkRunFiles& files);
 
 }  // namespace clearway::links

@@ -12,8 +12,8 @@
 namespace clearway::links {
 namespace {
 
-// The file: one line of magic, one of JSON, the score summaries as variable-length integers (LEB128), and 16
-// hex digits over all that stands before them.
+// The file: a line of magic, a line of JSON, the score summaries as variable-length integers (LEB128), and a
+// hash of all of these as 16 hex digits.
 constexpr std::string_view magic = "clearway links 1\n";
 constexpr std::size_t seal_size = 16;
 
@@ -21,7 +21,7 @@ using core::Json;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw core::InputError({file.string(), what, "a file that clearway links evaluate wrote",
-                            "Remove it; the same command then does this run again"});
+                            "Remove it; the same command then repeats this run"});
 }
 
 std::string seal_of(std::string_view bytes) {
@@ -188,7 +188,7 @@ LinkRun read_link_run(const std::filesystem::path& file) {
     if (!content.starts_with(magic)) refuse(file, "is not a file of scored links, version 1");
     if (content.size() < magic.size() + seal_size ||
         content.substr(content.size() - seal_size) != seal_of(content.substr(0, content.size() - seal_size)))
-        refuse(file, "is damaged: its check sum does not fit");
+        refuse(file, "is damaged: its checksum does not match");
     content.remove_suffix(seal_size);
     content.remove_prefix(magic.size());
     const std::size_t line_end = content.find('\n');
@@ -200,7 +200,7 @@ LinkRun read_link_run(const std::filesystem::path& file) {
     Reader reader(content.substr(line_end + 1), file);
     for (LinkCase& one : run.cases)
         one.scores = reader.scores();
-    if (!reader.at_end()) refuse(file, "holds more than it says");
+    if (!reader.at_end()) refuse(file, "holds more data than it declares");
     return run;
 }
 

@@ -23,7 +23,7 @@ struct LinkCase {
     bool operator==(const LinkCase&) const = default;
 };
 
-/// One predictor in one run. Depends on nothing but its order, the program and the model.
+/// The results of one predictor in one run. They depend only on the job, the program and the model.
 struct LinkRun {
     std::string scenario;
     std::string configuration_hash;
@@ -35,13 +35,13 @@ struct LinkRun {
     bool operator==(const LinkRun&) const = default;
 };
 
-/// Wall time that a predictor took, in a file of its own beside the LinkRun.
+/// Wall time that a predictor took, in a separate file next to the LinkRun.
 struct LinkTiming {
     struct Case {
         std::string failure;
         Exits exits = Exits::known;
         std::uint64_t reports = 0;
-        std::uint64_t vehicles = 0;  ///< In the observations, summed over reports.
+        std::uint64_t vehicles = 0;  ///< Vehicles in the observations, summed over reports.
         double predict_s = 0.0;
     };
     std::vector<Case> cases;
@@ -49,10 +49,10 @@ struct LinkTiming {
 
 inline constexpr const char* link_run_extension = ".links";
 
-/// Both files, the timing first, each whole or not at all: where the LinkRun is, the run is finished. Throws
+/// Writes both files atomically, the timing first: when the LinkRun exists, the run is finished. Throws
 /// core::EnvironmentError.
 void write_link_run(const std::filesystem::path& file, const LinkRun& run, const LinkTiming& timing);
-/// Throw core::InputError, naming the file and what to do, for files that are missing or damaged.
+/// Both throw core::InputError, naming the file and what to do, for files that are missing or damaged.
 LinkRun read_link_run(const std::filesystem::path& file);
 LinkTiming read_link_timing(const std::filesystem::path& link_run_file);
 

@@ -19,29 +19,29 @@ enum class LinkSubset : std::uint8_t {
 inline constexpr std::array link_subsets = {LinkSubset::all, LinkSubset::hard, LinkSubset::policy};
 std::string_view name(LinkSubset subset);
 
-/// A pair is hard when simple kinematics does not settle it: dead reckoning puts it within half a link radius
+/// A pair is hard when simple kinematics does not decide it: dead reckoning puts it within half a link radius
 /// of the radius (25 to 75 m for 50 m), or the last reports and dead reckoning disagree on whether it is
-/// linked. Depends on no predictor.
+/// linked. Does not depend on the predictor.
 bool is_hard(float last_seen_m, float dead_reckoned_m, float radius_m);
 
-/// Upper ends of the age classes, s: the older report of the two counts. The last class has no end.
+/// Upper bounds of the age classes, s, by the older of the two reports. The last class has no bound.
 inline constexpr std::array age_ends_s = {1.0F, 2.0F, 5.0F, 10.0F, 20.0F, 40.0F};
 inline constexpr std::size_t age_classes = age_ends_s.size() + 1;
-/// Ends belong to the class below them.
+/// A bound belongs to the class below it.
 std::size_t age_class_of(float age_s);
 
-/// What a candidate pair is like, by the reports alone.
+/// Traits of a candidate pair, from the reports alone.
 struct PairTraits {
     std::size_t age_class = 0;
     bool hard = false;
-    /// One end is an emergency vehicle, and by last seen or dead-reckoned place the other is ahead on its
-    /// route, within the policies' horizon.
+    /// One end is an emergency vehicle and the other is ahead on its route, within the policies' horizon, by
+    /// its last seen or dead-reckoned position.
     bool ahead_of_emergency = false;
 };
 
 /// Summaries of one predictor's scores under one failure in one run.
 struct LinkScoreSummary {
-    std::array<LinkSummary, 2 * age_classes> cells;  ///< By age class; each first easy, then hard.
+    std::array<LinkSummary, 2 * age_classes> cells;  ///< By age class, each easy first, then hard.
     LinkSummary policy;
 
     LinkSummary of(LinkSubset subset) const;
@@ -62,7 +62,7 @@ class LinkScores {
     LinkHistogram policy_;
 };
 
-/// What there was to find under one failure, over the scored reports of a run; the same for every predictor.
+/// What there was to find under one failure in the scored reports of a run; the same for every predictor.
 struct LinkTruth {
     std::uint64_t reports = 0;
     std::uint64_t vehicles = 0;
@@ -80,16 +80,17 @@ struct LinkTruth {
             Field{"vehicles", "1", &T::vehicles, 0.0, 1e15, "Vehicles on the road, summed over rounds", ""},
             Field{"true_links", "1", &T::true_links, 0.0, 1e15, "True links, summed over rounds", ""},
             Field{"never_seen", "1", &T::never_seen, 0.0, 1e15,
-                  "Of them: an end never reported, or was forgotten", ""},
+                  "Of them: one end never reported or was forgotten", ""},
             Field{"outside", "1", &T::outside, 0.0, 1e15,
-                  "Of them: both ends are known of, but the pair is neither known, detected nor a candidate",
+                  "Of them: both ends are known of, but the pair is neither known, nor detected, nor a "
+                  "candidate",
                   ""},
             Field{"policy_links", "1", &T::policy_links, 0.0, 1e15,
                   "Of them: between an emergency vehicle and one ahead on its route", ""});
     }
 };
 
-/// What a predictor's believed graph made of it, at the predictor's own link threshold.
+/// How the believed graph compares, at the predictor's own link threshold.
 struct LinkBelief {
     std::uint64_t listed_true = 0;
     std::uint64_t listed_false = 0;
@@ -104,9 +105,9 @@ struct LinkBelief {
         return std::make_tuple(
             Field{"listed_true", "1", &B::listed_true, 0.0, 1e15, "Believed links that are true", ""},
             Field{"listed_false", "1", &B::listed_false, 0.0, 1e15, "Believed links that are not", ""},
-            Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy's links that are believed", ""},
+            Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy links that are believed", ""},
             Field{"believed_vehicles", "1", &B::believed_vehicles, 0.0, 1e15, "Believed vehicles", ""},
-            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: not on the road any more", ""});
+            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: no longer on the road", ""});
     }
 };
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* scenario_name = "attached";
 
-/// A file that SUMO names in an option. It runs in a folder that nobody knows, perhaps on another machine.
+/// A file that SUMO names in an option. SUMO runs in an unknown folder, perhaps on another machine.
 std::filesystem::path file_of(const sumo::RemoteSumo& sumo, const std::string& option,
                               const std::string& cure) {
     const std::filesystem::path file = sumo.option(option);
@@ -30,12 +30,12 @@ std::filesystem::path file_of(const sumo::RemoteSumo& sumo, const std::string& o
         throw core::InputError({fmt::format("--{} of that SUMO", option), "is not set", "a file", cure});
     if (std::filesystem::is_regular_file(file)) return std::filesystem::absolute(file);
     throw core::InputError({fmt::format("--{} of that SUMO", option),
-                            fmt::format("names {}, which is no file here", file.string()),
-                            "a file that this machine sees, by its whole path", cure});
+                            fmt::format("names {}, which is not a file here", file.string()),
+                            "a file that this machine can read, as an absolute path", cure});
 }
 
-/// Signal programs stand in them. A signal whose program is in none of those that this machine
-/// sees is given back to it by way of all red.
+/// The additional files that this machine can read; they may hold signal programs. A signal whose program is
+/// in none of them returns to it by way of all red.
 std::vector<std::filesystem::path> additional_files_of(const sumo::RemoteSumo& sumo) {
     std::vector<std::filesystem::path> files;
     std::istringstream names(sumo.option("additional-files"));
@@ -74,10 +74,10 @@ results::Manifest manifest_of(const experiment::AttachJob& job, const std::files
     return manifest;
 }
 
-/// The files of a simulation, found before anything in it is touched.
+/// Files and end of a simulation, found before anything in it is changed.
 struct Ground {
     std::filesystem::path network_file;
-    std::vector<std::filesystem::path> additional_files;  ///< That this machine sees.
+    std::vector<std::filesystem::path> additional_files;  ///< Those that this machine can read.
     std::filesystem::path trip_file;
     core::Seconds end;
 };

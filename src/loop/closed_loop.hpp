@@ -19,50 +19,49 @@ namespace clearway::loop {
 
 using experiment::LoopConfig;
 
-/// What a condition is made of, ready to run.
+/// What implements a condition, ready to run.
 struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
-    std::unique_ptr<drivers::Siren> siren;  ///< Null where nobody yields to one.
+    std::unique_ptr<drivers::Siren> siren;  ///< Null if no driver reacts to a siren.
 };
 
-/// Where the time of a run went, s of wall time.
+/// Where the wall time of a run went, s.
 struct LoopTiming {
     double simulator_s = 0.0;  ///< SUMO's own step.
-    double coupling_s =
-        0.0;  ///< Everything else: reading, sensing, graph, prediction, policy, commands, metrics.
+    /// Everything else: reading, sensing, graph, prediction, policy, commands, metrics.
+    double coupling_s = 0.0;
     std::uint64_t steps = 0;
     std::uint64_t vehicle_steps = 0;
 };
 
-/// The only place that knows the order of the design: truth -> sensing -> prediction -> policy -> actuation
-/// -> simulator, with metrics beside it. Every step of every run is made here: those of a warm-up and of
-/// vehicles alone on the road without the middle part. Members throw core::SimulatorError as the session
-/// does. One run; one thread.
+/// The only place that knows the order truth -> sensing -> prediction -> policy -> actuation -> simulator,
+/// with metrics alongside. Every step of every run is made here; warm-ups and solo runs leave out the part
+/// from sensing to actuation. Members throw core::SimulatorError as the session does. One run; one thread.
 class ClosedLoop {
   public:
-    /// Both outlive the loop. Until `begin`, the simulation goes on by itself.
+    /// Both outlive the loop. Until `begin`, the simulation runs without a controller.
     ClosedLoop(sumo::Session& session, metrics::Recorder& recorder)
         : session_(session), recorder_(recorder) {}
 
-    /// From the next step on, `controller` senses, decides and acts. `timing` starts anew.
+    /// From the next step on, `controller` senses, decides and acts. Resets `timing`.
     void begin(Controller controller, const LoopConfig& config);
-    /// From the next step on, `listener` is told of each; it outlives the loop and may be null.
+    /// From the next step on, `listener` is told of each step; it outlives the loop and may be null.
     void tell(trace::StepListener* listener) { listener_ = listener; }
 
-    /// Steps as long as a step of `step_length` does not pass `end`.
+    /// Steps while a step of `step_length` does not go beyond `end`.
     void warm_up(core::Seconds end, core::Seconds step_length);
     /// Steps until no vehicle is left or `horizon` is reached.
     void run(core::Seconds horizon);
-    /// Gives back all that the controller holds, and answers what became of its leases.
+    /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();
 
-    /// Of all steps, or of those since `begin`.
+    /// Timing of the steps since `begin`, or of all steps before it.
     const LoopTiming& timing() const { return timing_; }
 
   private:
     void step();
-    /// Answers whether something was decided.
+    /// Returns whether a decision was made.
     bool decide(const truth::Snapshot& snapshot);
     void act(const truth::Snapshot& snapshot);
     void score(const truth::Snapshot& snapshot);

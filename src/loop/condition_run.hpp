@@ -10,7 +10,7 @@
 
 namespace clearway::loop {
 
-/// What a condition starts in, whatever runs the simulation.
+/// The context in which a condition starts, however the simulation is run.
 struct Stage {
     ControllerContext context;
     metrics::RoadLayout layout;
@@ -18,15 +18,15 @@ struct Stage {
     trace::StepListener* listener = nullptr;  ///< May be null.
 };
 
-/// Runs a condition from where the loop stands to its end. Throws core::InputError for names or settings that
-/// do not exist, core::SimulatorError as the session does.
+/// Runs a condition from the current step of the loop to the end. Throws core::InputError for unknown names
+/// or settings, core::SimulatorError as the session does.
 metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
                                    const experiment::ConditionSpec& condition, Stage stage);
 
-/// Provenance of a run of this program. Hashes and seeds are left to the caller.
+/// Provenance of a run of this program; the caller fills in hashes and seeds.
 experiment::Provenance own_provenance();
 
-/// Times of a run that began at `started`, and the memory of this process.
+/// Times of a run that began at `started`, and the memory that this process used.
 results::RunTiming timing_of(const LoopTiming& spent, std::chrono::steady_clock::time_point started);
 
 /// The record of a run from its parts; completes the provenance with the hash of the trace.

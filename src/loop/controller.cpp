@@ -7,8 +7,8 @@
 namespace clearway::loop {
 namespace {
 
-/// Yellow lets a driver react and then brake, and braking takes longer on a slippery road (ITE's rule:
-/// reaction time + speed / (2 deceleration); 3 s on a dry one).
+/// Yellow lets a driver react and then brake, which takes longer on a slippery road (ITE's rule: reaction
+/// time + speed / (2 deceleration); 3 s on a dry road).
 double yellow_s(double dry_s, double friction) {
     constexpr double reaction_s = 1.0;
     constexpr double longest_s = 10.0;

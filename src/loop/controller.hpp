@@ -7,21 +7,21 @@
 
 namespace clearway::loop {
 
-/// What every condition of a worker shares; references outlive what is made from it.
+/// What all conditions of a worker share. References outlive the controllers made from it.
 struct ControllerContext {
     const roads::Network& network;
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
     drivers::SirenConfig siren;
-    double friction = 1.0;        ///< Of scenario::RoadCondition.
-    bool has_pedestrians = true;  ///< Whether there may be any.
+    double friction = 1.0;        ///< See scenario::RoadCondition.
+    bool has_pedestrians = true;  ///< Whether there may be pedestrians.
 };
 
-/// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for names and settings
-/// that do not exist.
+/// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for unknown names and
+/// settings.
 Controller make_controller(const experiment::ConditionSpec& condition, const ControllerContext& context);
 
-/// The names that a session of this network speaks in indices of.
+/// The ids that a session of this network maps to indices.
 sumo::Names names_of(const roads::Network& network);
 
 /// What became of the leases of a run.

@@ -25,7 +25,8 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
     run.record(detail::plain_traffic("dataset"), recorder);
     const samples::PairDataset& dataset = recorder.dataset();
     if (dataset.pair_count() == 0) {
-        throw core::InputError({job.scenario, "no two vehicles of linkable classes ever came near each other",
+        throw core::InputError({job.scenario,
+                                "no two vehicles of classes that can be linked ever came near each other",
                                 "at least one link", "Raise the density, or choose another seed"});
     }
     samples::write_pair_dataset(job.output, dataset);
@@ -33,12 +34,12 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
                dataset.pair_count(), recorder.time().value);
 }
 
-/// The failure as data sets name it.
+/// Name of the failure in data sets.
 std::string failure_name(const experiment::DatasetJob& job, const std::string& failure) {
     return failure + (job.exits == sensing::Exits::unknown ? " exits unknown" : "");
 }
 
-/// One recorder for each failure, all watching one run.
+/// One recorder per failure, all watching the same run.
 void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
     std::vector<std::unique_ptr<samples::SampleRecorder>> recorders;
     trace::Listeners all;

@@ -6,7 +6,7 @@
 namespace clearway::loop {
 
 /// Runs the simulation of the job without a policy and writes the data set into its output folder. Prints one
-/// line about each file written. Throws core::Error.
+/// line per file written. Throws core::Error.
 core::ExitCode record_dataset(const experiment::DatasetJob& job);
 
 }  // namespace clearway::loop

@@ -5,7 +5,7 @@
 
 namespace clearway::loop {
 
-/// Runs the simulation of the job and writes a LinkRun for each predictor. Throws core::Error.
+/// Runs the simulation of the job and writes one LinkRun per predictor. Throws core::Error.
 core::ExitCode evaluate_links(const experiment::LinkJob& job);
 
 }  // namespace clearway::loop

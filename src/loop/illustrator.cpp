@@ -24,9 +24,9 @@ constexpr sumo::Colour held_colour{220, 0, 200};
 
 constexpr double link_width_m = 0.3;
 constexpr double ring_width_m = 1.5;
-constexpr double ring_margin_m = 4.0;  ///< From the outermost stop line.
+constexpr double ring_margin_m = 4.0;  ///< Beyond the outermost stop line.
 constexpr int ring_corners = 32;
-/// More would hide the road, and each is a request of about 60 us in every step.
+/// More would hide the road, and each costs a request of about 60 us per step.
 constexpr std::size_t most_links = 80;
 
 sumo::Colour colour_of(VehicleClass vehicle_class, bool dark) {
@@ -41,7 +41,7 @@ sumo::Colour colour_of(VehicleClass vehicle_class, bool dark) {
     return dark ? dark_human : human;
 }
 
-/// Middle of a vehicle, whose position is that of its front bumper.
+/// Centre of a vehicle, whose position in the snapshot is that of its front bumper.
 sumo::Spot middle_of(const truth::Snapshot& snapshot, core::VehicleIndex row, const traffic::Roster& roster) {
     const traffic::VehicleInfo* const info = roster.find(snapshot.key[row]);
     const double back_m = info != nullptr ? info->length_m / 2.0 : 0.0;

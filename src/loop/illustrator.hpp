@@ -9,24 +9,24 @@
 
 namespace clearway::loop {
 
-/// What a person who watches a run should see of it. An observer, as a recording is: it sees the truth, and
-/// nothing that decides sees it.
+/// Draws what a person who watches a run should see. Like a recording it only observes: it sees the truth,
+/// and nothing that makes decisions sees its drawing.
 ///
 /// | what | shown as |
 /// |---|---|
 /// | emergency, automated, human vehicles | red, blue, yellow |
-/// | those that did not report in the newest round: dark | wine red, slate, grey |
-/// | believed links, those nearest to an emergency vehicle | green lines; orange where an end is dark |
+/// | those that did not report in the latest round (dark) | wine red, slate, grey |
+/// | believed links nearest to an emergency vehicle | green lines; orange if an end is dark |
 /// | signals that a policy holds | a magenta ring |
 ///
-/// The view follows one emergency vehicle to its end, then another.
+/// The view follows one emergency vehicle until it arrives, then another.
 class Illustrator {
   public:
     /// `network` outlives the object.
     explicit Illustrator(const roads::Network& network)
         : network_(network), held_(network.signals().size(), false) {}
 
-    /// Called for every step, in order of time. Valid until the next call.
+    /// Call it for every step, in order of time. The drawing is valid until the next call.
     const sumo::Drawing& draw(const trace::RecordedStep& step);
 
   private:
@@ -35,7 +35,7 @@ class Illustrator {
         core::VehicleKey other;
     };
 
-    /// Who is on the road and did not report in the newest round.
+    /// Finds the vehicles on the road that did not report in the latest round.
     void take_dark(const truth::Snapshot& snapshot, const traffic::Observation& observation);
     bool is_dark(core::VehicleKey vehicle) const;
     void take_links(const traffic::BelievedGraph& belief);
@@ -53,7 +53,7 @@ class Illustrator {
     sumo::Drawing drawing_;
 };
 
-/// Points of a closed ring around the stop lines of a signal; none for a signal without any.
+/// Points of a closed ring around the stop lines of a signal; empty for a signal without stop lines.
 std::vector<sumo::Spot> ring_around(const roads::Signal& signal, const roads::Network& network);
 
 }  // namespace clearway::loop

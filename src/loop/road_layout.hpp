@@ -9,12 +9,12 @@
 
 namespace clearway::loop {
 
-/// Replications whose journeys are kept: the report draws one, and two more are there to look at.
+/// Number of replications whose journeys are kept: the report draws one, the others are for inspection.
 inline constexpr std::uint32_t journeys_kept = 3;
 
-/// What the recorder of a run has to know of the map and of the routes of its emergency vehicles. Routes stop
-/// where the network does not join them; counts of edges that it has not are left out. Approaches are in the
-/// order of the network's edges.
+/// What the recorder of a run has to know of the map and of the routes of its emergency vehicles. A route
+/// ends where the network does not connect its edges; counts of unknown edges are left out. Approaches are in
+/// the order of the network's edges.
 metrics::RoadLayout road_layout(const roads::Network& network,
                                 std::span<const traffic::EmergencyDeparture> emergency,
                                 std::span<const metrics::EdgeCount> counts = {});

@@ -18,8 +18,8 @@
 namespace clearway::loop {
 namespace {
 
-/// What a window looks like unless the user has settings of their own: vehicles as plain boxes in the colour
-/// that they are given (vehicleMode 2; 0 would paint every ambulance white), on grey roads.
+/// View settings of the window unless the user has their own: vehicles as plain boxes in the colour they are
+/// given (vehicleMode 2; 0 would paint every ambulance white), on grey roads.
 constexpr const char* own_settings = R"(<viewsettings>
     <scheme name="clearway">
         <background backgroundColor="245,245,240" showGrid="0"/>
@@ -73,13 +73,13 @@ class Show : public trace::StepListener {
     Clock::time_point next_;
 };
 
-/// What to say of a simulation that broke off: a window that was closed ends its SUMO in peace.
+/// The error for a simulation that broke off. Closing the window makes SUMO exit normally.
 core::Error reason(const core::SimulatorError& fault, sumo::ChildSumo& child) {
     constexpr core::Seconds patience{5.0};
     const auto end = child.wait_for_end(patience);
     if (end && end->ok())
         return {core::ExitCode::incomplete,
-                "the window was closed before the end of the run; nothing of it is kept"};
+                "the window was closed before the end of the run; its results are discarded"};
     return fault.with_context(end ? fmt::format("SUMO: {}\n{}", end->describe(), child.last_words())
                                   : "SUMO does not answer");
 }

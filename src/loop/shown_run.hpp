@@ -7,11 +7,11 @@
 
 namespace clearway::loop {
 
-/// Runs the one condition of a job with a window as its `window` says, in a SUMO that is a child of this
-/// process, and stores the run: the same bytes as without a window. SUMO's files lie in `work`, an absolute
-/// path. Throws core::EnvironmentError when that SUMO does not start, core::Error with code incomplete when
-/// its window is closed before the end, core::SimulatorError when it fails, core::ConflictError when the run
-/// is there already and differs.
+/// Runs the only condition of a job with a window as its `window` says, in a SUMO that is a child of this
+/// process, and stores the run: the same bytes as without a window. SUMO's files are in `work`, an absolute
+/// path. Throws core::EnvironmentError when SUMO does not start, core::Error with code incomplete when the
+/// window is closed before the end, core::SimulatorError when SUMO fails, core::ConflictError when the run is
+/// already stored and differs.
 core::ExitCode run_shown(const experiment::RunJob& unit, const std::filesystem::path& work);
 
 }  // namespace clearway::loop

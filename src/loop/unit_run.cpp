@@ -32,7 +32,7 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     return config;
 }
 
-/// A job of one simulation that asks for nothing else.
+/// A run job with only the simulation set.
 experiment::RunJob plain_job(const experiment::Simulation& simulation) {
     experiment::RunJob job;
     static_cast<experiment::Simulation&>(job) = simulation;

@@ -14,37 +14,37 @@
 
 namespace clearway::loop {
 
-/// Time before the first emergency vehicle at which conditions part: sensors fill, and nothing depends on the
-/// condition before it.
+/// Conditions are forked this long before the first emergency vehicle departs, so that sensors have history
+/// by then. Nothing before the fork depends on the condition.
 inline constexpr core::Seconds lead_before_emergency{60.0};
 
-/// How a simulation comes to run.
+/// Starts a simulation: in this process or in a child.
 using StartSession = std::function<std::unique_ptr<sumo::Session>(sumo::SessionConfig)>;
 std::unique_ptr<sumo::Session> in_this_process(sumo::SessionConfig config);
 
-/// A scenario and replication, loaded and warmed up, from which conditions start.
+/// A replication of a scenario, loaded and warmed up, from which conditions start.
 class UnitRun {
   public:
     /// Prepares the demand, loads SUMO and steps to `lead_before_emergency` before the first emergency
     /// vehicle. Outputs go to `folder`, the demand to `demand_folder`.
     UnitRun(const experiment::RunJob& unit, const std::filesystem::path& demand_folder,
             const std::filesystem::path& folder, const StartSession& start = in_this_process);
-    /// A simulation that no study asked for, to record data from; all files go to `folder`.
+    /// A simulation outside a study, to record data from; all files go to `folder`.
     UnitRun(const experiment::Simulation& simulation, const std::filesystem::path& folder);
 
-    /// Runs one condition to its end in this process, which was forked for it: outputs first move to
-    /// `folder`.
+    /// Runs one condition to its end in this process, which was forked for it. Outputs go to `folder` from
+    /// here on.
     results::RunRecord finish_in(const std::filesystem::path& folder,
                                  const experiment::ConditionSpec& condition, results::RunTiming& timing);
     /// Runs one condition to its end without a fork; `audience` may be null.
     results::RunRecord finish_here(const experiment::ConditionSpec& condition, results::RunTiming& timing,
                                    trace::StepListener* audience = nullptr);
-    /// The same with a listener and without results: for recording data.
+    /// The same with a listener but without results, for recording data.
     void record(const experiment::ConditionSpec& condition, trace::StepListener& listener);
 
     const roads::Network& network() const { return network_.network; }
     sumo::Session& session() { return *session_; }
-    /// When the first emergency vehicle departs; the end of the warm-up without any.
+    /// When the first emergency vehicle departs; without one, the end of the warm-up.
     core::Seconds first_emergency() const;
     const std::string& scenario_hash() const { return scenario_hash_; }
 
@@ -57,7 +57,7 @@ class UnitRun {
     void open_all_signals();
     metrics::LeaseTotals run_together(const experiment::ConditionSpec& condition,
                                       trace::StepListener* listener);
-    /// The same, with a recording where the job asks for one.
+    /// The same, with a recording if the job asks for one.
     metrics::LeaseTotals run_recorded(const experiment::ConditionSpec& condition,
                                       trace::StepListener* audience);
     trace::RecordingInfo recording_info(const experiment::ConditionSpec& condition) const;

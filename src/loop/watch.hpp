@@ -7,7 +7,7 @@
 
 namespace clearway::loop {
 
-/// Holds SIGCHLD back while it lives, so that the end of a child wakes `watch` up instead of being lost.
+/// Blocks SIGCHLD during its lifetime, so that the end of a child wakes `watch` instead of being lost.
 class ChildSignals {
   public:
     ChildSignals();
@@ -19,12 +19,12 @@ class ChildSignals {
 /// How a watched process ended.
 struct WatchedEnd {
     core::EndedBy by = core::EndedBy::itself;
-    int status = 0;  ///< Of waitpid.
+    int status = 0;  ///< As waitpid reports it.
 };
 
-/// Waits for the end of `child`, a child of this process that was forked a moment ago, and kills it (SIGKILL)
-/// when it runs longer or holds more than allowed. Needs a ChildSignals that was there before the fork.
-/// Throws core::EnvironmentError when there is no such child.
+/// Waits for the end of `child`, a child of this process forked just before, and kills it (SIGKILL) when it
+/// exceeds a limit. Needs a ChildSignals created before the fork. Throws core::EnvironmentError when there is
+/// no such child.
 WatchedEnd watch(pid_t child, const experiment::RunLimits& limits);
 
 }  // namespace clearway::loop

@@ -26,7 +26,7 @@
 namespace clearway::loop {
 namespace {
 
-/// Lines of SUMO's own log that go into a error record.
+/// Lines of SUMO's log that go into an error record.
 constexpr int log_lines = 30;
 
 struct Places {
@@ -64,14 +64,15 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const core::Er
     unit.store.write(error);
 }
 
-/// Throws core::EnvironmentError on a full disk, which makes SUMO fail in many ways: then no run is to blame.
+/// Throws core::EnvironmentError on a full disk, which makes SUMO fail in many ways for which no run is to
+/// blame.
 void require_space(const std::filesystem::path& folder) {
     const std::filesystem::path probe = folder / "probe";
     core::write_atomically(probe, std::string(std::size_t{1} << 18, ' '));
     std::filesystem::remove(probe);
 }
 
-/// Records the end of a process that could not do it itself.
+/// Records the error of a process that could not do it itself.
 void store_error(const Unit& unit, const experiment::RunKey& key, const WatchedEnd& end,
                  const std::filesystem::path& folder) {
     results::RunError error = error_of(unit, key, folder);
@@ -89,7 +90,7 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const WatchedE
     unit.store.write(error);
 }
 
-/// Ok, or environment when the disk is at fault or the error cannot be stored either.
+/// Returns ok, or environment when the disk is full or the error cannot be stored.
 core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& key, const core::Error& cause,
                                   const std::filesystem::path& folder) {
     try {
@@ -102,7 +103,7 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
     }
 }
 
-/// The forked child's whole life. Never returns: the parent's objects must not be destroyed twice.
+/// Everything the forked child does. Never returns, because the parent's objects must not be destroyed twice.
 [[noreturn]] void be_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                                const std::filesystem::path& folder) {
     const experiment::RunKey key = key_of(unit.spec, condition);
@@ -121,13 +122,13 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         std::fflush(nullptr);
-        std::abort();  // our own fault: leave a signal behind, as an assertion would
+        std::abort();  // a bug of ours: die by a signal, as an assertion would
     }
     std::fflush(nullptr);
     _exit(static_cast<int>(code));
 }
 
-/// Runs a condition in a child of its own; answers the child's exit code, ok when an error is on record.
+/// Runs a condition in its own child. Returns the child's exit code, or ok when an error was recorded.
 core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                               const std::filesystem::path& folder) {
     const experiment::RunKey key = key_of(unit.spec, condition);
@@ -141,7 +142,7 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::
     const WatchedEnd end = watch(child, unit.spec.limits);
     if (WIFEXITED(end.status)) return static_cast<core::ExitCode>(WEXITSTATUS(end.status));
     const int signal = WTERMSIG(end.status);
-    if (signal == SIGINT || signal == SIGTERM) std::raise(signal);  // interrupted, which is no failure
+    if (signal == SIGINT || signal == SIGTERM) std::raise(signal);  // an interruption, not an error
     store_error(unit, key, end, folder);
     return core::ExitCode::ok;
 }
@@ -156,9 +157,9 @@ Places places_of(const experiment::RunJob& unit, const results::Store& store,
     return places;
 }
 
-/// Loads SUMO once, warms up once, forks one child per condition that has no record yet, and stores what each
-/// child found. A child that fails leaves a error record with its cause, also when it was killed by a
-/// signal or for passing a limit of the job, and the others go on.
+/// Loads SUMO once, warms up once, and forks one child per condition that has no record yet; each child
+/// stores its run. A child that fails leaves an error record with the cause, even when it was killed by a
+/// signal or for exceeding a limit of the job, and the others continue.
 core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::path& unit_file) {
     const results::Store store = results::Store::open(unit.output);
     const Places places = places_of(unit, store, unit_file);
@@ -188,7 +189,7 @@ core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::p
     return core::ExitCode::ok;
 }
 
-/// What to do for each kind of job.
+/// Does each kind of job.
 struct Work {
     std::filesystem::path file;  ///< Of the job.
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr const char* header = "edge,vehicles_per_hour";
 
-/// Nothing for text that is no finite number from 0 on.
+/// False unless the text is a finite number, 0 or more.
 bool read_flow(const std::string& text, double& flow) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), flow);
     return error == std::errc() && end == text.data() + text.size() && std::isfinite(flow) && flow >= 0.0;
 }
 
-/// Without the line end of other systems.
+/// The next line, without the carriage return of other systems.
 std::string line_from(std::istringstream& lines, bool& found) {
     std::string line;
     found = static_cast<bool>(std::getline(lines, line));
@@ -50,15 +50,16 @@ std::vector<EdgeCount> read_counts(const std::filesystem::path& file) {
         EdgeCount count;
         if (comma == std::string::npos || comma == 0 ||
             !read_flow(line.substr(comma + 1), count.vehicles_per_hour)) {
-            refuse(number, fmt::format("\"{}\" is no counted flow", line), "EDGE,NUMBER from 0 on");
+            refuse(number, fmt::format("\"{}\" is not a counted flow", line),
+                   "EDGE,NUMBER with a number of 0 or more");
             continue;
         }
         count.edge = line.substr(0, comma);
         if (!edges.insert(count.edge).second)
-            refuse(number, fmt::format("edge {} stands there twice", count.edge), "");
+            refuse(number, fmt::format("edge {} is listed twice", count.edge), "");
         counts.push_back(std::move(count));
     }
-    if (problems.empty() && counts.empty()) refuse(2, "holds no edge", "at least one");
+    if (problems.empty() && counts.empty()) refuse(2, "lists no edge", "at least one");
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return counts;
 }

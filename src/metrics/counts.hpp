@@ -6,15 +6,15 @@
 
 namespace clearway::metrics {
 
-/// A flow that was counted on a road.
+/// A traffic flow counted on a road.
 struct EdgeCount {
     std::string edge;
     double vehicles_per_hour = 0.0;
 };
 
-/// Reads counted flows: CSV with the columns `edge,vehicles_per_hour`, a line for each edge. Throws
-/// core::InputError with every problem, each with file and line: another header, an edge twice, a number that
-/// is none or negative, no edge at all.
+/// Reads counted flows: CSV with the columns `edge,vehicles_per_hour`, one line per edge. Throws
+/// core::InputError with every problem, each with file and line: another header, an edge listed twice, a
+/// missing or negative number, no edge at all.
 std::vector<EdgeCount> read_counts(const std::filesystem::path& file);
 
 }  // namespace clearway::metrics

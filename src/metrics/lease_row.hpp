@@ -21,7 +21,7 @@ struct LeaseRow {
 
     bool operator==(const LeaseRow&) const = default;
 
-    /// Sum over the reasons: a lease that was refused for two of them counts twice.
+    /// Sum over the reasons: a lease refused for two reasons counts twice.
     std::uint64_t refusals() const {
         std::uint64_t sum = 0;
         for (const auto& [reason, count] : refused)
@@ -29,15 +29,15 @@ struct LeaseRow {
         return sum;
     }
 
-    /// The numbers; policy and action stand before them, refusals by reason after them.
+    /// The numeric columns. In tables, policy and action come before them, refusals by reason after them.
     static constexpr auto fields() {
         using R = LeaseRow;
         using core::Field;
         return std::make_tuple(
             Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, refused ones included", ""},
-            Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that prolonged one", ""},
-            Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that were carried out at least for a step", ""},
-            Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that ended by themselves", ""});
+            Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that renewed an earlier one", ""},
+            Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that took effect for at least one step", ""},
+            Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that expired", ""});
     }
 };
 

@@ -10,20 +10,19 @@
 
 namespace clearway::metrics {
 
-/// A believed graph beside the truth of its moment: which believed vehicle is which, and which believed links
-/// are true. O(vehicles + links log degree). Keeps its buffers.
+/// Matches a believed graph with the truth at the same time: which true vehicle each believed one is, and
+/// which believed links are true. O(vehicles + links log degree). Keeps its buffers.
 class BeliefMatch {
   public:
     void match(const truth::Snapshot& snapshot, const traffic::BelievedGraph& belief);
 
-    /// By believed vehicle: its row of the snapshot; `core::no_row` when it is not on the road any more.
+    /// By believed vehicle: its row of the snapshot; `core::no_row` when it is no longer on the road.
     const std::vector<core::VehicleIndex>& true_rows() const { return true_row_; }
     /// By row of the snapshot: the believed vehicle; `core::no_row` when the belief lacks it.
     const std::vector<core::VehicleIndex>& believed_rows() const { return believed_row_; }
 
     /// Calls `visit(left, right, is_true)` for every believed link, left < right by believed vehicle. A link
-    /// with a vehicle that has left the road is false. `belief` and `truth` are of the moment that was
-    /// matched.
+    /// with a vehicle that has left the road is false. `belief` and `truth` are of the moment matched last.
     template <class Visit>
     void for_each_link(const traffic::BelievedGraph& belief, const TrueLinks& truth,
                        const Visit& visit) const {
@@ -40,10 +39,10 @@ class BeliefMatch {
     std::vector<core::VehicleIndex> true_row_, believed_row_;
 };
 
-/// Counts believed links against true ones, over the moments of a run.
+/// Counts believed links against true ones over the course of a run.
 class LinkComparison {
   public:
-    /// Adds one moment to the counts. An end is dark when the belief lacks it or holds a report older than
+    /// Adds the counts of one moment. An end is dark when the belief lacks it or holds a report older than
     /// `fresh_age_s`.
     void add(const truth::Snapshot& snapshot, const TrueLinks& truth, const traffic::BelievedGraph& belief,
              float fresh_age_s);

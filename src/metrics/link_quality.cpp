@@ -10,7 +10,7 @@
 namespace clearway::metrics {
 namespace {
 
-/// Pairs at or above one score.
+/// Pairs at or above a score.
 struct Counts {
     std::uint64_t positives = 0;
     std::uint64_t negatives = 0;
@@ -22,8 +22,8 @@ Counts totals(ScoredLinks links) {
     return {positives, links.linked.size() - positives};
 }
 
-/// Calls `visit(score, above, upto)` for each distinct score, from the highest: the counts of pairs scored
-/// higher, and of those scored as high or higher.
+/// Calls `visit(score, above, upto)` for each distinct score, from the highest down, with the counts of pairs
+/// scored higher and of pairs scored at least as high.
 template <class Visit>
 void for_each_score(ScoredLinks links, Visit&& visit) {
     std::vector<std::size_t> order(links.probability.size());
@@ -51,7 +51,7 @@ double f1_from(Counts predicted, std::uint64_t all_positives) {
 std::optional<double> area_under_roc(ScoredLinks links) {
     const Counts all = totals(links);
     if (all.positives == 0 || all.negatives == 0) return std::nullopt;
-    double area = 0.0;  // In pairs of (true, false): a trapezoid for each score.
+    double area = 0.0;  // In (true, false) pairs: one trapezoid per score.
     for_each_score(links, [&](double, Counts above, Counts upto) {
         area += static_cast<double>(upto.negatives - above.negatives) * 0.5 *
                 static_cast<double>(above.positives + upto.positives);

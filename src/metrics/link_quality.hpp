@@ -9,14 +9,14 @@
 
 namespace clearway::metrics {
 
-/// Predicted links and the truth, one entry a pair. Both spans have one length.
+/// Predicted links and the truth, one entry per pair. Both spans have the same length.
 struct ScoredLinks {
     std::span<const double> probability;   ///< In [0, 1]; not checked.
     std::span<const std::uint8_t> linked;  ///< 1 where the link is true, else 0.
 };
 
-/// How good probabilities of links are. Empty where a number is not defined. All functions here are pure and
-/// do not depend on the order of the pairs beyond rounding.
+/// How good predicted link probabilities are. Empty where a measure is not defined. All functions here are
+/// pure; the order of the pairs affects only rounding.
 struct LinkQuality {
     std::uint64_t pairs = 0;
     std::uint64_t true_links = 0;
@@ -33,12 +33,12 @@ struct LinkQuality {
             core::Field{"pairs", "1", &Q::pairs, 0.0, 1e12, "Pairs scored", ""},
             core::Field{"true_links", "1", &Q::true_links, 0.0, 1e12, "Pairs that are linked", ""},
             core::Field{"auc", "1", &Q::auc, 0.0, 1.0,
-                        "Area under the receiver's operating curve; 0.5 is chance", ""},
+                        "Area under the receiver operating characteristic; 0.5 is chance", ""},
             core::Field{"ap", "1", &Q::ap, 0.0, 1.0, "Average precision; chance is the share of true links",
                         ""},
             core::Field{"f1", "1", &Q::f1, 0.0, 1.0, "Harmonic mean of precision and recall at the threshold",
                         ""},
-            core::Field{"log_loss", "nat", &Q::log_loss, 0.0, 1e3, "Mean of -ln p(what is true)", ""},
+            core::Field{"log_loss", "nat", &Q::log_loss, 0.0, 1e3, "Mean of -ln p(true answer)", ""},
             core::Field{"ece", "1", &Q::ece, 0.0, 1.0, "Expected calibration error",
                         "15 bins: Guo et al. 2017"},
             core::Field{"threshold", "1", &Q::threshold, 0.0, 1.0,
@@ -52,25 +52,25 @@ LinkQuality link_quality(ScoredLinks links, double threshold = 0.5);
 /// unless both kinds are present. O(n log n).
 std::optional<double> area_under_roc(ScoredLinks links);
 
-/// Sum over the distinct scores, from the highest, of (recall gained) x (precision there): a step function
-/// without interpolation; tied pairs enter together. Empty without true links. O(n log n).
+/// Sum over the distinct scores, from the highest, of (recall gained) x (precision at that score): no
+/// interpolation; tied pairs enter together. Empty without true links. O(n log n).
 std::optional<double> average_precision(ScoredLinks links);
 
-/// 2 TP / (2 TP + FP + FN), a link being predicted where probability >= threshold. Empty when nothing is true
-/// and nothing predicted.
+/// 2 TP / (2 TP + FP + FN), where a link is predicted if probability >= threshold. Empty when no link is true
+/// and none predicted.
 std::optional<double> f1_score(ScoredLinks links, double threshold);
 
-/// The threshold among the scores that gives the greatest F1 (the highest such score), for choosing on
-/// validation seeds; 0.5 without true links. O(n log n).
+/// The score that as a threshold gives the greatest F1 (the highest such score), to be chosen on validation
+/// seeds; 0.5 without true links. O(n log n).
 double best_f1_threshold(ScoredLinks links);
 
-/// Mean of -ln p where linked and -ln(1 - p) elsewhere, probabilities held within [1e-15, 1 - 1e-15]. Empty
-/// without pairs.
+/// Mean of -ln p for linked pairs and -ln(1 - p) for others, with probabilities clamped to [1e-15, 1 -
+/// 1e-15]. Empty without pairs.
 std::optional<double> log_loss(ScoredLinks links);
 
 /// Expected calibration error: mean over pairs of |mean probability - share of true links| of the pair's bin,
-/// 15 bins of one width (Guo et al. 2017, "On Calibration of Modern Neural Networks", with the probability of
-/// a link in place of the confidence). Empty without pairs.
+/// 15 bins of equal width (Guo et al. 2017, "On Calibration of Modern Neural Networks", with the probability
+/// of a link in place of the confidence). Empty without pairs.
 std::optional<double> calibration_error(ScoredLinks links);
 
 }  // namespace clearway::metrics

@@ -31,7 +31,7 @@ class DemandReader {
             type_ = nullptr;
             take_vehicle(element);
         } else if (name == "flow") {
-            throw std::invalid_argument("flow: the vehicles of a run are listed one by one");
+            throw std::invalid_argument("flow: a run needs its vehicles listed one by one");
         }
     }
 

@@ -37,7 +37,7 @@ struct Mean {
     }
 };
 
-/// The walks of pedestrians in the tripinfo files.
+/// The walks of pedestrians, from the tripinfo files.
 class Walks {
   public:
     void take(const detail::Element& walk) {
@@ -90,7 +90,7 @@ class RowTable {
         for (const auto& [vehicle, count] : teleports) {
             const auto found = row_of_.find(vehicle);
             if (found == row_of_.end())
-                throw core::SimulatorError("a vehicle that nobody planned teleported");
+                throw core::SimulatorError("a vehicle teleported that is not in the demand");
             rows_[found->second].teleports = count;
             rows_[found->second].outcome = VehicleOutcome::teleported;
         }
@@ -108,9 +108,10 @@ class RowTable {
     void take(const detail::Element& element) {
         const std::string id(element.text("id"));
         const auto found = row_of_.find(core::vehicle_key(id));
-        if (found == row_of_.end()) throw std::runtime_error(fmt::format("vehicle {} was not planned", id));
+        if (found == row_of_.end())
+            throw std::runtime_error(fmt::format("vehicle {} is not in the demand", id));
         VehicleRow& row = rows_[found->second];
-        if (row.depart_s) throw std::runtime_error(fmt::format("vehicle {} stands there twice", id));
+        if (row.depart_s) throw std::runtime_error(fmt::format("vehicle {} is listed twice", id));
         const double depart_s = element.number("depart");
         if (depart_s < 0.0) return;  // Listed by SUMO as never inserted.
         row.depart_s = depart_s;
@@ -221,9 +222,9 @@ void describe_conflicts(const detail::ConflictWatch& conflicts, RunMetrics& metr
     metrics.emergency_greatest_drac_mps2 = conflicts.greatest_drac_mps2();
 }
 
-/// Mean time lost on the worst approach; rows of one approach follow each other.
+/// Mean time lost on the worst approach. Rows of one approach are adjacent.
 std::optional<double> worst_delay_s(const std::vector<ApproachRow>& rows) {
-    // Assumed: the mean of fewer vehicles says more of one driver than of a street.
+    // Assumed: a mean of fewer vehicles says more about single drivers than about the street.
     constexpr std::uint64_t least_vehicles = 5;
     std::optional<double> worst;
     for (std::size_t row = 0; row < rows.size();) {
@@ -254,11 +255,11 @@ struct Recorder::State {
     RecorderConfig config;
     detail::TraceHash trace;
     LinkComparison links;
-    RunMetrics counted;  ///< What events and snapshots say so far.
+    RunMetrics counted;  ///< Counts from events and snapshots so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
     RoadLayout layout;
-    std::vector<core::VehicleKey> keys;     ///< Of the step before.
-    std::vector<std::uint32_t> row_before;  ///< Row there of each vehicle.
+    std::vector<core::VehicleKey> keys;     ///< Keys at the step before.
+    std::vector<std::uint32_t> row_before;  ///< Row of each vehicle at the step before.
     std::optional<detail::TrafficWatch> traffic;
     std::optional<detail::FlowWatch> flow;
     std::optional<detail::ConflictWatch> conflicts;

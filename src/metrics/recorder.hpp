@@ -28,21 +28,22 @@ struct PlannedVehicle {
 };
 
 /// The vehicles of SUMO route files, with class and kind from the parameters of their types (see
-/// traffic/departure.hpp), then the emergency vehicles that the run adds. Types may stand in any of the
-/// files, before they are used. Throws core::InputError for a file that is missing or not XML, and for a
+/// traffic/departure.hpp), then the emergency vehicles that the run adds. Types may be in any of the files,
+/// but must come before their use. Throws core::InputError for a file that is missing or not XML, and for a
 /// departure that is not a time.
 std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> type_and_route_files,
                                          std::span<const traffic::EmergencyDeparture> emergency);
 
-/// The vehicles of a simulation that nobody planned, from its table of trips: class and kind as the roster
-/// has them; those that it lacks, because they never entered, count as human. Throws core::SimulatorError.
+/// The vehicles of a simulation without a known demand, from its tripinfo file. Class and kind are those of
+/// the roster; vehicles that it lacks, because they never entered, count as human. Throws
+/// core::SimulatorError.
 std::vector<PlannedVehicle> planned_in(const std::filesystem::path& tripinfo, const traffic::Roster& roster);
 
 struct RecorderConfig {
-    /// A believed vehicle whose report is older than this was not heard at the newest round, s.
+    /// A believed vehicle whose report is older than this was not heard in the newest report round, s.
     float fresh_age_s = 0.01F;
 
-    /// Where reports come late: their age, and rounding.
+    /// For reports that arrive late: the latency plus rounding.
     static RecorderConfig of_latency(core::Seconds latency) {
         return {static_cast<float>(latency.value) + RecorderConfig{}.fresh_age_s};
     }
@@ -54,14 +55,14 @@ struct RunEnd {
     std::vector<std::filesystem::path> tripinfo_files;
     std::vector<PlannedVehicle> planned;
     core::Seconds time;
-    /// How long a run may take at most: what an emergency vehicle counts with that did not arrive. It must
-    /// not depend on the condition.
+    /// Maximum duration of a run; an emergency vehicle that did not arrive counts with this travel time. It
+    /// must not depend on the condition.
     core::Seconds horizon;
     LeaseTotals leases;
 };
 
-/// Turns a run into numbers. Call `step` for every simulation step, warm-up included; a copy made by a fork
-/// goes on in the child. One recorder, one run, one thread. Steps of a steady number of vehicles do not
+/// Turns a run into numbers. Call `step` for every simulation step, warm-up included; after a fork the copy
+/// continues in the child. One recorder, one run, one thread. Steps with a steady number of vehicles do not
 /// allocate.
 class Recorder {
   public:
@@ -70,10 +71,11 @@ class Recorder {
     Recorder(Recorder&&) noexcept;
     Recorder& operator=(Recorder&&) noexcept;
 
-    /// After the warm-up that conditions share, for what a condition knows better.
+    /// Replaces the configuration after the shared warm-up, once the condition is known.
     void configure(RecorderConfig config);
 
-    /// From the next step on, also says where time is lost, how emergency vehicles travel, and how safely.
+    /// From the next step on, also records where time is lost, how emergency vehicles travel, and safety
+    /// measures.
     void watch(RoadLayout layout);
 
     /// One step: counts events and adds snapshot and leases to the trace hash. The roster lists every vehicle
@@ -84,8 +86,8 @@ class Recorder {
     /// believed when the belief lists it.
     void links(const truth::Snapshot& snapshot, const TrueLinks& truth, const traffic::BelievedGraph& belief);
 
-    /// Reads the tripinfo files and puts everything together. Throws core::SimulatorError when a file is
-    /// missing, cut off or lists a vehicle that nobody planned.
+    /// Reads the tripinfo files and summarises the run. Throws core::SimulatorError when a file is missing,
+    /// cut off or lists a vehicle that was not planned.
     RunSummary finish(const RunEnd& end) const;
 
     const LinkCounts& link_counts() const;

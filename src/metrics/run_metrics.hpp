@@ -13,14 +13,14 @@
 
 namespace clearway::metrics {
 
-/// Links believed against links true, counted over the report rounds at which a policy decided.
+/// Believed links against true ones, counted over the report rounds with a decision.
 struct LinkCounts {
     std::uint64_t true_positive = 0;
     std::uint64_t false_positive = 0;
     std::uint64_t false_negative = 0;
 
     bool operator==(const LinkCounts&) const = default;
-    /// Empty where nothing was believed, nothing was true, or both.
+    /// Each is empty where its denominator is 0.
     std::optional<double> precision() const;
     std::optional<double> recall() const;
     std::optional<double> f1() const;
@@ -28,7 +28,7 @@ struct LinkCounts {
 
 /// What became of the leases of a run. `refused` counts leases, not reasons.
 struct LeaseTotals {
-    std::uint64_t issued = 0;  ///< New leases, refused ones included, renewals not.
+    std::uint64_t issued = 0;  ///< New leases, including refused ones; without renewals.
     std::uint64_t renewed = 0;
     std::uint64_t refused = 0;
     std::uint64_t expired = 0;
@@ -37,11 +37,11 @@ struct LeaseTotals {
     bool operator==(const LeaseTotals&) const = default;
 };
 
-/// The numbers of one run. The restricted mean travel time is over all emergency vehicles of the demand. The
-/// other means of their travel time and time loss are over those that arrived; means of waiting time and
-/// depart delay, and the time loss of the others, are over all that were inserted, so vehicles still on the
-/// road count with what they lost so far. The counts beside the means tell how many were left out. Empty
-/// where there was nobody to average over.
+/// The numbers of one run. The restricted mean travel time is over all emergency vehicles of the demand.
+/// Other means of travel time, and the time loss of emergency vehicles, are over vehicles that arrived. Means
+/// of waiting time and depart delay, and the time loss of others, are over all vehicles that were inserted,
+/// so vehicles still on the road count with what they lost so far. The counts next to the means tell how many
+/// were left out. Empty where there was no vehicle to average over.
 struct RunMetrics {
     std::optional<double> emergency_restricted_travel_time_s;
     std::optional<double> emergency_travel_time_s;
@@ -74,7 +74,7 @@ struct RunMetrics {
     std::uint64_t pedestrian_collisions = 0;
     std::uint64_t emergency_pedestrian_collisions = 0;
 
-    // From the moment on at which conditions part.
+    // From the fork of the conditions on.
     std::optional<double> emergency_least_ttc_s;
     std::uint64_t emergency_conflicts = 0;
     std::optional<double> emergency_greatest_drac_mps2;
@@ -113,7 +113,7 @@ struct RunMetrics {
         using core::Field;
         return std::make_tuple(
             Field{"emergency_restricted_travel_time_s", "s", &M::emergency_restricted_travel_time_s, 0.0, 1e9,
-                  "EV travel time, mean of all; one that did not arrive counts with the horizon",
+                  "EV travel time, mean of all; an EV that did not arrive counts with the horizon",
                   "tripinfo duration; Royston and Parmar 2013"},
             Field{"emergency_travel_time_s", "s", &M::emergency_travel_time_s, 0.0, 1e9,
                   "EV travel time, mean of those that arrived", "tripinfo duration"},
@@ -146,7 +146,7 @@ struct RunMetrics {
                   "tripinfo"},
             Field{"not_inserted", "1", &M::not_inserted, 0.0, 1e9, "Vehicles that never departed",
                   "demand less tripinfo"},
-            Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles gone without arriving",
+            Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles removed before they arrived",
                   "tripinfo vaporized"});
     }
     static constexpr auto safety_fields() {
@@ -159,36 +159,35 @@ struct RunMetrics {
             Field{"junction_collisions", "1", &M::junction_collisions, 0.0, 1e9, "Collisions at junctions",
                   "events"},
             Field{"emergency_collisions", "1", &M::emergency_collisions, 0.0, 1e9,
-                  "Collisions with an EV in them", "events"},
+                  "Collisions that involve an EV", "events"},
             Field{"emergency_junction_collisions", "1", &M::emergency_junction_collisions, 0.0, 1e9,
-                  "Collisions at junctions with an EV in them", "events"},
+                  "Collisions at junctions that involve an EV", "events"},
             Field{"emergency_brakings", "1", &M::emergency_brakings, 0.0, 1e9,
-                  "Brakings that reach a type's emergency deceleration (9 m/s2, trucks and buses 7)",
-                  "events"},
+                  "Braking events at a type's emergency deceleration (9 m/s2, trucks and buses 7)", "events"},
             Field{"emergency_least_ttc_s", "s", &M::emergency_least_ttc_s, 0.0, 1e9,
-                  "Least time to collision of vehicles that follow each other within 100 m of an EV",
+                  "Minimum time to collision of vehicles that follow each other within 100 m of an EV",
                   "SSAM's TTC"},
             Field{"emergency_conflicts", "1", &M::emergency_conflicts, 0.0, 1e9,
-                  "Times that it fell below 1.5 s", "SSAM's TTC"},
+                  "How often that time fell below 1.5 s", "SSAM's TTC"},
             Field{"emergency_greatest_drac_mps2", "m/s2", &M::emergency_greatest_drac_mps2, 0.0, 1e9,
-                  "Greatest deceleration to avoid a crash there", "SSAM's DRAC"},
+                  "Greatest deceleration needed to avoid a crash there", "SSAM's DRAC"},
             Field{"emergency_red_passages", "1", &M::emergency_red_passages, 0.0, 1e9,
                   "Stop lines that EVs passed on red", "lanes and signal states"},
             Field{"others_red_passages", "1", &M::others_red_passages, 0.0, 1e9,
-                  "Stop lines that others passed on red", "lanes and signal states"},
+                  "Stop lines that other vehicles passed on red", "lanes and signal states"},
             Field{"others_hard_brakings", "1", &M::others_hard_brakings, 0.0, 1e9,
-                  "Brakings of others harder than 3.4 m/s2", "AASHTO's comfortable deceleration"},
+                  "Braking events of other vehicles above 3.4 m/s2", "AASHTO's comfortable deceleration"},
             Field{"others_jerk_mps3", "m/s3", &M::others_jerk_mps3, 0.0, 1e9,
-                  "Jerk of others, root mean square over steps", "change of acceleration by step"},
+                  "Jerk of other vehicles, root mean square over steps", "change of acceleration by step"},
             Field{"signal_throughput_per_hour", "1/h", &M::signal_throughput_per_hour, 0.0, 1e9,
-                  "Vehicles past the stop lines of signals an hour, while demand departs", "lanes"},
+                  "Vehicles per hour past the stop lines of signals, while demand departs", "lanes"},
             Field{"signal_queue_vehicles", "1", &M::signal_queue_vehicles, 0.0, 1e9,
                   "Vehicles standing on an approach to a signal, mean while demand departs",
                   "speed below 0.1 m/s"},
             Field{"signal_longest_queue_vehicles", "1", &M::signal_longest_queue_vehicles, 0.0, 1e9,
-                  "Most vehicles that stood on one approach to a signal", "speed below 0.1 m/s"},
+                  "Most vehicles standing on one approach to a signal at once", "speed below 0.1 m/s"},
             Field{"worst_approach_delay_s", "s", &M::worst_approach_delay_s, 0.0, 1e9,
-                  "Mean time lost on the worst approach with five vehicles or more", "approaches"},
+                  "Mean time lost on the worst approach with at least five vehicles", "approaches"},
             Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
                   "tripinfo routeLength"});
     }
@@ -201,10 +200,10 @@ struct RunMetrics {
             Field{"pedestrians_unfinished", "1", &M::pedestrians_unfinished, 0.0, 1e9,
                   "Walks that had not ended", "tripinfo"},
             Field{"pedestrian_time_loss_s", "s", &M::pedestrian_time_loss_s, 0.0, 1e9,
-                  "Time lost on a walk, waiting at crossings included, mean of those that ended",
+                  "Time lost on a walk, including waiting at crossings, mean of those that ended",
                   "tripinfo timeLoss"},
             Field{"pedestrian_collisions", "1", &M::pedestrian_collisions, 0.0, 1e9,
-                  "Collisions of vehicles with pedestrians, not among the collisions", "events"},
+                  "Collisions of vehicles with pedestrians, not counted in the collisions", "events"},
             Field{"emergency_pedestrian_collisions", "1", &M::emergency_pedestrian_collisions, 0.0, 1e9,
                   "Collisions of EVs with pedestrians", "events"});
     }
@@ -214,18 +213,17 @@ struct RunMetrics {
         return std::make_tuple(
             Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
                   "actuation"},
-            Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that prolonged one",
+            Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that renewed an earlier one",
                   "actuation"},
             Field{"leases_refused", "1", &M::leases_refused, 0.0, 1e12, "Leases that were not feasible",
                   "actuation"},
-            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that ended by themselves",
-                  "actuation"},
-            Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12, "Links believed and true",
-                  "link comparison by key"},
+            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"},
+            Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12,
+                  "Links believed that are true", "link comparison by key"},
             Field{"links_false_positive", "1", &M::links_false_positive, 0.0, 1e12,
-                  "Links believed and not true", "link comparison by key"},
+                  "Links believed that are not true", "link comparison by key"},
             Field{"links_false_negative", "1", &M::links_false_negative, 0.0, 1e12,
-                  "Links true and not believed", "link comparison by key"},
+                  "True links that are not believed", "link comparison by key"},
             Field{"links_f1", "1", &M::links_f1, 0.0, 1.0, "F1 of the believed links", "2TP/(2TP+FP+FN)"},
             Field{"dark_links_true_positive", "1", &M::dark_links_true_positive, 0.0, 1e12,
                   "The same where an end was not heard at the newest report", "link comparison by key"},
@@ -246,13 +244,13 @@ struct RunMetrics {
     }
 };
 
-/// All that a run leaves behind to be stored.
+/// Everything that a run leaves to be stored.
 struct RunSummary {
     RunMetrics metrics;
     std::vector<VehicleRow> vehicles;  ///< By planned departure, then id.
     std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
-    TrafficTables traffic;             ///< Empty unless the recorder watched.
-    std::vector<LeaseRow> leases;      ///< By policy, then action; those that were used alone.
+    TrafficTables traffic;             ///< Empty unless Recorder::watch was called.
+    std::vector<LeaseRow> leases;      ///< By policy, then action; only those that were used.
 };
 
 }  // namespace clearway::metrics

@@ -10,7 +10,7 @@
 
 namespace clearway::metrics {
 
-/// What one class of vehicles lost on one approach during a run, from the moment on at which conditions part.
+/// What one class of vehicles lost on one approach during a run, from the fork of the conditions on.
 /// Emergency vehicles are left out.
 struct ApproachRow {
     std::string edge;
@@ -22,22 +22,22 @@ struct ApproachRow {
 
     bool operator==(const ApproachRow&) const = default;
 
-    /// The numbers; edge and class stand before them.
+    /// The numeric columns. In tables, edge and class come before them.
     static constexpr auto fields() {
         using R = ApproachRow;
         using core::Field;
         return std::make_tuple(
             Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that entered the approach", ""},
             Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e12,
-                  "Time that vehicles stood there (below 0.1 m/s), summed over them", ""},
+                  "Time that vehicles stood there (below 0.1 m/s), summed over vehicles", ""},
             Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e12,
-                  "Time lost there against driving at the road's limit, summed over vehicles", ""},
+                  "Time lost there compared with driving at the speed limit, summed over vehicles", ""},
             Field{"flow_per_hour", "1/h", &R::flow_per_hour, 0.0, 1e9,
-                  "Vehicles that entered it an hour while demand departed", ""});
+                  "Vehicles per hour that entered it while demand departed", ""});
     }
 };
 
-/// Vehicles that stand on the other approaches of a signal, a while before or after an emergency vehicle
+/// Vehicles standing on the other approaches of a signal some time before or after an emergency vehicle
 /// passes it: mean over the passages of a run.
 struct RecoveryRow {
     double offset_s = 0.0;
@@ -51,7 +51,7 @@ struct RecoveryRow {
         using core::Field;
         return std::make_tuple(
             Field{"offset_s", "s", &R::offset_s, -1e6, 1e6, "Time after the EV passed the stop line", ""},
-            Field{"passages", "1", &R::passages, 0.0, 1e9, "Passages behind the mean", ""},
+            Field{"passages", "1", &R::passages, 0.0, 1e9, "Number of passages in the mean", ""},
             Field{"halted_vehicles", "1", &R::halted_vehicles, 0.0, 1e9,
                   "Vehicles below 0.1 m/s on the signal's other approaches, mean", ""});
     }
@@ -60,8 +60,8 @@ struct RecoveryRow {
 /// A moment of an emergency vehicle's journey: where it was, or what a signal on its route began to show.
 struct JourneyRow {
     std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
-    std::string signal;   ///< Empty: a place of the vehicle itself.
-    std::string state;    ///< `green`, `yellow` or `red` for the vehicle's way; empty without a signal.
+    std::string signal;   ///< Empty: the row is a position of the vehicle.
+    std::string state;    ///< `green`, `yellow` or `red` for the vehicle's path; empty without a signal.
     double time_s = 0.0;
     double distance_m = 0.0;
 
@@ -73,13 +73,13 @@ struct JourneyRow {
         return std::make_tuple(
             Field{"time_s", "s", &R::time_s, 0.0, 1e9, "Simulation time", ""},
             Field{"distance_m", "m", &R::distance_m, 0.0, 1e9,
-                  "Along the route from its start: of the vehicle, or of the stop line", ""});
+                  "Distance of the vehicle or the stop line from the start of the route", ""});
     }
 };
 
 /// Where a run lost time, and how its emergency vehicles travelled.
 struct TrafficTables {
-    std::vector<ApproachRow> approaches;  ///< By edge, then class; without rows of nobody.
+    std::vector<ApproachRow> approaches;  ///< By edge, then class; no rows without vehicles.
     std::vector<RecoveryRow> recovery;    ///< Ascending; empty where no emergency vehicle passed a signal.
     std::vector<JourneyRow> journeys;     ///< By vehicle; empty where they are not kept.
 

@@ -8,8 +8,8 @@
 
 namespace clearway::metrics {
 
-/// Decides which vehicles are truly linked at a moment. Every label, score and log asks here: the labels of
-/// samples, the evaluation of predictors, the metrics of a run and of a replay. Keeps its buffers; one
+/// Decides which vehicles are truly linked at a moment. The only source of that truth: for the labels of
+/// samples, the evaluation of predictors, and the metrics of a run and of a replay. Keeps its buffers; one
 /// thread.
 class TrueLinks {
   public:
@@ -17,14 +17,14 @@ class TrueLinks {
 
     const graph::LinkRules& rules() const { return rules_; }
 
-    /// The truth of this moment, as graph::ProximityBuilder finds it. O(vehicles + links).
+    /// Finds the true links of this moment with graph::ProximityBuilder. O(vehicles + links).
     void look(const truth::Snapshot& snapshot);
 
-    /// Of the last call of `look`; rows are those of its snapshot.
+    /// The links of the last `look`; rows are those of its snapshot.
     const graph::ProximityGraph& graph() const { return graph_; }
     std::uint64_t link_count() const { return graph_.link_count(); }
     /// Whether two rows of the snapshot are linked. `core::no_row` stands for a vehicle that is not on the
-    /// road (core::match_rows) and is linked to none. O(log degree).
+    /// road (core::match_rows), which has no links. O(log degree).
     bool linked(core::VehicleIndex left, core::VehicleIndex right) const;
 
   private:

@@ -18,10 +18,10 @@ namespace clearway::metrics {
 /// How a vehicle's trip ended. Only `arrived` trips have a travel time that can be compared.
 enum class VehicleOutcome : std::uint8_t {
     arrived,
-    running_at_end,  ///< On the road when the run was cut at its horizon.
+    running_at_end,  ///< Still on the road at the end of the run.
     teleported,      ///< Taken out of a jam by SUMO, even when it arrived later.
     not_inserted,    ///< Never found room to depart.
-    removed,         ///< Gone without arriving.
+    removed,         ///< Removed before it arrived.
 };
 constexpr core::Spellings<VehicleOutcome, 5> spellings(VehicleOutcome) {
     return {{{VehicleOutcome::arrived, "arrived"},
@@ -32,8 +32,8 @@ constexpr core::Spellings<VehicleOutcome, 5> spellings(VehicleOutcome) {
 }
 using core::name;
 
-/// One vehicle of a run, from SUMO's tripinfo. Times of a vehicle that did not arrive are those up to its
-/// last moment on the road, so lower bounds; a vehicle that was not inserted has none.
+/// One vehicle of a run, from SUMO's tripinfo. For a vehicle that did not arrive, times run to its last
+/// moment on the road and are lower bounds; a vehicle that was not inserted has none.
 struct VehicleRow {
     std::string id;  ///< SUMO's id; text from a file, so printers escape it.
     core::VehicleKey key;
@@ -53,7 +53,7 @@ struct VehicleRow {
 
     bool operator==(const VehicleRow&) const = default;
 
-    /// The numbers; id, class, kind and outcome stand before them in every table.
+    /// The numeric columns. In every table, id, class, kind and outcome come before them.
     static constexpr auto fields() {
         using R = VehicleRow;
         using core::Field;
@@ -61,15 +61,15 @@ struct VehicleRow {
             Field{"planned_depart_s", "s", &R::planned_depart_s, 0.0, 1e9, "Departure as the demand says",
                   ""},
             Field{"depart_s", "s", &R::depart_s, 0.0, 1e9, "Time of insertion", "tripinfo depart"},
-            Field{"depart_delay_s", "s", &R::depart_delay_s, 0.0, 1e9, "Wait for room to be inserted",
+            Field{"depart_delay_s", "s", &R::depart_delay_s, 0.0, 1e9, "Time spent waiting to be inserted",
                   "tripinfo departDelay"},
             Field{"arrival_s", "s", &R::arrival_s, 0.0, 1e9, "Time of arrival", "tripinfo arrival"},
-            Field{"travel_time_s", "s", &R::travel_time_s, 0.0, 1e9, "From insertion to the end of the trip",
-                  "tripinfo duration"},
-            Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e9, "Lost against driving at the desired speed",
-                  "tripinfo timeLoss"},
-            Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e9, "Slower than 0.1 m/s, stops excluded",
-                  "tripinfo waitingTime"},
+            Field{"travel_time_s", "s", &R::travel_time_s, 0.0, 1e9,
+                  "Time from insertion to the end of the trip", "tripinfo duration"},
+            Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e9,
+                  "Time lost compared with driving at the desired speed", "tripinfo timeLoss"},
+            Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e9,
+                  "Time below 0.1 m/s, scheduled stops excluded", "tripinfo waitingTime"},
             Field{"waiting_count", "1", &R::waiting_count, 0.0, 1e9, "How often it came to a halt",
                   "tripinfo waitingCount"},
             Field{"route_length_m", "m", &R::route_length_m, 0.0, 1e9, "Distance driven",

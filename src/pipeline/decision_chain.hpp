@@ -17,36 +17,36 @@
 
 namespace clearway::pipeline {
 
-/// What a chain needs beside its condition. `network` outlives the chain.
+/// What a chain needs besides its condition. `network` outlives the chain.
 struct ChainContext {
     const roads::Network& network;
-    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};  ///< Of the sensors' failures.
-    double policy_period_s = 0.5;                                      ///< Between two decisions.
+    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};  ///< For the sensor failures.
+    double policy_period_s = 0.5;                                      ///< Time between two decisions.
     double link_radius_m = 50.0;
 };
 
-/// Sensing, prediction and policy of a condition in the order of a run: all of it that needs no simulator.
-/// A run and its replay are the same because both call this. One thread.
+/// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
+/// replay agree because both use this class. One thread.
 class DecisionChain {
   public:
-    /// Throws core::InputError for names and settings that do not exist, and for a model that does not fit.
+    /// Throws core::InputError for unknown names and settings, and for a model that does not fit.
     DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context);
 
-    /// Every step: what the sensors say now. References outlive the step.
+    /// Call at every step: takes the observation of the sensors. References outlive the step.
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
-    /// Whether the period since the last decision is over, by simulation time.
+    /// Whether a policy period has passed since the last decision, in simulation time.
     bool decision_is_due() const;
     /// Predicts from the present observation and asks the policy.
     void decide();
 
     bool has_policy() const { return !policies_.empty(); }
     const traffic::Observation& observation() const { return observation_; }
-    /// Vehicles that commands do not reach now (sensing::SensorModel).
+    /// Vehicles that commands cannot reach now (sensing::SensorModel).
     std::span<const core::VehicleKey> unreachable() const { return sensor_->unreachable(); }
     const prediction::Predictor& predictor() const { return *predictor_; }
-    /// Of the last decision.
+    /// Belief of the last decision.
     const traffic::BelievedGraph& belief() const { return belief_; }
-    /// Of the last decision; empty when none was made in this step.
+    /// Leases of the last decision; empty when no decision was made in this step.
     std::span<const traffic::Lease> leases() const { return leases_; }
 
   private:

@@ -16,7 +16,7 @@ using detail::View;
 
 constexpr char policy_name[] = "clear_lane";
 
-/// A neighbouring lane, and how much faster it is, s.
+/// A neighbouring lane, and the time gained on it, s.
 struct FasterLane {
     core::LaneIndex lane;
     double gain_s = 0.0;
@@ -48,7 +48,7 @@ class Way {
     }
 
   private:
-    /// Lane at `distance` ahead when the emergency vehicle starts on lane `start`.
+    /// The lane `distance_m` ahead when the emergency vehicle starts on lane `start`.
     core::LaneIndex lane_at(core::LaneIndex start, double distance_m) const {
         traffic::MotionState state = emergency_.state;
         state.lane = start;
@@ -71,7 +71,7 @@ class Way {
         }
     }
 
-    /// The usable neighbouring lane with fewer vehicles beside, the outer one of equals.
+    /// The usable neighbouring lane with fewer vehicles alongside; the outer one if equal.
     std::optional<std::uint32_t> way_out(const traffic::BelievedVehicle& vehicle) const {
         std::optional<std::uint32_t> best;
         long fewest = 0;
@@ -130,7 +130,7 @@ class Way {
         return best;
     }
 
-    /// Who is nearest behind on the wanted lane drops back, if automated.
+    /// The nearest vehicle behind on the wanted lane drops back, if it is automated.
     void open_beside(core::LaneIndex wanted) {
         const traffic::BelievedVehicle* nearest = nullptr;
         for (const traffic::BelievedVehicle& vehicle : view_.belief().vehicles) {
@@ -145,8 +145,8 @@ class Way {
         drive_at(*nearest, config_.gap_factor * emergency_.state.speed_mps, "opens a gap");
     }
 
-    /// Falls back to the nearest gap on the wanted lane, where the lane is worth that, and an automated
-    /// vehicle behind the gap keeps it open.
+    /// The emergency vehicle falls back to the nearest gap on the wanted lane if the lane gains enough; an
+    /// automated vehicle behind the gap keeps it open.
     void make_for_gap(const FasterLane& wanted) {
         const detail::Headways headways{config_.usual_headway_s, config_.automated_headway_s};
         const auto gap = detail::nearest_gap(view_, emergency_, wanted.lane, headways);

@@ -7,7 +7,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of ClearLane.
+/// Settings of ClearLane.
 struct ClearLaneConfig {
     double horizon_m = 150.0;
     double beside_m = 20.0;
@@ -38,27 +38,29 @@ struct ClearLaneConfig {
             Field{"beside_m", "m", &C::beside_m, 0.0, 100.0,
                   "An automated vehicle at most this far behind the emergency vehicle's front opens a gap",
                   "assumed: a gap of two cars"},
-            Field{
-                "gap_factor", "1", &C::gap_factor, 0.1, 1.0,
-                "It does so at this share of the emergency vehicle's speed, or of that lane's where it keeps "
-                "a gap open",
-                "as the dissertation policy"},
-            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "But it drives no slower than this",
+            Field{"gap_factor", "1", &C::gap_factor, 0.1, 1.0,
+                  "It drives at this share of the emergency vehicle's speed, or of its lane's speed when it "
+                  "keeps a gap open",
+                  "as the dissertation policy"},
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "But no slower than this",
                   "as the dissertation policy: faster than a queue, slower than a street"},
             Field{"gap_worth_s", "s", &C::gap_worth_s, 0.0, 60.0,
-                  "Where no gap is beside, the emergency vehicle falls back to one that gains this",
+                  "If there is no gap alongside, the emergency vehicle falls back to one when the lane gains "
+                  "this",
                   "measured at the dense merge: 2 s is no better"},
             Field{"usual_headway_s", "s", &C::usual_headway_s, 0.1, 5.0,
-                  "Headway that a gap leaves to the vehicles before and behind", "Intelligent Driver Model"},
+                  "Headway that a gap must leave to the vehicles ahead and behind",
+                  "Intelligent Driver Model"},
             Field{"automated_headway_s", "s", &C::automated_headway_s, 0.1, 5.0,
-                  "The same before an automated vehicle behind, which is asked for more", "assumed: half"},
+                  "The same to an automated vehicle behind, which is asked to make more room",
+                  "assumed: half"},
             Field{"fall_back_mps", "m/s", &C::fall_back_mps, 0.1, 20.0,
                   "The emergency vehicle falls back by at most this relative to that lane's traffic",
                   "measured: 3 m/s helped less"},
             Field{"fall_back_s", "s", &C::fall_back_s, 0.5, 60.0,
-                  "And by no more than leads to the gap in this time", "assumed"},
+                  "And only as fast as needed to reach the gap in this time", "assumed"},
             Field{"keep_open_m", "m", &C::keep_open_m, 0.0, 500.0,
-                  "An automated vehicle nearer behind such a gap keeps it open",
+                  "An automated vehicle less than this behind such a gap keeps it open",
                   "measured: 90 m is no better"},
             Field{"choice_m", "m", &C::choice_m, 1.0, 5000.0, "Stretch over which lanes are compared",
                   "800 m (with worth_s 1) cut the EVs' time loss by 3 % less at the sparse merge, by 0.7 % "
@@ -66,17 +68,16 @@ struct ClearLaneConfig {
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"halted_delay_s", "s", &C::halted_delay_s, 0.0, 60.0,
-                  "Delay by each vehicle that stands ahead", "saturation headway"},
+                  "Delay caused by each vehicle that stands ahead", "saturation headway"},
             Field{"automated_weight", "1", &C::automated_weight, 0.0, 1.0,
-                  "Weight of the delay by automated vehicles, which will leave the lane", "assumed"},
-            Field{"worth_s", "s", &C::worth_s, 0.0, 60.0,
-                  "A lane must be faster by this for a change of lanes",
-                  "at 1 s the change came only when the vehicle ahead had slowed the EV down already"},
+                  "Weight of the delay caused by automated vehicles, which will leave the lane", "assumed"},
+            Field{"worth_s", "s", &C::worth_s, 0.0, 60.0, "Time that a lane must gain for a lane change",
+                  "at 1 s the EV changed lanes only after the vehicle ahead had slowed it down"},
             Field{"crawl_mps", "m/s", &C::crawl_mps, 0.1, 10.0,
                   "A slower vehicle counts as this fast when times are compared",
                   "assumed: keeps the times finite"},
             Field{"side_room_m", "m", &C::side_room_m, 0.0, 100.0,
-                  "Vehicles nearer along the road cannot be side by side on the way to one lane",
+                  "Vehicles closer than this along the road cannot move into the same lane side by side",
                   "assumed: two cars"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
@@ -84,10 +85,10 @@ struct ClearLaneConfig {
 };
 
 /// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the
-/// neighbouring lanes stay there, and one beside opens a gap when the emergency vehicle wants that lane. The
-/// emergency vehicle takes the lane with the least delay ahead; where no gap is beside on a lane that gains
-/// seconds it falls back to one, which an automated vehicle behind keeps open. Only lanes that continue are
-/// used.
+/// neighbouring lanes stay there, and one alongside opens a gap when the emergency vehicle wants that lane.
+/// The emergency vehicle takes the lane with the least delay ahead. If a lane gains seconds but has no gap
+/// alongside, it falls back to a gap, which an automated vehicle behind keeps open. Only lanes that continue
+/// are used.
 class ClearLane : public Policy {
   public:
     explicit ClearLane(const PolicyContext& context, ClearLaneConfig config = {});

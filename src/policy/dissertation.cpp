@@ -12,7 +12,7 @@ using detail::View;
 
 constexpr char policy_name[] = "dissertation";
 
-/// Clears the lane of one emergency vehicle of the automated vehicles linked to it.
+/// Moves the automated vehicles linked to one emergency vehicle out of its lane.
 class OneEmergency {
   public:
     OneEmergency(const View& view, const DissertationConfig& config,
@@ -32,7 +32,7 @@ class OneEmergency {
     }
 
   private:
-    /// The lane on which the emergency vehicle gets there.
+    /// The lane on which the emergency vehicle will be after `distance`.
     core::LaneIndex lane_at(core::Metres distance) const {
         return roads::advance(view_.network(), view_.route_of(emergency_.key), emergency_.state, distance)
             .state.lane;

@@ -8,7 +8,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of Dissertation.
+/// Settings of Dissertation.
 struct DissertationConfig {
     std::size_t min_edges = 1;
     double link_threshold = 0.5;
@@ -26,16 +26,16 @@ struct DissertationConfig {
             Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
                   "4.3: \"sufficient edges\", no number given"},
             Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
-                  "A link counts from this probability on", "even odds"},
+                  "A link counts if its probability is at least this", "even odds"},
             Field{"slow_factor", "1", &C::slow_factor, 0.1, 1.0,
-                  "A vehicle beside slows down to this share of the emergency vehicle's speed",
+                  "A vehicle alongside slows down to this share of the emergency vehicle's speed",
                   "the listing's factor"},
-            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "No vehicle is slowed down below this",
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "But no slower than this",
                   "assumed: faster than a queue, slower than a street"},
             Field{"beside_behind_m", "m", &C::beside_behind_m, 0.0, 200.0,
-                  "A vehicle is beside when its front is at most this far behind the emergency vehicle's",
+                  "A vehicle is alongside when its front is at most this far behind the emergency vehicle's",
                   "assumed: two car lengths"},
-            Field{"beside_ahead_m", "m", &C::beside_ahead_m, 0.0, 200.0, "The same ahead",
+            Field{"beside_ahead_m", "m", &C::beside_ahead_m, 0.0, 200.0, "Or at most this far ahead",
                   "assumed: two car lengths"},
             Field{"ahead_m", "m", &C::ahead_m, 1.0, 1000.0, "A lane is cleared this far ahead",
                   "the link radius"},
@@ -45,9 +45,9 @@ struct DissertationConfig {
 };
 
 /// The action policy that section 4.3 of the dissertation describes in words, made workable (*corrected*):
-/// emergency vehicles drive at what they are allowed; an automated vehicle linked to one and ahead on its
-/// lane changes lane; one beside it on a neighbouring lane slows to let it in. Every wish is a lease of 2 s
-/// that ends by itself, and slowing has a floor, so nothing decays to a standstill.
+/// emergency vehicles drive at their allowed speed; an automated vehicle linked to one and ahead on its lane
+/// changes lane; one alongside on a neighbouring lane slows down to let it in. Every request is a lease that
+/// expires unless renewed, and slowing has a lower bound, so no speed decays to a standstill.
 class Dissertation : public Policy {
   public:
     explicit Dissertation(const PolicyContext& context, DissertationConfig config = {});

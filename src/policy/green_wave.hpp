@@ -9,7 +9,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of GreenWave.
+/// Settings of GreenWave.
 struct GreenWaveConfig {
     double before_s = 8.0;
     double after_s = 15.0;
@@ -21,15 +21,16 @@ struct GreenWaveConfig {
         return std::make_tuple(
             Field{"before_s", "s", &C::before_s, 0.0, 120.0,
                   "Green is asked for this long before the planned arrival", "as preempt_signals"},
-            Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And kept this long after it",
+            Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And for this long after it",
                   "assumed: two stops of a vehicle behind plan"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
     }
 };
 
-/// An opponent: every signal of an emergency vehicle's route is opened around the time at which it would get
-/// there at its allowed speed, planned once when it appears and never corrected.
+/// An opponent: every signal on an emergency vehicle's route turns green around the time at which the vehicle
+/// would get there at its allowed speed. The plan is made once, when the vehicle appears, and never
+/// corrected.
 class GreenWave : public Policy {
   public:
     explicit GreenWave(const PolicyContext& context, GreenWaveConfig config = {});

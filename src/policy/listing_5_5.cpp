@@ -13,7 +13,7 @@ using detail::View;
 
 constexpr char policy_name[] = "listing_5_5";
 
-/// What is asked of one vehicle's links.
+/// One vehicle whose links are examined.
 struct Links {
     const View& view;
     const Listing55Config& config;
@@ -31,8 +31,8 @@ bool is_linked_to(const Links& links, traffic::VehicleClass wanted,
 }
 
 /// `calculate_score` is not printed. Section 4.3: "For emergency vehicles, a high score is assigned";
-/// automated vehicles are slowed by "neighborhood data", read as: linked to an emergency vehicle. Position,
-/// speed and lane, which the listing passes, have no stated use.
+/// automated vehicles are slowed by "neighborhood data", which we read as being linked to an emergency
+/// vehicle. The listing passes position, speed and lane without stating their use.
 double score(const Links& links) {
     const traffic::VehicleClass vehicle_class = links.view.belief().vehicles[links.row].vehicle_class;
     if (vehicle_class == traffic::VehicleClass::emergency) return 1.0;
@@ -55,8 +55,8 @@ bool can_change_in_graph(const Links& links, std::uint32_t number) {
     });
 }
 
-/// Lane rules of the listing for emergency vehicles. "Center" is read as the lane next to the middle of the
-/// road, "outer" as one lane away from it. Defect: without an automated vehicle on its lane the emergency
+/// Lane rules of the listing for emergency vehicles. We read "center" as the lane next to the middle of the
+/// road and "outer" as one lane away from it. Defect: without an automated vehicle on its lane the emergency
 /// vehicle leaves the centre lane as soon as it can and returns at the next call, so it swings between lanes
 /// on an empty road.
 void change_lanes(const Links& links, LeaseWriter& write) {
@@ -70,7 +70,7 @@ void change_lanes(const Links& links, LeaseWriter& write) {
         write.add(vehicle.key, traffic::ChangeLane{target}, reason, vehicle.key);
     };
     if (is_linked_to(links, traffic::VehicleClass::automated, vehicle.state.lane)) {
-        // Defect: also for an automated vehicle behind, and without asking whether the outer lane is free.
+        // Defect: also for an automated vehicle behind, and without checking that the outer lane is free.
         if (number > 0) change_to(number - 1, "automated vehicle on the same lane: outer lane");
     } else if (number != centre) {
         if (can_change_in_graph(links, number + 1)) change_to(number + 1, "not on the centre lane");
@@ -84,14 +84,14 @@ void change_lanes(const Links& links, LeaseWriter& write) {
 Listing55::Listing55(const PolicyContext& context, Listing55Config config)
     : context_(context), config_(config) {}
 
-/// Differences to the print: the loop variable is `id` there while the body reads `vehicle_id`, a name never
-/// assigned, so that all vehicles would be judged by one; here each is judged by itself. A raised speed stays
-/// within what the vehicle is allowed, because nobody is asked to break a limit here.
+/// Differences from the printed listing: its loop variable is `id`, but the body reads `vehicle_id`, which is
+/// never assigned, so that one vehicle would decide for all; here each vehicle is judged by itself. A raised
+/// speed stays within what the vehicle is allowed, because no vehicle is asked to break a limit here.
 ///
-/// Defects kept: 1.1 times nothing is nothing, so an emergency vehicle that stands is told to stand; an
-/// automated vehicle that stays linked decays towards a standstill by 0.8 a call; and no speed is ever
-/// released, although SUMO's setSpeed holds until it is, so every set speed is renewed here for as long as
-/// the vehicle is known.
+/// Defects kept: 1.1 times 0 is 0, so an emergency vehicle that stands is told to stand; the speed of an
+/// automated vehicle that stays linked shrinks by a factor of 0.8 per call towards a standstill; and no speed
+/// is ever released. SUMO's setSpeed holds until released, so every set speed is renewed here as long as the
+/// vehicle is known.
 void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
     LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);

@@ -9,7 +9,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of Listing55.
+/// Settings of Listing55.
 struct Listing55Config {
     std::size_t min_edges = 1;
     double link_threshold = 0.5;
@@ -28,7 +28,7 @@ struct Listing55Config {
             Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
                   "4.3: \"sufficient edges\", no number given"},
             Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
-                  "A link counts from this probability on", "even odds"},
+                  "A link counts if its probability is at least this", "even odds"},
             Field{"raise_above", "1", &C::raise_above, -1.0, 1.0,
                   "A vehicle whose score is above this is told to drive faster",
                   "listing 5.5; scores are -1, 0 and 1"},
@@ -39,18 +39,17 @@ struct Listing55Config {
             Field{"lower_factor", "1", &C::lower_factor, 0.1, 1.0, "Slower by this factor", "listing 5.5"},
             Field{"set_speed_lease_s", "s", &C::set_speed_lease_s, 0.1, 600.0,
                   "Lifetime of a set speed, which every decision renews",
-                  "assumed: outlives the time between two decisions by far, for setSpeed holds"},
+                  "assumed: far longer than the time between two decisions, because setSpeed holds"},
             Field{"room_m", "m", &C::room_m, 0.0, 200.0,
                   "A lane is free when no linked vehicle on it is nearer than this along the road",
                   "assumed: a car's length and two gaps"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a change of lanes that is not renewed; at least two periods",
-                  "as the prototype"});
+                  "Lifetime of a lane change that is not renewed; at least two periods", "as the prototype"});
     }
 };
 
-/// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. It is an
-/// opponent and keeps its defects, each named in the source where it acts; docs/findings/policies.md says
+/// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. An opponent
+/// that keeps the listing's defects, each noted in the source where it acts; docs/findings/policies.md says
 /// what they cost.
 class Listing55 : public Policy {
   public:

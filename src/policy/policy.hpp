@@ -15,8 +15,8 @@
 namespace clearway::policy {
 
 /// Reads the believed graph and issues leases. A condition has a list of policies. A policy may keep state
-/// between steps, is used by one thread, and draws nothing at random. It never learns whether the graph is
-/// true, observed or repaired, and it never releases what it asked for: leases end by themselves.
+/// between steps, is used by one thread, and draws nothing at random. It does not know whether the graph is
+/// true, observed or repaired. It never releases what it asked for: leases expire.
 class Policy {
   public:
     Policy() = default;
@@ -29,20 +29,21 @@ class Policy {
     virtual void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) = 0;
 };
 
-/// What a policy needs beside the belief. The network outlives the policy.
+/// What a policy needs besides the belief. The network outlives the policy.
 struct PolicyContext {
     const roads::Network& network;
-    core::Seconds period{0.5};  ///< Between two calls of `act`.
+    core::Seconds period{0.5};  ///< Time between two calls of `act`.
 };
 
-/// A policy as the registry knows it.
+/// A registered policy.
 struct PolicyEntry {
     std::string name;
     std::string summary;  ///< One line for `clearway list`.
-    /// Names of the policies whose settings it has: its own, or those that it combines.
+    /// Names of the policies whose settings it has: its own name, or those of the policies it combines.
     std::vector<std::string> components;
-    core::SettingsTable table;  ///< Of its own settings.
-    /// Settings are named with their component, `preempt_signals.lead_s`; those of others are left out.
+    core::SettingsTable table;  ///< Its own settings.
+    /// Settings are named with their component, `preempt_signals.lead_s`; those of other components are
+    /// ignored.
     std::function<std::unique_ptr<Policy>(const PolicyContext& context, const core::Settings& settings)> make;
 };
 

@@ -31,7 +31,7 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
             const std::pair request{emergency.key, approach.signal};
             if (arrival_s > lead_s && !asked_.contains(request)) continue;
             asked.insert(request);
-            // Whoever is next waits for the end of this lease.
+            // The next vehicle waits for the end of this lease, so it is short.
             write.add(approach.signal, traffic::HoldGreen{approach.links, approach.own_links},
                       "an emergency vehicle arrives", emergency.key,
                       detail::LeaseWriter::two_periods(context_.period));

@@ -9,7 +9,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of PreemptSignals.
+/// Settings of PreemptSignals.
 struct PreemptSignalsConfig {
     double lead_s = 8.0;
     double lead_per_halted_s = 2.0;
@@ -25,22 +25,22 @@ struct PreemptSignalsConfig {
             Field{"lead_s", "s", &C::lead_s, 0.0, 60.0, "Green is asked for this long before arrival",
                   "prototype: 20 s gain 2 % and cost others 20 % waiting"},
             Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,
-                  "And this much earlier for each vehicle that stands ahead", "saturation headway"},
+                  "And this much earlier per vehicle that stands ahead", "saturation headway"},
             Field{"longest_lead_s", "s", &C::longest_lead_s, 0.0, 60.0, "But no earlier than this",
                   "assumed: leaves 20 s of the longest hold for driving through"},
             Field{"slowest_share", "1", &C::slowest_share, 0.01, 1.0,
-                  "Arrival is reckoned with at least this share of the allowed speed",
-                  "assumed: a queue that stands will move once it has green"},
-            Field{"horizon_m", "m", &C::horizon_m, 1.0, 5000.0, "Signals farther away are left alone",
+                  "Arrival is estimated with at least this share of the allowed speed",
+                  "assumed: a standing queue moves once it has green"},
+            Field{"horizon_m", "m", &C::horizon_m, 1.0, 5000.0, "Signals farther away than this are ignored",
                   "assumed: the longest lead at 15 m/s"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"});
     }
 };
 
-/// Opens the signals on the route of every emergency vehicle: green for its approach, asked for early
-/// enough that the queue ahead is gone on its arrival. Yellow, all-red, cap, lockout and the way back are
-/// the work of actuation.
+/// Preempts the signals on the route of every emergency vehicle: green for its approach, early enough that
+/// the queue ahead is gone when it arrives. Yellow, all-red, the longest hold, lockout and the return to the
+/// background plan are up to actuation.
 class PreemptSignals : public Policy {
   public:
     explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {});
@@ -51,8 +51,8 @@ class PreemptSignals : public Policy {
   private:
     PolicyContext context_;
     PreemptSignalsConfig config_;
-    /// Whose signals were asked for at the last call: a request stands until its vehicle has passed, for the
-    /// queue that begins to move is not gone yet.
+    /// Vehicles and the signals requested for them at the last call. A request stands until the vehicle has
+    /// passed, because a queue that begins to move is not gone yet.
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked_;
 };
 

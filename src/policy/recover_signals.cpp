@@ -14,7 +14,7 @@ constexpr char policy_name[] = "recover_signals";
 
 using DemandByLane = std::unordered_map<std::uint32_t, int>;
 
-/// Vehicles that a green would serve now: those that stand, and those close to the end of their lane.
+/// Vehicles that a green would serve now, by lane: those that stand and those close to the end of their lane.
 DemandByLane demand_by_lane(const roads::Network& network, const traffic::BelievedGraph& belief,
                             const RecoverSignalsConfig& config) {
     DemandByLane demand;
@@ -27,7 +27,7 @@ DemandByLane demand_by_lane(const roads::Network& network, const traffic::Believ
     return demand;
 }
 
-/// A phase's links with demand, and how much that is.
+/// The links of a phase that have demand, and how much.
 struct Served {
     std::vector<std::uint16_t> links;
     int vehicles = 0;
@@ -50,8 +50,8 @@ Served served_by(const roads::Signal& signal, const std::string& state, const De
     return served;
 }
 
-/// The links with demand of the phase that serves most of it; empty when nobody waits. What is shown now
-/// counts `worth` vehicles more: a change costs time.
+/// The links with demand of the phase that serves the most vehicles; empty when none wait. The present phase
+/// counts `worth` vehicles more, because a change costs time.
 std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::string& shown,
                                        const DemandByLane& demand, int worth) {
     Served best;

@@ -8,7 +8,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of RecoverSignals.
+/// Settings of RecoverSignals.
 struct RecoverSignalsConfig {
     double near_m = 300.0;
     double lasting_s = 60.0;
@@ -22,15 +22,15 @@ struct RecoverSignalsConfig {
         using core::Field;
         return std::make_tuple(
             Field{"near_m", "m", &C::near_m, 1.0, 2000.0,
-                  "A signal counts as taken from when an emergency vehicle is this near", "assumed"},
+                  "A signal counts as disturbed once an emergency vehicle is this near", "assumed"},
             Field{"lasting_s", "s", &C::lasting_s, 0.0, 600.0, "And for this long after it has passed",
                   "dense intersection: the others lost 5 % more time than the baseline at 20 s, 3 % at 60 s, "
                   "1 % at 120 s, where emergency vehicles gained less"},
             Field{"close_m", "m", &C::close_m, 0.0, 300.0,
-                  "Moving vehicles nearer to the stop line count as waiting, too", "assumed"},
+                  "Moving vehicles closer than this to the stop line count as waiting, too", "assumed"},
             Field{"change_vehicles", "1", &C::change_vehicles, 0.0, 50.0,
-                  "Vehicles that a change of phase must serve more",
-                  "assumed: those that pass a lane during yellow and all-red"},
+                  "How many more vehicles a phase change must serve",
+                  "assumed: as many as pass on a lane during yellow and all-red"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
@@ -38,9 +38,9 @@ struct RecoverSignalsConfig {
     }
 };
 
-/// Gives time back after a signal was opened for an emergency vehicle: asks that its program resume with the
-/// phase that serves most of the vehicles believed to wait at it, and that greens which serve fewer end
-/// early for a while.
+/// Gives time back after a signal was preempted: asks that its background plan resume with the phase that
+/// serves the most vehicles believed to wait there, and that, for a while, greens which serve fewer end
+/// early.
 class RecoverSignals : public Policy {
   public:
     explicit RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config = {});

@@ -7,7 +7,7 @@
 
 namespace clearway::policy {
 
-/// Numbers of RedPrivilege.
+/// Settings of RedPrivilege.
 struct RedPrivilegeConfig {
     double near_m = 200.0;
     double passing_mps = 5.56;
@@ -19,13 +19,13 @@ struct RedPrivilegeConfig {
         using core::Field;
         return std::make_tuple(
             Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
-                  "Granted from this distance to a signal that is not green",
-                  "assumed: before it would brake"},
+                  "The privilege begins at this distance from a signal that is not green",
+                  "assumed: before the vehicle would brake"},
             Field{"passing_mps", "m/s", &C::passing_mps, 0.1, 50.0,
                   "Highest speed at a stop line that shows red",
-                  "20 km/h, assumed: so slow that it can stop for those that have green"},
+                  "20 km/h, assumed: slow enough to stop for traffic that has green"},
             Field{"braking_mps2", "m/s2", &C::braking_mps2, 0.1, 9.0,
-                  "The emergency vehicle slows down for that with this deceleration", "comfortable"},
+                  "The emergency vehicle slows down to that speed with this deceleration", "comfortable"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
     }

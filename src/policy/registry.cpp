@@ -15,7 +15,7 @@
 namespace clearway::policy {
 namespace {
 
-/// A policy whose constructor takes the context and a `Config`, where it has numbers.
+/// A policy whose constructor takes the context and, if it has settings, a `Config`.
 template <class Kind, class... Config>
 PolicyEntry entry(const std::string& name, const char* summary) {
     return {name,
@@ -33,7 +33,7 @@ PolicyEntry entry(const std::string& name, const char* summary) {
             }};
 }
 
-/// A policy that combines others and has no numbers of its own.
+/// A policy that combines others and has no settings of its own.
 template <class Kind>
 PolicyEntry combination(const char* name, const char* summary, std::vector<std::string> components) {
     return {name, summary, std::move(components), core::settings_table<>(),
@@ -48,8 +48,8 @@ const std::vector<PolicyEntry>& policies() {
     static const std::vector<PolicyEntry> entries = {
         entry<Listing55, Listing55Config>("listing_5_5",
                                           "The dissertation's listing 5.5 as published, defects included"),
-        entry<Dissertation, DissertationConfig>("dissertation",
-                                                "The dissertation's policy text (4.3) made workable"),
+        entry<Dissertation, DissertationConfig>(
+            "dissertation", "The dissertation's policy as described in 4.3, made workable"),
         entry<PreemptSignals, PreemptSignalsConfig>(
             "preempt_signals", "Green for the emergency vehicle's approach on its arrival"),
         entry<RecoverSignals, RecoverSignalsConfig>("recover_signals",
@@ -58,8 +58,8 @@ const std::vector<PolicyEntry>& policies() {
                                           "Automated vehicles ahead leave the emergency vehicle's lane"),
         combination<Corridor>("corridor", "preempt_signals, recover_signals and clear_lane together",
                               {"preempt_signals", "recover_signals", "clear_lane"}),
-        entry<GreenWave, GreenWaveConfig>("green_wave",
-                                          "Opponent: every signal of the route at the arrival planned once"),
+        entry<GreenWave, GreenWaveConfig>(
+            "green_wave", "Opponent: green at every signal on the route, planned once by arrival times"),
         entry<RedPrivilege, RedPrivilegeConfig>(
             "red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding"),
     };

@@ -72,7 +72,7 @@ void SceneBuilder::collect_detected(const traffic::Observation& observation, Sce
         if (from == tracks.size() || to == tracks.size() || from == to) continue;
         detections_.push_back({{std::min(from, to), std::max(from, to)}, link.range_m});
     }
-    // Where both ends detect each other, the larger range stays: one that was measured beats none.
+    // If both ends detect each other, keep the larger range: a measured one wins over a missing one.
     std::ranges::sort(detections_, std::greater<>{});
     detections_.erase(
         std::unique(detections_.begin(), detections_.end(),
@@ -89,7 +89,7 @@ void SceneBuilder::collect_detected(const traffic::Observation& observation, Sce
 void SceneBuilder::sort_pairs(Scene& scene) {
     const Tracks& tracks = scene.tracks;
     graph::LinkRules rules = rules_;
-    // Where all is known, nothing beyond the link radius matters.
+    // If all vehicles are known, nothing beyond the link radius matters.
     if (!tracks.all_known) rules.radius_m = std::max(candidate_radius_m, rules_.radius_m);
     builder_.build({tracks.x_m, tracks.y_m, tracks.vehicle_class}, rules, near_now_);
     if (!tracks.all_current) {

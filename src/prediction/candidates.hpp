@@ -24,15 +24,15 @@ struct PairList {
 struct Scene {
     Tracks tracks;
     PairList known;     ///< Both ends known, and within the link radius by one of the two distances.
-    PairList detected;  ///< One end still detects the other: linked whatever is believed of the places.
-    std::vector<float> detected_range_m;  ///< One a detected pair; negative where only presence is known.
+    PairList detected;  ///< One end still detects the other: linked wherever the ends are believed to be.
+    std::vector<float> detected_range_m;  ///< One per detected pair; negative when only presence is known.
     PairList candidates;                  ///< To be predicted.
 };
 
 /// The candidate rule, the same for every predictor and independent of it: a pair of classes that may be
 /// linked, with at least one end not known, no detection between them, and at most `candidate_radius_m` apart
-/// by last seen or by dead-reckoned positions. (120 m: beyond, 1 in 1000 pairs was linked in the measured
-/// traffic.) True links outside it are misses of every predictor.
+/// by last seen or by dead-reckoned positions. (120 m: in the measured traffic, 1 in 1000 pairs beyond it was
+/// linked.) True links outside it are misses of every predictor.
 inline constexpr double candidate_radius_m = 120.0;
 
 /// Builds scenes. O(vehicles + pairs); no allocation once buffers have grown; one builder, one thread.

@@ -48,7 +48,7 @@ Principal principal_axes(const RelativePosition& position) {
             std::sqrt(std::max(0.0F, middle + spread)), std::sqrt(std::max(0.0F, middle - spread))};
 }
 
-/// Of the standard normal distribution between two values.
+/// Probability of the standard normal distribution between two values.
 float mass_between(float low, float high) {
     constexpr float scale = 1.0F / std::numbers::sqrt2_v<float>;
     return 0.5F * (std::erf(high * scale) - std::erf(low * scale));

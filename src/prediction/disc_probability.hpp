@@ -22,7 +22,7 @@ struct RelativePosition {
 /// (a quadratic form in normal variables: Imhof 1961). For s = t it is the non-central chi-square
 /// distribution with 2 degrees of freedom and non-centrality (u^2 + v^2) / s^2 at (r / s)^2, 1 - Q1 with
 /// Marcum's Q. Computed with y = r sin(angle) by 24-point Gauss-Legendre quadrature over v +- 6 t: within
-/// 2e-4. A step where there is no error. Pure, no allocation.
+/// 2e-4. A step function without errors of position. Pure, no allocation.
 float probability_in_disc(float radius_m, const RelativePosition& position);
 
 }  // namespace clearway::prediction

@@ -10,8 +10,8 @@
 
 namespace clearway::prediction {
 
-// Inputs of the nets, one row a vehicle, row-major. Training and inference call the same functions. A change
-// of any number below is a new version of its schema.
+// Inputs of the nets, one row per vehicle, row-major. Training and inference call the same functions. A
+// change of any number below is a new version of its schema.
 
 /// *As published* (chapter 5.3, `input_dim = 2`): the position (x, y) in m, in the network's plane.
 FeatureSchema as_published_position_schema();

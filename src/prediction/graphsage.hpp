@@ -9,14 +9,14 @@
 namespace clearway::prediction {
 
 /// Where messages come from, in CSR form by receiver: row i receives from source[first[i]] ... source[first[i
-/// + 1] - 1]. A source that stands twice counts twice in the mean, as in PyTorch Geometric.
+/// + 1] - 1]. A source that is listed twice counts twice in the mean, as in PyTorch Geometric.
 struct MessageGraph {
     std::vector<std::uint32_t> first = {0};
     std::vector<std::uint32_t> source;
 };
 
-/// From an edge list as PyTorch Geometric has it: a message flows from `sources[e]` to `targets[e]`. Keeps
-/// the order of the list within a row. Indices must be below `row_count`.
+/// Builds the graph from an edge list as in PyTorch Geometric: a message flows from `sources[e]` to
+/// `targets[e]`. Keeps the order of the list within a row. Indices must be below `row_count`.
 void message_graph_from(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
                         std::size_t row_count, MessageGraph& graph);
 
@@ -27,12 +27,13 @@ struct RowPair {
     auto operator<=>(const RowPair&) const = default;
 };
 
-/// Which machine code runs. Both give the same bits: they add in one order and round after every operation.
+/// Which machine code runs. Both give the same bits: they add in the same order and round after every
+/// operation.
 enum class Kernel { scalar, avx2 };
-/// The fastest that this processor has.
+/// The fastest kernel that this processor supports.
 Kernel best_kernel();
 
-/// Sizes of the dissertation's net; hidden 10 and output 5 there.
+/// Sizes of the net; the defaults are the dissertation's.
 struct GraphSageDimensions {
     std::uint32_t input = 2;
     std::uint32_t hidden = 10;
@@ -42,20 +43,18 @@ struct GraphSageDimensions {
 
 /// The dissertation's GraphSAGENet (chapters 5.1 and 5.2), for inference without torch:
 ///
-// clang-format off: equations, one a line
+// clang-format off: equations, one per line
 ///     h_i      = W1l mean_{j -> i} x_j + b1 + W1r x_i
 ///     z_i      = W2l mean_{j -> i} h_j + b2 + W2r h_i
 ///     logit_ij = w4 . relu(W3 (z_i * z_j) + b3) + b4
 // clang-format on
 ///
 /// Two SAGEConv with mean aggregation (Hamilton et al. 2017), as published without an activation between
-/// them;
-/// * is the elementwise product.
-/// A row that receives nothing has mean 0. Tensors by PyTorch Geometric's names:
-/// `graphsage.conv1.lin_l.weight` (W1l),
-/// `.lin_l.bias`, `.lin_r.weight`, `graphsage.conv2...`, `nn.fc1.weight`, `nn.fc1.bias`, `nn.fc2.weight`,
-/// `nn.fc2.bias`. Held to libtorch by a test of the training module. Single precision; no allocation once
-/// buffers have grown; one object, one thread.
+/// them; z_i * z_j is the elementwise product. A row that receives no messages has mean 0. Tensors have
+/// PyTorch Geometric's names: `graphsage.conv1.lin_l.weight` (W1l), `.lin_l.bias`, `.lin_r.weight`,
+/// `graphsage.conv2...`, `nn.fc1.weight`, `nn.fc1.bias`, `nn.fc2.weight`, `nn.fc2.bias`. A test of the
+/// training module compares the results with libtorch. Single precision; no allocation once buffers have
+/// grown; one object, one thread.
 class GraphSageNet {
   public:
     static constexpr const char* architecture = "graphsage_net";
@@ -70,7 +69,7 @@ class GraphSageNet {
     void logits(std::span<const float> features, const MessageGraph& graph, std::span<const RowPair> pairs,
                 std::vector<float>& logits);
     /// The embeddings z of the last call to `logits`, row-major, rows x embedding_stride(); the first
-    /// dimensions().output of a row count.
+    /// dimensions().output numbers of a row are used.
     std::span<const float> embeddings() const { return embeddings_; }
     std::size_t embedding_stride() const;
 
@@ -96,7 +95,7 @@ class GraphSageNet {
     std::vector<float> padded_, hidden_, embeddings_, mean_;
 };
 
-/// The logistic function: the probability that belongs to a logit.
+/// The logistic function: the probability for a logit.
 float probability_from_logit(float logit);
 
 }  // namespace clearway::prediction

@@ -8,8 +8,8 @@
 
 namespace clearway::prediction {
 
-/// No repair: vehicles whose newest report arrived, linked by reported distance. Whoever is dark does not
-/// exist.
+/// No repair: only vehicles whose newest report arrived, linked by reported distance. Dark vehicles are left
+/// out.
 std::unique_ptr<Predictor> make_no_repair(const PredictorContext& context);
 
 struct LastSeenConfig {
@@ -24,7 +24,7 @@ struct LastSeenConfig {
     }
 };
 
-/// Vehicles stay where they were last seen, for ever.
+/// Vehicles stay where they were last seen, with no time limit.
 std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context, const LastSeenConfig& config = {});
 
 struct DeadReckoningConfig {

@@ -13,8 +13,8 @@ namespace clearway::prediction {
 inline constexpr const char* logistic_architecture = "logistic_pairs";
 
 /// Logistic regression on pair features, trained by `clearway train --logistic`: P = 1 / (1 + exp(-(weight .
-/// features + bias))). Vehicles are believed where dead reckoning has them. Throws core::InputError for a
-/// model file that does not fit.
+/// features + bias))). Believed positions are those of dead reckoning. Throws core::InputError for a model
+/// file that does not fit.
 std::unique_ptr<Predictor> make_logistic(const PredictorContext& context);
 /// Throws core::InputError when the weights are no such model.
 void check_logistic(const Weights& weights);

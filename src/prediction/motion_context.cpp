@@ -10,11 +10,11 @@
 namespace clearway::prediction {
 namespace {
 
-/// A vehicle keeps its speed factor over the limit (at most 1.25 in the scenarios) and reports late by a
-/// step.
+/// A vehicle may drive at up to 1.25 times the limit (the largest speed factor in the scenarios), and its
+/// report may be late by a step.
 constexpr float over_limit = 1.25F;
 constexpr float least_reach_m = 10.0F;
-/// Leaders further ahead say nothing for an outage of a minute.
+/// Leaders farther ahead do not matter for an outage of a minute.
 constexpr float leader_horizon_m = 80.0F;
 constexpr float newest_weight = 0.3F;
 constexpr float speed_change_mps = 2.5F;
@@ -28,7 +28,7 @@ float square(float value) {
     return value * value;
 }
 
-/// Where a displacement lies among the points of a path: number of the segment and share of it.
+/// Where a displacement lies on a path: index of the segment and share of its length.
 struct OnPath {
     std::size_t segment = 0;
     float share = 0.0F;
@@ -105,7 +105,7 @@ void MotionContextBuilder::build(const traffic::Observation& observation, const 
         sort_places();
         measure_lane_speeds(tracks);
         find_neighbours(observation, tracks, ahead);
-        // The second time behind leaders that were themselves held behind theirs.
+        // The second round takes into account leaders that the first held behind their own leaders.
         for (int round = 0; round < 2; ++round) {
             hold_behind_leaders(ahead);
             list_places(tracks, ahead);
@@ -146,7 +146,7 @@ void MotionContextBuilder::remember(const traffic::Observation& observation, con
     }
 }
 
-/// A place without error needs no filter: what came before adds nothing to it.
+/// A position without error needs no filter: earlier reports add nothing to it.
 void MotionContextBuilder::filter_report(const traffic::MotionState& seen, float sigma_m, double report_s,
                                          bool is_new, Memory& memory) {
     constexpr FilterNoise noise;
@@ -297,7 +297,8 @@ void MotionContextBuilder::measure_lane_speeds(const Tracks& tracks) {
     }
 }
 
-/// Who was next ahead in the same lane at the call before, or on the lanes that the route takes behind it.
+/// The vehicle next ahead in the same lane, or on the lanes that follow along the route, at the previous
+/// call.
 core::VehicleKey MotionContextBuilder::leader_before(const traffic::Observation& observation,
                                                      const Tracks& tracks, const LanePlace& place) {
     auto next = std::ranges::upper_bound(places_before_, place);
@@ -316,7 +317,7 @@ core::VehicleKey MotionContextBuilder::leader_before(const traffic::Observation&
     return {};
 }
 
-/// For those that fell silent now: who was before and behind them when they were last heard.
+/// For vehicles that fell silent now: notes the vehicles ahead and behind when they were last heard.
 void MotionContextBuilder::note_neighbours(const traffic::Observation& observation, const Tracks& tracks) {
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         Memory& memory = memories_[row];

@@ -41,13 +41,13 @@ struct VehicleOnWay {
 /// A stop line with a signal on the way.
 struct LineOnWay {
     float distance_m = -1.0F;  ///< Negative: there is none.
-    char state = 0;            ///< What the vehicle's link shows there (SUMO's letter).
+    char state = 0;            ///< What the signal shows for the vehicle's link (SUMO's letter).
     float state_age_s = 0.0F;  ///< Since when, as far as was seen.
 
     bool exists() const { return distance_m >= 0.0F; }
 };
 
-/// What route, map, signals and other reports say of a vehicle that was not heard just now. Displacements
+/// What route, map, signals and other reports tell about a vehicle that was not heard just now. Displacements
 /// count along its route from where it was last seen.
 struct MotionContext {
     std::uint32_t row = 0;      ///< Of the scene's tracks.
@@ -56,8 +56,8 @@ struct MotionContext {
     Path path;
 
     LineOnWay line, next_line;        ///< The first two within the reach and `route_horizon_m`.
-    VehicleOnWay leader;              ///< Who was ahead of it in its lane when it was last heard.
-    VehicleOnWay follower;            ///< Whose leader it was then.
+    VehicleOnWay leader;              ///< The vehicle ahead in its lane when it was last heard.
+    VehicleOnWay follower;            ///< The vehicle behind it then.
     float smoothed_speed_mps = 0.0F;  ///< Of its reports, newest weighted by 0.3.
 
     float travelled_m = 0.0F;     ///< Reported speed x age, at most `reach_m`.
@@ -86,14 +86,15 @@ inline constexpr float route_horizon_m = 200.0F;
 ///      displacement s that makes ((s - s3) / (1 m + 2.5 m/s age))^2 + sum (miss / 5 m)^2 least, where a miss
 ///      is the distance beyond the link radius, or the error of a measured range.
 ///
-/// Keeps what reports do not repeat: who followed whom, mean speeds, since when a signal shows its letter.
-/// Call it with every observation, in order. One builder, one thread; no allocation once buffers have grown.
+/// Keeps what reports do not repeat: which vehicle followed which, mean speeds, and how long a signal has
+/// shown its state. Call it with every observation, in order. One builder, one thread; no allocation once
+/// buffers have grown.
 class MotionContextBuilder {
   public:
     /// `network` outlives the builder.
     MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules);
 
-    /// `scene` was built from `observation`. `ahead` gets one entry a row that is not known, by row.
+    /// `scene` was built from `observation`. `ahead` gets one entry per row that is not known, by row.
     void build(const traffic::Observation& observation, const Scene& scene,
                std::vector<MotionContext>& ahead);
 
@@ -108,7 +109,7 @@ class MotionContextBuilder {
         double report_s = std::numeric_limits<double>::lowest();
         float smoothed_speed_mps = 0.0F;
         MotionFilter seen;                  ///< When it was last heard.
-        core::VehicleKey leader, follower;  ///< When it was last heard; value 0: nobody.
+        core::VehicleKey leader, follower;  ///< When it was last heard; value 0: none.
         bool neighbours_noted = false;
     };
     struct LanePlace {
@@ -154,15 +155,15 @@ class MotionContextBuilder {
 
     const roads::Network& network_;
     graph::LinkRules rules_;
-    std::vector<Memory> memories_, old_memories_;  ///< One a row, by key.
+    std::vector<Memory> memories_, old_memories_;  ///< One per row, by key.
     std::vector<std::string> signal_states_;
     std::vector<std::vector<double>> signal_state_since_s_;
     std::vector<roads::RouteStep> steps_, walked_;
     std::vector<Steps> steps_of_;
     std::vector<std::uint32_t> ahead_of_row_;  ///< Entry of `ahead`, or the number of rows.
-    std::vector<LanePlace> place_of_row_;      ///< Where everyone is believed to be.
+    std::vector<LanePlace> place_of_row_;      ///< Where each vehicle is believed to be.
     std::vector<LanePlace> lane_places_;       ///< The same on lanes, sorted.
-    std::vector<LanePlace> places_before_;     ///< Of the call before; sorted when they are first asked.
+    std::vector<LanePlace> places_before_;     ///< Of the previous call; sorted on first use.
     bool places_before_sorted_ = false;
     std::vector<Detection> detections_;
     std::vector<float> lane_speed_mps_;

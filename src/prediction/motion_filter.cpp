@@ -21,9 +21,9 @@ Measurement measurement_of(const traffic::MotionState& seen, float sigma_m, cons
             {sigma_m * sigma_m, sigma_m * sigma_m, noise.speed_var, noise.speed_var}};
 }
 
-/// The four numbers one after the other: their errors are independent. A position without a stated error
-/// counts as one of `least_position_var_m2`, and is then taken as it stands: with less, rounding decides the
-/// gain across the heading, where the filter itself is certain.
+/// Corrects by the four numbers one after the other, because their errors are independent. A position without
+/// a stated error gets the variance `least_position_var_m2`, and its mean is then set to the report. With a
+/// smaller variance, rounding would decide the gain across the heading, where the filter itself is certain.
 void correct(const Measurement& measured, MotionFilter& filter) {
     constexpr float least_position_var_m2 = 0.01F;
     auto& p = filter.covariance;
@@ -35,7 +35,7 @@ void correct(const Measurement& measured, MotionFilter& filter) {
         const std::array<float, 4> row = p[at];
         for (std::size_t i = 0; i < 4; ++i) {
             filter.mean[i] += row[i] / total * innovation;
-            // Both halves the same number: what rounding makes of them grows with every step.
+            // Both halves get the same number, because rounding differences would grow with every step.
             for (std::size_t j = 0; j <= i; ++j) {
                 p[i][j] -= row[i] * row[j] / total;
                 p[j][i] = p[i][j];

@@ -29,9 +29,8 @@ void start(const traffic::MotionState& seen, float sigma_m, const FilterNoise& n
 void elapse(float elapsed_s, float heading_rad, const FilterNoise& noise, MotionFilter& filter);
 
 /// Takes in a report that comes `elapsed_s` after the one before. A position without a stated error
-/// (`sigma_m` 0) is taken as it stands. After half a minute of silence what was known tells nothing beside a
-/// report, and the filter starts anew: variances that grew for longer would leave the precision of their
-/// numbers.
+/// (`sigma_m` 0) is taken unchanged. After half a minute of silence the filter starts anew, because the old
+/// state adds nothing to a new report and larger variances would exceed single precision.
 void follow(const traffic::MotionState& seen, float sigma_m, float elapsed_s, const FilterNoise& noise,
             MotionFilter& filter);
 

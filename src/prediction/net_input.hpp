@@ -12,7 +12,7 @@
 
 namespace clearway::prediction {
 
-/// One number that a net is given: a quantity divided by `scale` and held within +-`most`.
+/// One input of a net: a quantity divided by `scale` and clamped to +-`most`.
 struct NetInput {
     std::string_view name;
     std::string_view unit;  ///< Of the quantity: `m`, `1` without a dimension, `flag` for 0 or 1.
@@ -38,7 +38,7 @@ consteval std::size_t input_index(const std::array<NetInput, Count>& table, std:
 /// Writes quantities into a row of numbers, one for each input of a table.
 class NetInputRow {
   public:
-    /// `numbers` are as many as the table has inputs; what is not set stays as it is.
+    /// `numbers` has one entry per input of the table; entries that are not set keep their values.
     NetInputRow(std::span<const NetInput> table, std::span<float> numbers)
         : table_(table), numbers_(numbers) {
         assert(table.size() == numbers.size());

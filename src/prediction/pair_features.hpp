@@ -10,8 +10,8 @@
 
 namespace clearway::prediction {
 
-/// What the logistic pair model is told of a candidate pair, `pair_features` version 1; r the link radius, d
-/// the dead-reckoned and l the last seen distance, distances held below 200 m:
+/// Inputs of the logistic pair model for a candidate pair, `pair_features` version 1. r is the link radius, d
+/// the dead-reckoned and l the last seen distance, both capped at 200 m:
 ///
 ///     margin        (r - d) / 10 m
 ///     margin_seen   (r - l) / 10 m

@@ -18,7 +18,7 @@ using detail::RowBelief;
 
 /// Below this speed a velocity has no direction worth reporting, m/s.
 constexpr float least_directed_mps = 0.1F;
-/// Reports are at least 0.1 s apart; times closer than this are one, s.
+/// Reports are at least 0.1 s apart; times closer than this are equal, s.
 constexpr double same_time_s = 0.01;
 
 class HeadingReckoning final : public PairwisePredictor {
@@ -50,7 +50,7 @@ class HeadingReckoning final : public PairwisePredictor {
     DeadReckoningConfig config_;
 };
 
-/// The filter of one vehicle and the time of the report that it has come to.
+/// The filter of one vehicle, and the time of the last report it took in.
 struct Filter {
     core::VehicleKey key;
     double measured_s = 0.0;
@@ -94,8 +94,8 @@ class Kalman final : public PairwisePredictor {
             0.0F, cosine * cosine * p[0][0] + 2.0F * cosine * sine * p[0][1] + sine * sine * p[1][1]));
     }
 
-    /// Brings the filters to the newest report of each vehicle, one filter a row. Both lists are ordered by
-    /// key.
+    /// Updates the filters to the newest report of each vehicle, one filter per row. Both lists are ordered
+    /// by key.
     void follow(const Tracks& tracks) {
         next_.clear();
         auto old = filters_.begin();

@@ -9,9 +9,10 @@
 
 namespace clearway::prediction {
 
-// Opponents that know no roads: they move vehicles in the plane, and judge links there. The place on the map
-// (lane, lane position, position in the route) that a policy needs beside it is that of dead reckoning along
-// the route. Where exits are not known, a vehicle that its speed took past the end of its route has left.
+// Opponents that do not use the road network: they move vehicles and judge links in the plane. The position
+// on the map (lane, lane position, position in the route), which policies also need, is that of dead
+// reckoning along the route. Where exits are not known, a vehicle that its speed took past the end of its
+// route has left.
 
 /// Vehicles go straight on by their reported heading and speed. P(d < r) as kinematic.hpp has it.
 std::unique_ptr<Predictor> make_dead_reckoning_heading(const PredictorContext& context,

@@ -18,10 +18,10 @@
 
 namespace clearway::prediction {
 
-/// What a predictor said of every candidate at the last call, listed or not: what evaluation scores.
+/// A predictor's probabilities for all candidates at the last call, listed or not; for evaluation.
 struct CandidateScores {
     const Scene* scene = nullptr;        ///< Rows of the candidates are those of the observation.
-    std::span<const float> probability;  ///< One a candidate of `scene->candidates`, in its order.
+    std::span<const float> probability;  ///< One per candidate of `scene->candidates`, in the same order.
 };
 
 /// Repair: from what was reported to what is believed. Called at decisions, in order of time; reports that a
@@ -54,7 +54,7 @@ struct PredictionConfig {
     }
 };
 
-/// What a predictor needs beside the observation. References outlive the predictor.
+/// What a predictor needs besides the observation. References outlive the predictor.
 struct PredictorContext {
     const roads::Network& network;
     graph::LinkRules rules;
@@ -76,8 +76,8 @@ std::vector<std::string> predictor_names();
 /// tables of the predictors' headers). Throws core::InputError for an unknown name.
 core::SettingsTable settings_of(const std::string& name);
 
-/// Appends a problem for every setting that the predictor `name` does not have and every value out of its
-/// range, `where` being where they stand. A name that is no predictor has no problem here.
+/// Appends a problem for every setting that the predictor `name` does not have and every value out of range;
+/// `where` says where they are set. An unknown predictor gives no problem here.
 void check_settings(const std::string& name, const core::Settings& settings, const std::string& where,
                     std::vector<core::Problem>& problems);
 

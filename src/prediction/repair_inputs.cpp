@@ -9,10 +9,10 @@
 namespace clearway::prediction {
 namespace {
 
-/// In place of a range where a vehicle does not detect the other.
+/// Stands for a range if the vehicle does not detect the other.
 constexpr float not_detected = -2.0F;
 
-/// Places of what is said of a stop line.
+/// Indices of the inputs about a stop line.
 struct LineInputs {
     std::size_t exists, distance, green, signal_age;
 };
@@ -29,7 +29,7 @@ void write_line(const LineOnWay& line, const LineInputs& inputs, NetInputRow& ro
     row.set(inputs.signal_age, line.state_age_s);
 }
 
-/// Places of what is said of another vehicle on the way.
+/// Indices of the inputs about another vehicle on the way.
 struct VehicleInputs {
     std::size_t exists, known, distance, gap, speed;
 };
@@ -249,7 +249,7 @@ void RepairInputBuilder::add_edge(const Scene& scene, const MotionContext& ahead
     out.set(edge_input("detects"), range_m != not_detected);
     out.set(edge_input("range_measured"), range_m >= 0.0F);
     if (range_m >= 0.0F) out.set(edge_input("range_error"), distance_m - range_m);
-    // Seen ahead of the place where the receiver was last seen: for those in one lane, who is first.
+    // Distance ahead of where the receiver was last seen: tells which of two vehicles in a lane is ahead.
     if (last.lane.exists() && last.lane == tracks.last[row].lane) {
         out.set(edge_input("same_lane"), true);
         out.set(edge_input("lane_lead"), last.lane_position_m - tracks.last[row].lane_position_m);
@@ -283,7 +283,7 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
                 on_lanes && network_.lane(left_lane).edge == network_.lane(right_lane).edge);
         out.set(pair_input("same_lane"), on_lanes && left_lane == right_lane);
         out.set(pair_input("follows"), follows(left, right) || follows(right, left));
-        // Where links survive at all, a pair that no one detects is less likely to be one.
+        // If some links survive at all, a pair that is not detected is less likely to be linked.
         if (scene.detected.rows.empty()) continue;
         out.set(pair_input("any_detection"), true);
         out.set(pair_input("detected_share"),

@@ -18,8 +18,8 @@ namespace clearway::prediction {
 inline constexpr std::size_t most_near_sources = 10;
 inline constexpr double message_radius_m = 80.0;
 
-/// Place, direction and uncertainty of one end of a pair before the net has a say, and the way on which the
-/// net may move it. Only vehicles that are not known (receivers) have one.
+/// A vehicle that is not known, whose position the net corrects: its displacement by the route rule, and the
+/// path along which the net may move it.
 struct Receiver {
     std::uint32_t row = 0;
     float displacement_m = 0.0F;  ///< By the rule.
@@ -49,9 +49,9 @@ class RepairInputBuilder {
     /// `network` outlives the builder.
     RepairInputBuilder(const roads::Network& network, const graph::LinkRules& rules);
 
-    /// Call it with every observation, in order: it remembers (see MotionContextBuilder).
+    /// Call it with every observation, in order, because it keeps state (see MotionContextBuilder).
     void build(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
-    /// In place of `build` where only what it remembers is wanted.
+    /// Call it instead of `build` when the inputs are not needed: only updates the state.
     void remember(const traffic::Observation& observation, const Scene& scene) {
         roads_.build(observation, scene, ahead_);
     }

@@ -253,7 +253,7 @@ void RepairNet::refuse_result() const {
         {source_, "its results overflow", "", "Its numbers are damaged: use another file"});
 }
 
-/// Writes what the decoder is told of distances and returns the score.
+/// Writes the distance inputs of the decoder and returns the score.
 float RepairNet::distance_facts(const RepairInputs& inputs, const RowPair& pair, float* facts) const {
     const auto radius_m = static_cast<float>(repair_link_radius_m);
     const float x_m = place_x_m_[pair.left] - place_x_m_[pair.right];

@@ -45,7 +45,7 @@ struct BelievedMotion {
 /// The improved net, `graphsage`, for inference without torch. With x the numbers of a vehicle, e those of an
 /// edge, N(i) the sources of receiver i, and g(a) = 0.5 + 0.5 a / (1 + |a|):
 ///
-// clang-format off: equations, one a line
+// clang-format off: equations, one per line
 ///     h_i     = relu(W x_i + b)
 ///     m_i     = mean over j in N(i) of g(A h_j + B h_i + C e_ij + b) (D h_j + E e_ij + b)
 ///     h_i     = relu(F m_i + b + G h_i)
@@ -56,21 +56,21 @@ struct BelievedMotion {
 ///     logit   = MLP([z_i * z_j, |z_i - z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
 // clang-format on
 ///
-/// The second and third line, GraphSAGE's mean aggregation (Hamilton et al. 2017) with gates, happen `layers`
-/// times and change receivers alone; known vehicles keep h. s_i is the displacement along the path, held
-/// within the reach, and d the distance of the believed places, v^2 = 1 + the variances of both: of the place
-/// where each was last seen, and of its displacement along the line between them (a fiftieth of that acts
-/// across), and c = (50 m - d) / v within +-6. The logit does not depend on the order of a pair. Held to
-/// libtorch by a test of the training module. Single precision; both kernels give the same bits; no
-/// allocation once buffers have grown; one object, one thread.
+/// The second and third line, GraphSAGE's mean aggregation (Hamilton et al. 2017) with gates, are applied
+/// `layers` times and change only receivers; known vehicles keep h. s_i is the displacement along the path,
+/// clamped to the reach, and d the distance of the believed places. v^2 is 1 m^2 plus the variances of both
+/// ends: of the place where each was last seen, and of its displacement, projected on the line between them
+/// (a fiftieth of it acts across the road). c = (50 m - d) / v, clamped to +-6. The logit does not depend on
+/// the order of a pair. A test of the training module compares the results with libtorch. Single precision;
+/// both kernels give the same bits; no allocation once buffers have grown; one object, one thread.
 class RepairNet {
   public:
     /// Throws core::InputError when the weights are not such a net for `repair_schema()`.
     explicit RepairNet(const Weights& weights, Kernel kernel = best_kernel());
 
     const RepairDimensions& dimensions() const { return dimensions_; }
-    /// One logit a pair, one motion a receiver. Throws core::InputError when numbers overflow, which only
-    /// damaged weights do.
+    /// Writes one logit per pair and one motion per receiver. Throws core::InputError when numbers overflow,
+    /// which only damaged weights do.
     void run(const RepairInputs& inputs, std::vector<float>& logits, std::vector<BelievedMotion>& motions);
 
   private:
@@ -87,7 +87,7 @@ class RepairNet {
     enum class Bias : std::uint8_t { without, with };
     static Linear linear_from(const Weights& weights, const std::string& name, std::uint32_t inputs,
                               std::uint32_t outputs, Bias bias);
-    /// Rows of `input` through a matrix into `result`; `rows` null for all `row_count`.
+    /// Numbers of the rows to compute; null: rows 0 to `count` - 1.
     struct Rows {
         const std::uint32_t* numbers = nullptr;
         std::size_t count = 0;

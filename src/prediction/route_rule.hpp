@@ -26,10 +26,10 @@ struct RouteRuleConfig {
     }
 };
 
-/// The strongest repair without learning: dead reckoning along the route, not through red lights nor through
-/// the vehicle ahead, drawn to where surviving links can be, and gone at the end of the route where exits are
-/// not known (MotionContextBuilder says how). P(d < radius) from the distance of the believed places, whose
-/// standard deviation grows with age.
+/// The strongest repair without learning: dead reckoning along the route that stops at red lights and behind
+/// the vehicle ahead, is drawn to where surviving links are possible, and removes vehicles at the end of
+/// their route if exits are not known (see MotionContextBuilder). P(d < radius) from the distance of the
+/// believed places, whose standard deviation grows with age.
 std::unique_ptr<Predictor> make_route_rule(const PredictorContext& context,
                                            const RouteRuleConfig& config = {});
 

@@ -8,7 +8,7 @@
 namespace clearway::prediction {
 
 /// The model in the program for a predictor, from `src/prediction/models/<predictor>.weights` of the tree at
-/// build time. Throws core::InputError, naming those that there are, when the program carries none for it.
+/// build time. Throws core::InputError, listing the available models, when the program carries none for it.
 Weights shipped_model(const std::string& predictor);
 
 /// The model in `file`, or the shipped one where it is empty. Throws core::InputError as shipped_model and

@@ -9,8 +9,8 @@
 
 namespace clearway::prediction {
 
-/// Every vehicle of an observation twice: where it was last seen, and where it would be now had it kept its
-/// speed along its route (dead reckoning). One row a vehicle, ordered by key, the rows of the observation. A
+/// Every vehicle of an observation twice: where it was last seen, and where it would be now if it had kept
+/// its speed along its route (dead reckoning). One row per vehicle, ordered by key, as in the observation. A
 /// structure of arrays.
 struct Tracks {
     std::vector<core::VehicleKey> key;

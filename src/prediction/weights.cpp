@@ -141,7 +141,7 @@ void refuse_twice(const Items& items, const Reader& reader) {
     }
 }
 
-/// Takes one line after the first. False at `end`.
+/// Parses one line after the first. False at `end`.
 bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
     const std::string_view word = next_word(line);
     if (word == "end") return false;

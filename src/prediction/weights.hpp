@@ -43,7 +43,8 @@ struct InputNames {
 };
 
 /// A trained net as a file: what it is, for which inputs, and its tensors under PyTorch Geometric's names
-/// (`graphsage.conv1.lin_l.weight` ... `nn.fc2.bias`). The text format `clearway-weights 1`, one item a line:
+/// (`graphsage.conv1.lin_l.weight` ... `nn.fc2.bias`). The text format `clearway-weights 1`, one item per
+/// line:
 ///
 ///     clearway-weights 1
 ///     architecture graphsage_net
@@ -62,7 +63,7 @@ struct Weights {
     FeatureSchema features;
     std::vector<Dimension> dimensions;
     std::vector<InputNames> inputs;  ///< Files written before names were kept have none.
-    std::vector<std::string> notes;  ///< Where the net comes from; a line each, no line breaks inside.
+    std::vector<std::string> notes;  ///< Where the net comes from; one line each, without line breaks.
     std::vector<Tensor> tensors;
 
     /// Value of a dimension. Throws core::InputError naming it when the file has none.

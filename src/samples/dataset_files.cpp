@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_problems = 20;
 
-/// Collects what is wrong; beyond `most_problems` only their number.
+/// Collects problems; beyond `most_problems` it only counts them.
 class Problems {
   public:
     void add(core::Problem problem) {
@@ -37,7 +37,7 @@ class Problems {
     std::size_t more_ = 0;
 };
 
-/// A file as rows of trimmed cells. Lines that are empty at the end are dropped.
+/// A file as rows of trimmed cells, without empty lines at the end.
 struct Table {
     std::string file;
     std::vector<std::vector<std::string_view>> rows;
@@ -91,13 +91,13 @@ std::string quoted(std::string_view text) {
 
 void read_features(const Table& table, PairDataset& dataset, Problems& problems) {
     if (table.rows.empty()) {
-        problems.add({table.file, "no vehicle", "one row a vehicle", "Write the data set again"});
+        problems.add({table.file, "no vehicle", "one row per vehicle", "Write the data set again"});
         return;
     }
     const std::size_t columns = table.rows[0].size();
     if (columns != 2 && columns != 5) {
         problems.add({table.where(0), fmt::format("{} values", columns), "2 or 5",
-                      "GraphSAGENet takes 2 or 5 features a vehicle"});
+                      "GraphSAGENet takes 2 or 5 features per vehicle"});
         return;
     }
     dataset.feature_count = static_cast<std::uint32_t>(columns);
@@ -150,7 +150,7 @@ void read_edges(const Table& table, PairDataset& dataset, Problems& problems) {
     if (dataset.source.size() != dataset.target.size()) {
         problems.add({table.where(1),
                       fmt::format("{} targets for {} sources", dataset.target.size(), dataset.source.size()),
-                      "rows of one length", "Write one target for each source"});
+                      "rows of equal length", "Write one target for each source"});
         return;
     }
     for (std::size_t pair = 0; pair < dataset.source.size(); ++pair) {
@@ -181,7 +181,7 @@ void read_labels(const Table& table, PairDataset& dataset, Problems& problems) {
         problems.add({table.where(0),
                       fmt::format("{} labels, but {} has {} pairs", dataset.label.size(), edge_list_file,
                                   dataset.source.size()),
-                      "one label a pair", "Write both files from the same snapshot"});
+                      "one label per pair", "Write both files from the same snapshot"});
     }
 }
 
@@ -222,7 +222,7 @@ void write_pair_dataset(const std::filesystem::path& folder, const PairDataset& 
     if ((dataset.feature_count != 2 && dataset.feature_count != 5) ||
         dataset.features.size() != dataset.vehicle_count() * dataset.feature_count ||
         dataset.source.size() != dataset.label.size() || dataset.target.size() != dataset.label.size()) {
-        throw std::logic_error("pair data set: the sizes of its parts do not agree");
+        throw std::logic_error("pair data set: the sizes of its columns differ");
     }
     std::string rows;
     for (std::size_t vehicle = 0; vehicle < dataset.vehicle_count(); ++vehicle) {

@@ -53,7 +53,7 @@ void check_folder(const std::vector<experiment::DatasetJob>& jobs, const std::st
         throw core::InputError(
             {scenario_file.string(),
              fmt::format("another configuration of {} was recorded here", jobs.front().scenario),
-             "one for each scenario of a data set", cure});
+             "one configuration per scenario of a data set", cure});
     }
     std::vector<std::string> taken;
     for (const experiment::DatasetJob& job : jobs) {
@@ -64,7 +64,7 @@ void check_folder(const std::vector<experiment::DatasetJob>& jobs, const std::st
     }
     if (taken.empty()) return;
     const std::string more = taken.size() == 1 ? "" : fmt::format(", and {} more", taken.size() - 1);
-    throw core::InputError({taken.front(), "is there already, of another recording" + more, "", cure});
+    throw core::InputError({taken.front(), "already exists, from another recording" + more, "", cure});
 }
 
 }  // namespace clearway::samples

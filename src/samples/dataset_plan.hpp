@@ -15,19 +15,19 @@ struct DatasetSeeds {
     std::uint32_t count = 1;
 };
 
-/// One job for each replication of a scenario. `shared` says what and where to; scenario and network are
-/// kept below `origin/` of the data set.
+/// One job per replication of a scenario. `shared` says what to record and where to; scenario and network are
+/// kept in `origin/` of the data set.
 std::vector<experiment::DatasetJob> dataset_jobs(const experiment::DatasetJob& shared,
                                                  const std::string& scenario, const DatasetSeeds& seeds);
 
-/// Where the job of a recording is kept beside the data set.
+/// The file that keeps the job of a recording, next to the data set.
 std::filesystem::path job_file(const experiment::DatasetJob& job);
 
-/// What a job will write.
+/// The files that a job will write.
 std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job);
 
-/// Refuses a folder in which recordings of others would be lost: throws core::InputError. The same jobs may
-/// be given again. `scenario` is the text of the effective configuration.
+/// Throws core::InputError when the jobs would overwrite recordings of other jobs. The same jobs may be given
+/// again. `scenario` is the text of the effective configuration.
 void check_folder(const std::vector<experiment::DatasetJob>& jobs, const std::string& scenario);
 
 }  // namespace clearway::samples

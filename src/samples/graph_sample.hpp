@@ -9,9 +9,9 @@
 
 namespace clearway::samples {
 
-/// A pair of vehicles of which a predictor has to say whether they are linked.
+/// A pair of vehicles that may be linked, which a predictor has to decide.
 struct CandidatePair {
-    std::uint32_t left = 0;  ///< Row of the sample's features; left < right.
+    std::uint32_t left = 0;  ///< Row in the sample's features; left < right.
     std::uint32_t right = 0;
     float dead_reckoned_m = 0.0F;  ///< Distance of the dead-reckoned positions, m, >= 0.
     std::uint8_t linked = 0;       ///< 1: the true distance is below the link radius. The label.
@@ -19,15 +19,15 @@ struct CandidatePair {
     bool operator==(const CandidatePair&) const = default;
 };
 
-/// A link of the observed graph: both ends reported at the latest round, or one detected the other.
+/// A link of the observed graph: both ends reported in the latest round, or one detected the other.
 struct ObservedEdge {
-    std::uint32_t left = 0;  ///< left < right; each undirected link stands once.
+    std::uint32_t left = 0;  ///< left < right; each undirected link is listed once.
     std::uint32_t right = 0;
 
     bool operator==(const ObservedEdge&) const = default;
 };
 
-/// One moment of one run: what a predictor was given, and the answer. Rows follow the observation's order.
+/// One moment of one run: what a predictor was given, and the labels. Rows follow the observation's order.
 struct GraphSample {
     double time_s = 0.0;
     std::uint32_t vehicle_count = 0;
@@ -47,8 +47,8 @@ struct GraphSampleFile {
 /// Name ending of sample files: `.samples`.
 inline constexpr const char* graph_sample_extension = ".samples";
 
-/// Collects the samples of one run and writes them as one file. Holds the whole file in memory (about 15 byte
-/// a candidate and 4 a feature). One thread.
+/// Collects the samples of one run and writes them as one file. Holds the whole file in memory (about 15
+/// bytes per candidate and 4 per feature). One thread.
 ///
 /// Format, version 1: the line `clearway graph samples 1`, a line of JSON with the origin, little-endian
 /// binary samples (time f64, counts of vehicles, edges and candidates u32, features f32, edges 2 u32,
@@ -57,10 +57,10 @@ class GraphSampleWriter {
   public:
     explicit GraphSampleWriter(const SampleOrigin& origin);
     /// Throws std::logic_error when the sample does not fit the origin or its own counts, or holds a value
-    /// that is not finite: a fault of the recorder.
+    /// that is not finite: a bug in the recorder.
     void add(const GraphSample& sample);
     std::size_t sample_count() const { return sample_count_; }
-    /// Writes the file whole or not at all. Throws core::EnvironmentError (folder not writable, disk full).
+    /// Writes the file atomically. Throws core::EnvironmentError (folder not writable, disk full).
     void write(const std::filesystem::path& file) const;
 
   private:
@@ -69,11 +69,11 @@ class GraphSampleWriter {
     std::size_t sample_count_ = 0;
 };
 
-/// Throws core::InputError: missing, of another version, cut short, changed since it was written, or with an
-/// index, label or number out of range.
+/// Throws core::InputError for a file that is missing, of another version, cut short, changed since it was
+/// written, or has an index, label or number out of range.
 GraphSampleFile read_graph_samples(const std::filesystem::path& file);
 
-/// The sample files directly in `folder`, by name. Throws core::InputError when there is none.
+/// The sample files directly in `folder`, sorted by name. Throws core::InputError when there is none.
 std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::path& folder);
 
 }  // namespace clearway::samples

@@ -71,7 +71,7 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-/// Takes one row, or says what is wrong with it.
+/// Reads one row. Returns what is wrong with it, or an empty string.
 std::string read_row(std::string_view line, PairSampleFile& samples) {
     prediction::PairFeatures features{};
     for (std::size_t column = 0; column <= prediction::pair_feature_count; ++column) {

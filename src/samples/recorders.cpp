@@ -62,8 +62,8 @@ void GraphSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
     writer_.add(sample);
 }
 
-/// For graphsage: what it is given, the true displacements, and what the route rule says of the same pairs.
-/// Both remember, so they see every report.
+/// For graphsage: its inputs, the true displacements, and the route rule's probabilities of the same pairs.
+/// Input builder and route rule keep state, so they see every report.
 class RepairSampleRecorder final : public SampleRecorder {
   public:
     explicit RepairSampleRecorder(Setup setup)
@@ -110,7 +110,7 @@ void RepairSampleRecorder::record(const truth::Snapshot& snapshot) {
     writer_.add(sample_);
 }
 
-/// Along the route from where the vehicle was last seen; negative where that is not defined.
+/// Distance along the route from where the vehicle was last seen; negative if it is not defined.
 float RepairSampleRecorder::true_displacement_m(const truth::Snapshot& snapshot,
                                                 const prediction::Receiver& receiver) const {
     constexpr float no_label = -1.0F;
@@ -193,7 +193,7 @@ std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kin
         case experiment::DatasetKind::published:
             break;
     }
-    throw std::logic_error("the published data set is no file of samples");
+    throw std::logic_error("the published data set is not a file of samples");
 }
 
 const char* sample_ending(experiment::DatasetKind kind) {

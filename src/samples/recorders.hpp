@@ -16,9 +16,9 @@
 
 namespace clearway::samples {
 
-/// Records what a predictor was given at report rounds, with the true answer beside it: data to train and to
-/// judge with. Watches through one sensor, and takes one sample every `interval` of simulation time, at the
-/// first report round then at which there is a pair to predict.
+/// Records what a predictor was given at report rounds, with the true answers, for training and evaluation.
+/// Watches through one sensor and takes one sample every `interval` of simulation time: at the first report
+/// round after it that has a pair to predict.
 class SampleRecorder : public trace::StepListener {
   public:
     struct Setup {
@@ -30,8 +30,7 @@ class SampleRecorder : public trace::StepListener {
     };
 
     void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) final;
-    /// Writes the file whole or not at all, and says what is in it: `12 samples`. Throws
-    /// core::EnvironmentError.
+    /// Writes the file atomically and returns what is in it: `12 samples`. Throws core::EnvironmentError.
     virtual std::string write(const std::filesystem::path& file) const = 0;
 
   protected:
@@ -40,16 +39,16 @@ class SampleRecorder : public trace::StepListener {
     const graph::LinkRules& rules() const { return truth_.rules(); }
     const SampleOrigin& origin() const { return origin_; }
     const traffic::Observation& observation() const { return observation_; }
-    /// Of the observation, once `build_scene` was called; in `record` it was.
+    /// Scene of the observation, valid after `build_scene`; always valid in `record`.
     const prediction::Scene& scene() const { return scene_; }
     void build_scene() { scenes_.build(observation_, scene_); }
-    /// The label of a pair of rows of the scene's tracks: 1 when the two are truly linked. In `record` alone.
+    /// The label of a pair of rows of the scene's tracks: 1 when the two are truly linked. Only in `record`.
     std::uint8_t label(prediction::RowPair pair) const;
 
   private:
     /// Adds a sample of the scene, which has candidates.
     virtual void record(const truth::Snapshot& snapshot) = 0;
-    /// A report round at which no sample is taken: for recorders that must see them all.
+    /// Called at report rounds without a sample, for recorders that must see every round.
     virtual void pass() {}
 
     const roads::Network& network_;
@@ -64,20 +63,20 @@ class SampleRecorder : public trace::StepListener {
     double next_s_ = 0.0;
 };
 
-/// The recorder of a kind of samples: any kind but `published`.
+/// The recorder for a kind of samples; any kind but `published`.
 std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kind,
                                                      SampleRecorder::Setup setup);
-/// How the names of its files end.
+/// Ending of the names of its files.
 const char* sample_ending(experiment::DatasetKind kind);
 
-/// Records one snapshot as chapter 5.4 of the dissertation stores it: the one with the most links of the run.
+/// Records the snapshot with the most links of the run, as chapter 5.4 of the dissertation stores it.
 class PairDatasetRecorder : public trace::StepListener {
   public:
     PairDatasetRecorder(const roads::Network& network, const graph::LinkRules& rules,
                         const prediction::FeatureSchema& features, experiment::ListedPairs pairs);
 
     void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override;
-    /// Empty when no two vehicles ever met.
+    /// Empty when no two vehicles were ever linked.
     const PairDataset& dataset() const { return dataset_; }
     core::Seconds time() const { return time_; }
 

@@ -54,16 +54,16 @@ std::string fault(const RepairSample& sample) {
     if (sample.true_displacement_m.size() != inputs.receivers.size()) {
         return "true displacements that do not fit the receivers";
     }
-    if (!all_below(inputs.source, inputs.rows)) return "an edge from a vehicle that is not there";
+    if (!all_below(inputs.source, inputs.rows)) return "an edge from a vehicle that does not exist";
     const bool pairs_fit = std::ranges::all_of(
         inputs.pairs, [&](prediction::RowPair pair) { return pair.left < pair.right && pair.right < rows; });
-    if (!pairs_fit) return "a pair of vehicles that are not there";
+    if (!pairs_fit) return "a pair of vehicles that do not exist";
     const bool receivers_fit =
         std::ranges::all_of(inputs.receivers, [&](const prediction::Receiver& receiver) {
             return receiver.row < rows && receiver.reach_m > 0.0F && std::isfinite(receiver.reach_m) &&
                    std::isfinite(receiver.displacement_m);
         });
-    if (!receivers_fit) return "a receiver that is not there, or without reach";
+    if (!receivers_fit) return "a receiver that does not exist or has no reach";
     if (std::ranges::any_of(sample.linked, [](std::uint8_t label) { return label > 1; })) {
         return "a label other than 0 and 1";
     }

@@ -10,13 +10,13 @@
 
 namespace clearway::samples {
 
-/// One moment of one run: what the improved net was given, and the answers.
+/// One moment of one run: what the improved net was given, and the labels.
 struct RepairSample {
     double time_s = 0.0;
     prediction::RepairInputs inputs;
-    std::vector<float> true_displacement_m;  ///< One a receiver, along its path; negative without a label.
-    std::vector<std::uint8_t> linked;  ///< One a pair: 1 when the true distance is below the link radius.
-    std::vector<float> rule;           ///< One a pair: probability by the route rule, to compare with.
+    std::vector<float> true_displacement_m;  ///< One per receiver, along its path; negative: no label.
+    std::vector<std::uint8_t> linked;  ///< One per pair: 1 when the true distance is below the link radius.
+    std::vector<float> rule;           ///< One per pair: probability by the route rule, for comparison.
 };
 
 struct RepairSampleFile {
@@ -25,16 +25,16 @@ struct RepairSampleFile {
     std::string content_hash;
 };
 
-/// Collects the samples of one run of one failure, as GraphSampleWriter does, and writes them as one file of
-/// the same frame with the first line `clearway repair samples 1`. Numbers that are zero by construction are
-/// left out: features of receivers, of vehicles that are none.
+/// Collects the samples of one run with one failure, as GraphSampleWriter does. The file has the same frame
+/// and the first line `clearway repair samples 1`. Receiver features of vehicles that are not receivers are
+/// zero by construction and left out.
 class RepairSampleWriter {
   public:
     explicit RepairSampleWriter(const SampleOrigin& origin);
-    /// Throws std::logic_error when counts do not fit each other.
+    /// Throws std::logic_error when its counts are inconsistent.
     void add(const RepairSample& sample);
     std::size_t sample_count() const { return sample_count_; }
-    /// Writes the file whole or not at all. Throws core::EnvironmentError.
+    /// Writes the file atomically. Throws core::EnvironmentError.
     void write(const std::filesystem::path& file) const;
 
   private:
@@ -42,8 +42,8 @@ class RepairSampleWriter {
     std::size_t sample_count_ = 0;
 };
 
-/// Throws core::InputError: missing, of another version, cut short, changed since it was written, made for
-/// another feature schema (naming both), or with an index, label or number out of range.
+/// Throws core::InputError for a file that is missing, of another version, cut short, changed since it was
+/// written, made for another feature schema (naming both), or has an index, label or number out of range.
 RepairSampleFile read_repair_samples(const std::filesystem::path& file);
 
 }  // namespace clearway::samples

@@ -7,12 +7,13 @@
 
 namespace clearway::samples {
 
-/// What all samples of a file share: one file holds one run of one failure model.
+/// What all samples of a file share: a file holds one run with one failure.
 struct SampleOrigin {
     std::string scenario;
     std::string failure;                 ///< Name of the sensing preset, for example `B10`.
-    prediction::FeatureSchema features;  ///< What the numbers are; width [1, 256].
-    std::uint64_t study_seed = 1;  ///< With `replication`: the seed. Training splits by it, never within it.
+    prediction::FeatureSchema features;  ///< Meaning of the numbers; width in [1, 256].
+    /// Forms the seed with `replication`. Training puts all runs of a seed in one part of the split.
+    std::uint64_t study_seed = 1;
     std::uint32_t replication = 0;
     double link_radius_m = 50.0;
 

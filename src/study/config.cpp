@@ -28,7 +28,7 @@ void append(Problems& problems, const core::InputError& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
 }
 
-/// Keys of `[overrides]`, which factors of scenarios may set, too.
+/// Keys of `[overrides]`, which scenario factors may also set.
 const std::vector<std::string> override_keys = {"variant",
                                                 "density",
                                                 "automated_share",
@@ -67,7 +67,7 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
     return options;
 }
 
-/// The overrides under a combination of factors.
+/// The overrides with a combination of factors applied.
 scenario::Options options_with(const toml::table& overrides, const detail::Assignment& assignment,
                                const std::string& file, Problems& problems) {
     toml::table changed = overrides;
@@ -86,7 +86,7 @@ scenario::Options options_with(const toml::table& overrides, const detail::Assig
     return options;
 }
 
-/// Settings and model of a condition; its failure and predictor are known.
+/// Reads settings and model of a condition whose failure and predictor have been read.
 void read_settings(StrictTable& reader, const std::filesystem::path& file, Problems& problems,
                    experiment::ConditionSpec& condition) {
     if (const toml::table* const table = reader.table("set")) {
@@ -103,7 +103,7 @@ void read_settings(StrictTable& reader, const std::filesystem::path& file, Probl
     }
 }
 
-/// A list of texts, where one may stand alone.
+/// Reads a list of texts or a single text.
 void read_policies(StrictTable& reader, const toml::table& table, std::vector<std::string>& policies) {
     if (table.contains("policy") && table.get("policy")->is_string()) {
         reader.text("policy", policies.emplace_back());
@@ -175,7 +175,8 @@ struct Reading {
     const detail::Factors& factors;
 };
 
-/// One of `[[scenario]]`: a scenario under a name of its own, with overrides beside those of the study.
+/// Adds a `[[scenario]]`: a scenario under a name of its own, with overrides in addition to those of the
+/// study.
 // NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and two lists to fill
 void add_own_scenario(const toml::table& table, toml::table overrides, const detail::Assignment& assignment,
                       const Reading& reading, Problems& problems, StudyConfig& config) {
@@ -195,7 +196,7 @@ void add_own_scenario(const toml::table& table, toml::table overrides, const det
     reader.finish();
     if (from.empty() || name.empty()) {
         reader.problem(from.empty() ? "from" : "name", "is missing", "from and name",
-                       "Say which scenario it is, and how it is called here");
+                       "Say which scenario it is and what it is called here");
         return;
     }
     const std::size_t before = config.scenarios.size();
@@ -229,7 +230,7 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file, const 
     }
 }
 
-/// One condition for each combination that differs in what the condition has.
+/// One condition per combination of the factors that concern it.
 std::vector<experiment::ConditionSpec> variants(const experiment::ConditionSpec& condition,
                                                 const detail::Factors& factors,
                                                 std::set<const detail::Factor*>& used, Problems& problems) {
@@ -246,14 +247,14 @@ std::vector<experiment::ConditionSpec> variants(const experiment::ConditionSpec&
     return varied;
 }
 
-/// Puts in the place of each condition that has a policy, a predictor or failing sensors one for each
+/// Replaces each condition that has a policy, a predictor or failing sensors with one condition per
 /// combination of the factors.
 void vary_conditions(const detail::Factors& factors, Problems& problems, StudyConfig& config) {
     const std::vector<detail::Assignment> all = detail::combinations(factors, detail::Subject::conditions);
     if (all.size() == 1 && all.front().empty()) return;
     if (std::ranges::none_of(config.conditions, detail::is_varied)) {
         problems.push_back({"factors", "no condition has failures, a predictor or a policy to vary",
-                            "a condition beside baseline and solo", "Add one to the conditions"});
+                            "a condition other than baseline and solo", "Add one to the conditions"});
         return;
     }
     std::vector<experiment::ConditionSpec> varied;
@@ -295,7 +296,7 @@ void read_precision(StrictTable& root, const std::string& file, Problems& proble
     const std::vector<std::string> names = metric_names();
     if (std::ranges::find(names, target.metric) == names.end()) {
         const std::string near = core::nearest(target.metric, names);
-        reader.problem("metric", fmt::format("'{}' is no metric", target.metric), "columns of runs.csv",
+        reader.problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
     }
     if (!half_width || !(*half_width > 0.0) || !std::isfinite(*half_width))
@@ -304,11 +305,11 @@ void read_precision(StrictTable& root, const std::string& file, Problems& proble
                        "a number above 0, in the metric's unit", "");
     target.half_width = half_width.value_or(0.0);
     if (root.has("replications"))
-        root.problem("replications", "is given beside [precision]", "either of them", "Remove one");
+        root.problem("replications", "is given together with [precision]", "one of them", "Remove one");
     config.replications = least_replications;
 }
 
-/// Leaves of `all` those that are named, in their old order; unknown names are problems.
+/// Keeps those of `all` that are named, in their old order; unknown names are problems.
 template <class Element>
 void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) {
     std::vector<std::string> kept;
@@ -320,7 +321,7 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
     for (const std::string& name : kept) {
         if (std::ranges::find(names, name) != names.end()) continue;
         const std::string near = core::nearest(name, names);
-        quick.problem(key, fmt::format("'{}' is none of the study's", name),
+        quick.problem(key, fmt::format("'{}' is not in the study", name),
                       fmt::format("{}", fmt::join(names, ", ")),
                       near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
     }
@@ -328,13 +329,13 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
         all, [&](const Element& element) { return std::ranges::find(kept, element.name) == kept.end(); });
 }
 
-/// Reads [quick] in any case, so that its faults show early; applies it where it is wanted.
+/// Always reads [quick], so that its errors show early; applies it only if it is wanted.
 void read_quick(StrictTable& root, const std::string& file, Extent extent, Problems& problems,
                 StudyConfig& config) {
     const toml::table* table = root.table("quick");
     if (table == nullptr) {
         if (extent == Extent::quick)
-            root.problem("quick", "the file does not say what --quick leaves out", "a table [quick]",
+            root.problem("quick", "the file does not say what --quick runs", "a table [quick]",
                          "Add one, or run the whole study");
         return;
     }

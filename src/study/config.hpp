@@ -19,13 +19,13 @@ struct StudyConfig {
     std::uint64_t seed = 1;
     std::uint32_t replications = 20;  ///< 1 to 100000. FHWA asks for at least 10.
     std::vector<scenario::ScenarioConfig> scenarios;
-    std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, of those that factors made.
+    std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, for scenarios made by factors.
     std::vector<experiment::ConditionSpec> conditions;
-    /// Instead of a number of replications; `replications` is then that of the first round.
+    /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;
 };
 
-/// FHWA's least number of replications (Traffic Analysis Toolbox III, 2019 update), and the first round's of
+/// FHWA's minimum number of replications (Traffic Analysis Toolbox III, 2019 update); also the first round of
 /// a study with a precision target.
 inline constexpr std::uint32_t least_replications = 10;
 
@@ -36,7 +36,7 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
 /// How much of a study file runs.
 enum class Extent : std::uint8_t {
     whole,
-    quick,  ///< What its [quick] leaves of it; the name ends in `-quick`.
+    quick,  ///< What [quick] selects; the name ends in `-quick`.
 };
 
 /// Reads a study file. Strict: throws core::InputError with every problem found, each with file, line and
@@ -48,7 +48,7 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge", "my/crossing"]        # names, folders or files, relative to this file
 ///     conditions = ["baseline", "graph_graphsage", "solo"]
 ///
-///     [[scenario]]                                # beside the named ones: with overrides of its own
+///     [[scenario]]                                # in addition to the named ones, with its own overrides
 ///     name = "crossing_dense"
 ///     from = "my/crossing"
 ///     variant = "dense"
@@ -71,7 +71,7 @@ enum class Extent : std::uint8_t {
 ///     design = "all_combinations"                 # or "one_at_a_time"
 ///     scenario.demand.human = [40, 80]
 ///
-///     [[condition]]                               # beside the named ones
+///     [[condition]]                               # in addition to the named ones
 ///     name = "b20"
 ///     failure = "B20"
 ///     predictor = "graphsage_corrected"
@@ -84,7 +84,7 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge"]                       # of the scenarios above, by name
 ///     conditions = ["baseline", "b20"]            # of the conditions above
 ///
-/// Quick without [quick] in the file is a problem too.
+/// Extent::quick without [quick] in the file is a problem, too.
 StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole);
 
 }  // namespace clearway::study

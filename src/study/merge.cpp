@@ -24,11 +24,11 @@ void require_same_study(const results::Store& first, const results::Store& other
     if (differing.empty()) return;
     throw core::InputError(
         {other.folder().string(),
-         fmt::format("is of another study than {}: different {}", first.folder().string(), differing),
-         "shards of one study", "Merge only what one study file made"});
+         fmt::format("belongs to another study than {}: different {}", first.folder().string(), differing),
+         "shards of one study", "Merge only run folders of one study file"});
 }
 
-/// Copies a folder as a whole or not at all; does nothing when the target exists.
+/// Copies a folder atomically; does nothing when the target exists.
 void copy_folder(const fs::path& source, const fs::path& target) {
     if (fs::exists(target) || !fs::exists(source)) return;
     core::make_folder(target.parent_path());
@@ -44,11 +44,11 @@ void copy_folder(const fs::path& source, const fs::path& target) {
     }
 }
 
-/// Everything beside the runs that a report needs: configurations, networks, pictures, the command.
+/// Copies what a report needs besides the runs: configurations, networks, pictures, the command.
 void copy_surroundings(const results::Store& source, const results::Store& target) {
     for (const results::ScenarioEntry& scenario : source.manifest().scenarios) {
         const fs::path from = source.scenario_folder(scenario.name);
-        // The picture is made last, so that a scenario that has it is whole.
+        // The picture is made last, so a scenario that has it is complete.
         if (fs::exists(from / "network.svg")) copy_folder(from, target.scenario_folder(scenario.name));
     }
     copy_folder(source.folder() / "training", target.folder() / "training");
@@ -57,7 +57,7 @@ void copy_surroundings(const results::Store& source, const results::Store& targe
         core::write_atomically(target.folder() / "command.txt", core::read_file(command));
 }
 
-/// The one of `folders` that has a run, for messages.
+/// The folder among `folders` that has the run, for messages.
 std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> folders) {
     for (const fs::path& folder : folders) {
         if (results::Store::open(folder).complete(key)) return folder.string();
@@ -65,7 +65,7 @@ std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> f
     return "an earlier merge";
 }
 
-/// Takes over the runs of `folders[number]`.
+/// Adds the runs of `folders[number]` to `target`.
 void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const results::Store& target,
                 MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
@@ -123,8 +123,8 @@ std::vector<fs::path> run_folders(const fs::path& path) {
     }
     std::ranges::sort(folders);
     if (folders.empty())
-        throw core::InputError(
-            {path.string(), "is no run folder and has none in shards/", "a folder written with --out", ""});
+        throw core::InputError({path.string(), "is not a run folder and has none in shards/",
+                                "a folder written with --out", ""});
     return folders;
 }
 

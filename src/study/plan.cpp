@@ -27,8 +27,7 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
         problems.push_back({what, fmt::format("\"{}\" cannot be the name of a folder", name),
                             core::folder_name_rule, "Rename it"});
     if (!seen.insert(name).second)
-        problems.push_back(
-            {what, fmt::format("\"{}\" is there twice", name), "each name once", "Rename one"});
+        problems.push_back({what, fmt::format("\"{}\" is used twice", name), "each name once", "Rename one"});
 }
 
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
@@ -82,7 +81,7 @@ results::Manifest make_manifest(const StudyConfig& config, const Versions& versi
     return manifest;
 }
 
-/// Stores a scenario and its network as a whole or not at all.
+/// Stores a scenario and its network atomically.
 void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) {
     if (fs::exists(target)) return;
     const fs::path part =

@@ -26,7 +26,7 @@ RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& c
     return {unit.scenario, condition.name, unit.replication};
 }
 
-/// What a worker's end says about the runs that it left without a record.
+/// Cause of the errors of runs that a worker left without a record.
 ErrorCause cause_of(const core::TaskEnd& end) {
     if (end.ended_by == core::EndedBy::time_limit) return ErrorCause::time_limit;
     if (end.ended_by == core::EndedBy::memory_limit) return ErrorCause::memory;
@@ -35,7 +35,7 @@ ErrorCause cause_of(const core::TaskEnd& end) {
     return ErrorCause::other;
 }
 
-/// One call of `run`.
+/// The state of one call of `run`.
 class Runner : private core::TaskList {
   public:
     Runner(const Plan& plan, const results::Store& store, const RunnerOptions& options,
@@ -59,7 +59,7 @@ class Runner : private core::TaskList {
     }
 
   private:
-    /// Conditions of a unit without a record, and without an error that another attempt cannot change.
+    /// Conditions of a unit that have no record and no error that another attempt cannot change.
     std::vector<experiment::ConditionSpec> open_conditions(const experiment::RunJob& unit) const {
         std::vector<experiment::ConditionSpec> open;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
@@ -139,7 +139,7 @@ class Runner : private core::TaskList {
         count(unit, settled_);
     }
 
-    /// Records why a run has no result; true when it is to be tried again instead.
+    /// Records why a run has no result, or returns true when it should be tried again.
     bool settle(const core::TaskEnd& end, const RunKey& key) const {
         auto error = store_.read_error(key);
         const bool told_by_worker = error.has_value();
@@ -164,13 +164,13 @@ class Runner : private core::TaskList {
                             options_.worker_program.string()));
         if (code == static_cast<int>(ExitCode::environment))
             throw core::EnvironmentError(
-                fmt::format("a worker could not go on; what is complete is kept in {}\n{}",
+                fmt::format("a worker could not continue; completed runs are kept in {}\n{}",
                             store_.folder().string(), core::tail(log_file(end.id), log_lines)));
         if (code == static_cast<int>(ExitCode::conflict))
             throw core::ConflictError(core::tail(log_file(end.id), log_lines));
     }
 
-    /// Of a run about which its worker left no word.
+    /// The error of a run for which its worker left no record.
     results::RunError error_of(const RunKey& key, const core::TaskEnd& end) const {
         results::RunError error;
         error.key = key;
@@ -187,7 +187,7 @@ class Runner : private core::TaskList {
 
     std::string message_of(const core::TaskEnd& end) const {
         if (end.ended_by == core::EndedBy::time_limit)
-            return fmt::format("its unit did not end within {:g} s a run", options_.limits.wall_s);
+            return fmt::format("its unit did not end within {:g} s per run", options_.limits.wall_s);
         if (end.ended_by == core::EndedBy::memory_limit)
             return fmt::format("the warm-up needed more than {} MiB", options_.limits.memory_mib);
         if (end.exit.signal != 0) return "the worker was " + end.exit.describe();
@@ -245,7 +245,7 @@ class Runner : private core::TaskList {
     core::InterruptionWatch interruption_;
     std::deque<std::size_t> queue_;  ///< Rows of the plan's units.
     std::vector<int> attempts_;      ///< By unit, in this call.
-    Counts settled_;                 ///< Of the units that no worker works on.
+    Counts settled_;                 ///< Runs of the units that no worker is working on.
     StudyProgress progress_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point reported_{};

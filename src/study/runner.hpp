@@ -15,18 +15,18 @@ struct RunnerOptions {
     unsigned workers = 0;                  ///< Processes at one time; 0: one per core.
     std::filesystem::path worker_program;  ///< Empty: `clearway-run` beside this program.
     experiment::RunLimits limits;          ///< Of each run.
-    int attempts = 3;                      ///< For signals and time limits: one try and two more.
-    double termination_grace_s = 5.0;      ///< From SIGTERM to SIGKILL.
+    int attempts = 3;                  ///< For errors by signal or time limit: the first try and two more.
+    double termination_grace_s = 5.0;  ///< From SIGTERM to SIGKILL.
     /// Called for each damaged record that was found before anything runs; may be empty.
     std::function<void(const results::SetAside&)> on_set_aside = {};
 };
 
-/// How far a study is. Runs, not units.
+/// Progress of a study, in runs.
 struct StudyProgress {
-    std::size_t done = 0;  ///< Complete, earlier ones included.
+    std::size_t done = 0;  ///< Complete runs, including earlier ones.
     std::size_t failed = 0;
     std::size_t total = 0;
-    std::size_t resumed = 0;  ///< Complete before this start.
+    std::size_t resumed = 0;  ///< Runs that were complete before this call.
     double elapsed_s = 0.0;
 };
 
@@ -36,26 +36,27 @@ struct StudyResult {
     StudyProgress progress;
 };
 
-/// Runs what is missing in `store` with worker processes: `clearway-run FILE`. The contract with a worker:
+/// Makes the runs missing in `store` with worker processes, `clearway-run FILE`. The contract with a worker:
 ///
 /// - FILE is an experiment::RunJob as JSON; its conditions are those without a record.
-/// - The worker stores each run that ends by results::Store::write, and each run that fails while the worker
-///   lives by writing a results::RunError: it holds each run to the unit's limits and sees by which
-///   signal it died. It exits 0 when every condition has one of the two.
-/// - Any other end is a failure of the conditions that have neither: by signal, by time limit (of all runs of
-///   the unit and one more for its warm-up; SIGTERM, then SIGKILL), by memory limit, by exit code 3 (bad
-///   input) or another.
+/// - The worker holds each run to the unit's limits. It stores a finished run with results::Store::write, and
+///   a results::RunError for a run that failed, including the signal by which it died. It exits 0 when every
+///   condition has one of the two.
+/// - With any other end of the worker, the conditions that have neither get an error: by signal, by time
+/// limit
+///   (that of all runs of the unit plus one for the warm-up; SIGTERM, then SIGKILL), by memory limit, by exit
+///   code 3 (bad input) or another.
 /// - Standard output and error go to the log file of the unit.
 ///
-/// Records that do not fit their hashes are set aside first (results::Store::set_damaged_aside), and their
-/// runs are made again.
+/// First, records that do not match their hashes are set aside (results::Store::set_damaged_aside) and their
+/// runs are repeated.
 ///
-/// Failures by signal and time limit are tried again; the others are not, neither now nor on resuming in the
-/// same folder (bad input, memory, refusals of SUMO), unless the worker's program or the environment was at
-/// fault (exit codes 4 and 127: then core::EnvironmentError is thrown once all children have ended). SIGINT
-/// and SIGTERM end the children; what they finished is kept. `on_progress` is called a few times a second and
-/// at the end. Throws core::EnvironmentError when another study works in the folder. Not thread-safe: signal
-/// handlers are set for the duration of the call.
+/// Runs that end by signal or time limit are tried again. Runs with other errors (bad input, memory, refusals
+/// of SUMO) are not, neither now nor when the study is resumed in the same folder. When the worker's program
+/// or the environment is at fault (exit codes 4 and 127), core::EnvironmentError is thrown once all children
+/// have ended. SIGINT and SIGTERM end the children; finished runs are kept. `on_progress` is called a few
+/// times per second and at the end. Throws core::EnvironmentError when another study runs in the folder. Not
+/// thread-safe: sets signal handlers for the duration of the call.
 StudyResult run(const Plan& plan, const results::Store& store, const RunnerOptions& options,
                 const std::function<void(const StudyProgress&)>& on_progress);
 

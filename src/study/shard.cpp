@@ -29,9 +29,9 @@ Shard shard_from(const std::string& text, const std::string& where) {
     Shard shard;
     if (slash == std::string::npos || !read_number(text.substr(0, slash), shard.index) ||
         !read_number(text.substr(slash + 1), shard.count))
-        throw core::InputError({where, fmt::format("\"{}\" is no shard", text), allowed, ""});
+        throw core::InputError({where, fmt::format("\"{}\" is not a shard", text), allowed, ""});
     if (shard.count == 0)
-        throw core::InputError({where, text + " divides a study into nothing", allowed, ""});
+        throw core::InputError({where, text + " divides a study into 0 shards", allowed, ""});
     if (shard.index == 0 || shard.index > shard.count)
         throw core::InputError(
             {where, fmt::format("there is no shard {} of {}", shard.index, shard.count), allowed, ""});
@@ -54,7 +54,7 @@ void claim(const std::filesystem::path& folder, const Shard& shard) {
         };
         throw core::InputError({folder.string(),
                                 fmt::format("holds {}, not {}", describe(held), describe(shard)),
-                                "one shard a folder", "Choose another folder with --out"});
+                                "one shard per folder", "Choose another folder with --out"});
     }
     if (shard.whole()) return;
     core::make_folder(folder);

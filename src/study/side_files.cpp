@@ -32,8 +32,8 @@ std::string streets_json(const roads::Network& network) {
     return names.dump(1, ' ', false, core::Json::error_handler_t::replace) + "\n";
 }
 
-/// Counted flows of a scenario, where it has them, as read_facts expects them. Throws core::InputError for
-/// edges that the network has not.
+/// Writes the counted flows of a scenario, if it has any, as read_facts expects them. Throws core::InputError
+/// for edges that the network does not have.
 void write_counts(const scenario::ScenarioConfig& config, const roads::Network& network,
                   const std::filesystem::path& file) {
     if (config.demand.counts.empty()) return;
@@ -48,8 +48,8 @@ void write_counts(const scenario::ScenarioConfig& config, const roads::Network& 
     core::write_atomically(file, core::read_file(source));
 }
 
-/// What a scenario needs beside its network: a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts, its wide edges, its street names, and a picture for the report.
+/// Makes what a scenario needs besides its network: a first demand, which finds unknown edges and unreachable
+/// destinations before any worker starts, its wide edges, street names, and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const experiment::RunJob& unit,
                        const std::filesystem::path& folder) {
     const std::filesystem::path picture = folder / "network.svg";

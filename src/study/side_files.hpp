@@ -9,18 +9,17 @@
 
 namespace clearway::study {
 
-/// Writes what a report needs of each scenario of the plan beside its network: wide edges, counted flows,
-/// street names and a picture. Also makes a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts. What is there is kept. Throws core::InputError with the problems of
-/// all scenarios.
+/// Writes what a report needs of each scenario besides its network: wide edges, counted flows, street names
+/// and a picture. Also makes a first demand, which finds unknown edges and unreachable destinations before
+/// any worker starts. Keeps what already exists. Throws core::InputError with the problems of all scenarios.
 void complete_scenarios(const Plan& plan, const results::Store& store);
 
-/// Keeps the command that began the study, whatever continues it, unless that command extends it beyond the
-/// replications that were there `before`.
+/// Stores the command that made the study: the first one, or a later one that extends the study beyond the
+/// `before` replications it had.
 void keep_command(const results::Store& store, const std::string& command, std::uint32_t before);
 
-/// Copies what the trainings of models left, `NAME/{losses.csv,summary.json}` of `source`, for the report's
-/// train-test curves. Throws core::EnvironmentError when it cannot write.
+/// Copies the outputs of trainings, `NAME/{losses.csv,summary.json}` in `source`, for the report's train-test
+/// curves. Throws core::EnvironmentError when it cannot write.
 void copy_trainings(const std::filesystem::path& source, const results::Store& store);
 
 }  // namespace clearway::study

@@ -9,7 +9,7 @@
 namespace clearway::study {
 namespace {
 
-/// The cells of a folder with the runs that belong to it: all of the study, or those of its shard.
+/// The cells of a folder with their runs: those of the whole study, or of the folder's shard.
 std::vector<CellStatus> cells_of(const results::Manifest& manifest, const Shard& shard) {
     std::vector<CellStatus> cells;
     for (const results::ScenarioEntry& scenario : manifest.scenarios) {
@@ -33,7 +33,7 @@ State state_of(const StudyStatus& status) {
     return status.failed > 0 ? State::failed : State::complete;
 }
 
-/// From what the running process noted when it began: when, and how many runs were there.
+/// Estimated from the start time and the number of ended runs that the running process noted.
 std::optional<double> time_left_s(const StudyStatus& status, const detail::LockNote& note) {
     const double elapsed_s =
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -

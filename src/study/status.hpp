@@ -13,7 +13,7 @@ namespace clearway::study {
 
 enum class State : std::uint8_t {
     running,   ///< A process works in the folder.
-    stopped,   ///< Nobody does, and runs are missing: interrupted, killed, or not begun.
+    stopped,   ///< No process does, and runs are missing: interrupted, killed, or not begun.
     complete,  ///< Every run is complete.
     failed,    ///< Every run has ended, some without a result.
 };
@@ -30,7 +30,7 @@ struct CellStatus {
     std::size_t failed = 0;
 };
 
-/// How far the study in a run folder is, seen from outside.
+/// Progress of the study in a run folder, seen from outside.
 struct StudyStatus {
     std::filesystem::path folder;
     State state = State::stopped;
@@ -39,12 +39,12 @@ struct StudyStatus {
     std::size_t runs = 0;
     std::size_t complete = 0;
     std::size_t failed = 0;
-    /// Time to the end at the pace since the running process began; nothing before its first run.
+    /// Remaining time at the pace since the running process began; empty before its first run ends.
     std::optional<double> time_left_s;
 };
 
-/// Reads a run folder while anybody or nobody works in it, and disturbs nothing. Takes about the time of
-/// listing its folders. Throws core::InputError when it is none.
+/// Reads a run folder, whether or not a process works in it, without disturbing that. Takes about as long as
+/// listing its folders. Throws core::InputError when it is not a run folder.
 StudyStatus read_status(const std::filesystem::path& folder);
 
 }  // namespace clearway::study

@@ -13,7 +13,7 @@ std::string word(const std::filesystem::path& path) {
     return core::shell_text({path.string()});
 }
 
-/// Runs shard "$1"; exit codes as clearway's.
+/// Runs shard "$1", with the exit codes of clearway.
 std::string shard_script(const Submission& submission) {
     std::vector<std::string> options = submission.study_options;
     const std::string extra = options.empty() ? "" : " " + core::shell_text(options);
@@ -105,7 +105,7 @@ std::string submit_script(const Submission& submission) {
     const std::string folder = word(submission.folder);
     std::string text = fmt::format("{}mkdir -p {}/logs\n", submit_head, folder);
     if (submission.engine == SubmitEngine::slurm) {
-        // The merge says what is missing when shards failed, so it follows whatever became of them.
+        // The merge runs even if shards failed: it says what is missing.
         return text + fmt::format(R"(array=$(sbatch --parsable {0}/array.sbatch)
 merge=$(sbatch --parsable --dependency="afterany:${{array%%;*}}" {0}/merge.sbatch)
 echo "job array ${{array%%;*}}, merge ${{merge%%;*}}; squeue shows them, and: {1} status {0}"

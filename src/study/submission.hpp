@@ -9,20 +9,19 @@ namespace clearway::study {
 
 /// What runs the shards of a study.
 enum class SubmitEngine : std::uint8_t {
-    slurm,     ///< A job array of Slurm, and a job that merges after it.
+    slurm,     ///< A Slurm job array, and a job that merges its shards.
     parallel,  ///< GNU parallel, on this host or those of its --sshloginfile.
     local,     ///< Processes of this host.
 };
 
-/// A study divided for many machines. Paths are absolute and the same on all of them.
+/// A study divided among many machines. Paths are absolute and the same on all of them.
 struct Submission {
     SubmitEngine engine = SubmitEngine::local;
     std::uint32_t shards = 1;
     std::filesystem::path program;  ///< `clearway`.
     std::filesystem::path study;
-    std::filesystem::path
-        folder;  ///< Shards go to `shards/`, the result to `merged/`, what is said to `logs/`.
-    double shard_limit_s = 3600.0;           ///< Wall time that Slurm grants a shard.
+    std::filesystem::path folder;   ///< Shards go to `shards/`, the result to `merged/`, logs to `logs/`.
+    double shard_limit_s = 3600.0;  ///< Wall time that Slurm grants a shard.
     std::vector<std::string> study_options;  ///< Passed on to `clearway study`.
 };
 
@@ -32,8 +31,9 @@ struct Script {
     std::string text;
 };
 
-/// The scripts, `submit.sh` last: it starts everything. A shard that is killed, or warned of its time limit,
-/// comes back and goes on in its folder; where a lost node may still hold that folder, in one beside it.
+/// The scripts; the last, `submit.sh`, starts everything. A shard that is killed or reaches its time limit is
+/// queued again and continues in its folder, or in a folder next to it if a lost node may still hold that
+/// one.
 std::vector<Script> scripts_of(const Submission& submission);
 
 }  // namespace clearway::study

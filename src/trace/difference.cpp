@@ -11,7 +11,7 @@
 namespace clearway::trace {
 namespace {
 
-/// Walks two values of a kind together and keeps the first difference.
+/// Compares two values member by member and keeps the first difference.
 class Comparison {
   public:
     template <class Value>
@@ -31,7 +31,7 @@ class Comparison {
             if (one != other) note(name, one, other);
         }
     }
-    /// Elements by `check_element(name, one, other)`.
+    /// Compares elements with `check_element(name, one, other)`.
     template <class List, class CheckElement>
     void list(const std::string& name, const List& one, const List& other,
               const CheckElement& check_element) {
@@ -114,7 +114,7 @@ void compare_registration(Comparison& comparison, core::VehicleKey key, const tr
         comparison.values(name + ".route", one.route(left->route), other.route(right->route));
 }
 
-/// Compares the fields of two actions of one kind.
+/// Compares kind and fields of two actions.
 void compare_action(Comparison& comparison, const std::string& name, const traffic::Action& one,
                     const traffic::Action& other) {
     comparison.check(name, traffic::name(one), traffic::name(other));

@@ -11,9 +11,9 @@
 
 namespace clearway::trace {
 
-// The first thing in which two of a kind differ, in words: `vehicles[3].state.x_m: 12.5, then 12.25`. Nothing
-// when every number is the same to the bit and every text the same. Rosters are compared by the vehicles that
-// are named.
+// The first difference between two values, in words: `vehicles[3].state.x_m: 12.5, then 12.25`. Empty when
+// all numbers are equal bit for bit and all texts are equal. Rosters are compared only for the vehicles that
+// the values name.
 
 std::optional<std::string> difference(const truth::Snapshot& one, const truth::Snapshot& other);
 std::optional<std::string> difference(const traffic::Observation& one, const traffic::Observation& other);

@@ -11,15 +11,15 @@
 
 namespace clearway::trace {
 
-/// What sensors lacked in recorded traffic, with the draws of the recorded run. One thread.
+/// Logs what sensors missed in recorded traffic, with the random draws of the recorded run. One thread.
 class FailureLogger {
   public:
-    /// `failure` may be another than the recorded one. `network` outlives the logger. Throws core::InputError
-    /// for a failure that does not exist.
+    /// `failure` may differ from the recorded one. `network` outlives the logger. Throws core::InputError for
+    /// an unknown failure.
     FailureLogger(const RecordingInfo& info, const std::string& failure, const roads::Network& network);
 
-    /// Takes every step in the order of the recording. The log where a report round took place, valid until
-    /// the next call; otherwise null.
+    /// Takes every step in the order of the recording. Returns the log of a report round, valid until the
+    /// next call; null when the step has none.
     const sensing::FailureLog* step(const RecordedStep& step);
 
   private:
@@ -29,8 +29,8 @@ class FailureLogger {
     sensing::FailureLog log_;
 };
 
-/// Header and lines of a log as CSV: `time_s,what,vehicle,other_vehicle,cause`, a line for each vehicle that
-/// is `dark` or `never_seen` and for each `lost_link`, whose cause is one of these two.
+/// Header and lines of a log as CSV: `time_s,what,vehicle,other_vehicle,cause`, one line per vehicle that is
+/// `dark` or `never_seen` and per `lost_link`, whose cause is one of these two.
 inline constexpr const char* failure_log_header = "time_s,what,vehicle,other_vehicle,cause\n";
 std::string csv_lines(const sensing::FailureLog& log, const traffic::Roster& roster);
 

@@ -22,7 +22,7 @@ using detail::TableWriter;
 
 constexpr const char* hash_name = "content_hash";
 
-/// Attributes of the file itself; what has members of its own is a group with attributes, or JSON.
+/// Attributes of the file. A member that is an object becomes a group with attributes, or JSON.
 core::Json to_json(const RecordingInfo& info) {
     core::Json object;
     object["format"] = detail::recording_format;
@@ -65,7 +65,7 @@ void write_info(hid_t file, const RecordingInfo& info) {
     detail::write_attributes(file, object);
 }
 
-/// The attributes as `to_json` gave them.
+/// Reads back what `to_json` made.
 core::Json read_info(hid_t file, const std::string& where) {
     core::Json object = detail::read_attributes(file);
     for (const char* const name : info_groups) {
@@ -76,7 +76,7 @@ core::Json read_info(hid_t file, const std::string& where) {
     return object;
 }
 
-/// Hash of everything recorded, however it is chunked and compressed.
+/// Hash of everything recorded; does not depend on chunks or compression.
 template <class Tables>
 std::string hash_of(const RecordingInfo& info, Tables& steps) {
     detail::RunningHash hash;
@@ -125,7 +125,7 @@ struct RecordingWriter::State {
 
 namespace {
 
-/// Does it; what HDF5 cannot write is the machine's fault.
+/// Runs `action`. What HDF5 cannot write becomes core::EnvironmentError.
 template <class Action>
 void writing(const std::filesystem::path& file, const Action& action) {
     try {
@@ -205,7 +205,7 @@ struct RecordingReader::State {
 
 namespace {
 
-/// Does it; what HDF5 or a table finds wrong is damage.
+/// Runs `action`. What HDF5 or a table finds wrong becomes core::InputError: the file is damaged.
 template <class Action>
 auto reading(const std::filesystem::path& file, double time_s, const Action& action) {
     try {

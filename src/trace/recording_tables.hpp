@@ -10,8 +10,8 @@
 
 namespace clearway::trace {
 
-/// What of a recording can be written as a tidy table: one line a vehicle (or link, lease, signal, event) and
-/// step.
+/// The parts of a recording that can be written as a tidy table: one line per step and vehicle (or link,
+/// lease, signal, event).
 enum class RecordingTable : std::uint8_t {
     snapshot,
     signals,
@@ -33,13 +33,13 @@ struct RoadNames {
     std::vector<std::string> signals;
 };
 
-/// A vehicle as a cell: SUMO's id, or its key where the roster does not know it; empty for none.
+/// A vehicle as a cell: SUMO's id, or the key when the roster does not know it; empty for no vehicle.
 std::string vehicle_cell(const traffic::Roster& roster, core::VehicleKey key);
 
-/// Header of the table, units in the names of columns, with its line end.
+/// Header line of the table, line end included. Column names contain units.
 std::string csv_header(RecordingTable table);
-/// The lines of one step, in the order of the recording; empty where the step has nothing of the table. Reals
-/// are the shortest text that reads back as the same number; an empty cell is a lane or vehicle that is none.
+/// The lines of one step, in the order of the recording; empty when the step has no rows of the table. Reals
+/// are the shortest text that reads back as the same number. A missing lane or vehicle is an empty cell.
 std::string csv_lines(RecordingTable table, const RecordedStep& step, const RoadNames& names);
 
 }  // namespace clearway::trace

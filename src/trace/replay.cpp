@@ -34,7 +34,7 @@ class Scorer {
     LinkScore score_;
 };
 
-/// Gathers what a predictor said of every candidate, and what was true.
+/// Collects a predictor's probability of every candidate, and the truth.
 class CandidateGatherer {
   public:
     void add(const truth::Snapshot& snapshot, const metrics::TrueLinks& truth,
@@ -127,7 +127,7 @@ class Replay {
 
     pipeline::DecisionChain chain_;
     metrics::TrueLinks true_links_;
-    bool has_looked_ = false;  ///< Of the present step.
+    bool has_looked_ = false;  ///< Whether `true_links_` is that of the present step.
     Scorer recorded_, replayed_;
     CandidateGatherer candidates_;
     ReplayResult result_;

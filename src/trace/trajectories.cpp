@@ -18,7 +18,7 @@
 namespace clearway::trace {
 namespace {
 
-/// A stretch of a vehicle's way without a gap in time.
+/// A stretch of a vehicle's journey without a gap in time.
 struct Line {
     std::vector<double> time_s;
     std::vector<float> speed_mps;

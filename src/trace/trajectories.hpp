@@ -9,9 +9,9 @@
 
 namespace clearway::trace {
 
-/// What is written of a recorded run.
+/// What to write of a recorded run.
 struct TrajectoryOptions {
-    core::Seconds every{1.0};  ///< Time between two places of a vehicle; at least a step.
+    core::Seconds every{1.0};  ///< Time between two places of a vehicle, at least one step.
     core::Metres reach{50.0};  ///< Vehicles nearer than this to an emergency vehicle are its neighbours.
 };
 
@@ -23,13 +23,12 @@ struct TrajectoryCounts {
     bool has_coordinates = false;
 };
 
-/// Writes where the emergency vehicles of a recording drove, and who was near them, into `folder`:
-/// trajectories.csv, one row for each vehicle and time (time_s, vehicle, class, near, distance_m,
-/// longitude_deg, latitude_deg, x_m, y_m, speed_mps, lane; the row of an emergency vehicle has no `near`),
-/// and trajectories.geojson (RFC 7946, WGS 84): one LineString for each vehicle and stretch of time without a
-/// gap, its times beside it. Where the network has no projection that is known, the coordinates are empty and
-/// there is no GeoJSON. Lines of one place are left out of GeoJSON, which asks for two. Throws as
-/// RecordingReader does.
+/// Writes into `folder` where the emergency vehicles of a recording drove and which vehicles were near them:
+/// trajectories.csv, one row per vehicle and time (time_s, vehicle, class, near, distance_m, longitude_deg,
+/// latitude_deg, x_m, y_m, speed_mps, lane; the row of an emergency vehicle has no `near`), and
+/// trajectories.geojson (RFC 7946, WGS 84): one LineString per vehicle and stretch of time without a gap,
+/// with its times. When the network has no known projection, the coordinates are empty and no GeoJSON is
+/// written. A LineString needs two places, so shorter stretches are omitted. Throws as RecordingReader does.
 TrajectoryCounts write_trajectories(RecordingReader& recording, const roads::Network& network,
                                     const TrajectoryOptions& options, const std::filesystem::path& folder);
 

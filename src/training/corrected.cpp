@@ -157,7 +157,7 @@ void measure(const TorchNet& net, const std::vector<GraphSampleFile>& files, Cor
     }
 }
 
-/// Takes the epoch's losses. True while training should go on.
+/// Records the epoch's losses. Returns whether training should continue.
 bool take_epoch(const TorchNet& net, const EpochLoss& loss, std::uint32_t patience, CorrectedResult& result) {
     const auto epoch = static_cast<std::uint32_t>(result.losses.size());
     const double best = result.state.empty() ? std::numeric_limits<double>::infinity()

@@ -15,12 +15,12 @@ namespace clearway::training {
 /// without that offset: with more than one snapshot all edges would point into the first.)
 struct GraphBatch {
     std::uint32_t feature_count = 0;
-    std::vector<float> features;               ///< Row-major, one row a vehicle.
+    std::vector<float> features;               ///< Row-major, one row per vehicle.
     std::vector<std::int64_t> message_source;  ///< A message flows from source to target.
     std::vector<std::int64_t> message_target;
     std::vector<std::int64_t> pair_left;
     std::vector<std::int64_t> pair_right;
-    std::vector<float> label;  ///< 0 or 1, one a pair.
+    std::vector<float> label;  ///< 0 or 1, one per pair.
 
     std::size_t vehicle_count() const { return feature_count == 0 ? 0 : features.size() / feature_count; }
     std::size_t pair_count() const { return label.size(); }

@@ -60,12 +60,12 @@ struct LogisticResult {
 
 /// Logistic regression on pair features by Newton's method (iteratively reweighted least squares; Hastie,
 /// Tibshirani, Friedman 2009, "The Elements of Statistical Learning", 4.4.1) with a small ridge. Split by
-/// seed as the net's training. Deterministic. Throws core::InputError: fewer than three seeds, files of
-/// different link radius, pairs of one class only in a part of the split.
+/// seed as for the net. Deterministic. Throws core::InputError for fewer than three seeds, files with
+/// different link radii, or a part of the split with pairs of only one class.
 LogisticResult train_logistic(const std::vector<samples::PairSampleFile>& files,
                               const LogisticConfig& config);
 
-/// What makes this training the one that it is.
+/// Identifies this training.
 Identity identity_of(const LogisticConfig& config, const std::string& data_hash);
 
 /// The summary that `--json` prints and `summary.json` holds.

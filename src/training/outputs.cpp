@@ -24,7 +24,7 @@ using detail::json_from;
 using detail::json_value;
 
 Json last_loss(const std::vector<EpochLoss>& losses, double EpochLoss::*member) {
-    // Not finite becomes null, as JSON has no other word for it.
+    // A loss that is not finite becomes null: JSON cannot write it.
     return losses.empty() ? Json(nullptr) : Json(losses.back().*member);
 }
 

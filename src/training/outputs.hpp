@@ -16,7 +16,7 @@ struct RunDescription {
     TrainingConfig training;
 };
 
-/// What makes a training the one that it is.
+/// Identifies a training.
 Identity identity_of(PairChoice pairs, const RunDescription& run);
 Identity identity_of(const CorrectedConfig& config, const RunDescription& run);
 

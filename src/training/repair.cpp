@@ -72,7 +72,7 @@ class MeanLoss {
         sum_ += loss * static_cast<double>(pairs);
         pairs_ += pairs;
     }
-    // A checkpoint keeps floats: the same number with and without one.
+    // Rounded to float as in a checkpoint, so that resuming gives the same number.
     double value() const { return static_cast<float>(sum_ / static_cast<double>(pairs_)); }
     std::size_t pairs() const { return pairs_; }
 
@@ -212,7 +212,7 @@ Scores scores_of(const TorchRepairNet& net, const RepairConfig& config, const Re
     return scores;
 }
 
-/// Logits rank, probabilities calibrate: beyond 37 all probabilities round to 1 and would tie.
+/// AUC and AP rank by logits, because beyond 37 all probabilities round to 1 and would tie.
 metrics::LinkQuality quality_by_net(const Scores& scores, double threshold) {
     metrics::LinkQuality quality =
         metrics::link_quality({probabilities(scores.logits), scores.linked}, threshold);

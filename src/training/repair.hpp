@@ -17,7 +17,7 @@
 
 namespace clearway::training {
 
-/// How the improved net is trained. What is marked ablation makes a net that the program cannot run.
+/// How the improved net is trained. Settings marked as ablation make a net that the program cannot run.
 struct RepairConfig {
     std::uint32_t epochs = 30;
     double learning_rate = 0.003;
@@ -119,7 +119,7 @@ struct Checkpoint {
 /// different seeds of the data; the epoch with the least log loss on validation seeds wins; measured on test
 /// seeds. After every epoch the checkpoint is renewed; a training that finds one of the same configuration
 /// and data goes on from it and gives the same net as one that was never interrupted. Deterministic. Throws
-/// core::InputError: fewer than three seeds; a part without pairs, or with labels of one class only; a
+/// core::InputError: fewer than three seeds; a part without pairs, or with labels of one class only; or a
 /// checkpoint of another configuration or data set (naming the difference).
 RepairResult train_repair(const std::vector<samples::RepairSampleFile>& files, const RepairConfig& config,
                           const Checkpoint& checkpoint, const TrainingHooks& hooks = {});

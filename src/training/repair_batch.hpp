@@ -23,8 +23,8 @@ struct RepairBatch {
     std::vector<float> edges;  ///< edges x edge_width.
     std::vector<std::int64_t> pair_left, pair_right;
     std::vector<float> pair_features;  ///< pairs x pair_width.
-    std::vector<float> label;          ///< 0 or 1, one a pair.
-    std::vector<float> weight;         ///< In the loss, one a pair.
+    std::vector<float> label;          ///< 0 or 1, one per pair.
+    std::vector<float> weight;         ///< In the loss, one per pair.
 
     std::size_t vehicle_count() const { return x_m.size(); }
     std::size_t receiver_count() const { return reach_m.size(); }

@@ -47,7 +47,7 @@ std::filesystem::path head_of(const Checkpoint& checkpoint) {
     return checkpoint.folder / checkpoint_file;
 }
 
-/// The hashes that the tensors may have: of the newest checkpoint, and of that before it, if there was one.
+/// The hashes that the tensors may have: that of the newest checkpoint and, if any, of the one before.
 std::vector<std::string> content_hashes(const Checkpoint& checkpoint, const RepairConfig& config) {
     const std::filesystem::path file = head_of(checkpoint);
     if (!std::filesystem::exists(file))
@@ -69,7 +69,8 @@ bool exists(const Checkpoint& checkpoint, const RepairConfig& config) {
     const bool has_tensors = std::filesystem::exists(file);
     if (!has_tensors && !std::filesystem::exists(head_of(checkpoint))) return false;
     const std::vector<std::string> allowed = content_hashes(checkpoint, config);
-    if (!has_tensors && allowed.size() == 1) return false;  // Killed between the files of the very first.
+    if (!has_tensors && allowed.size() == 1)
+        return false;  // Killed between the two files of the first checkpoint.
     if (!has_tensors)
         throw core::InputError({file.string(), "is missing beside checkpoint.json", "", cure_anew});
     const std::string found = core::content_hash(core::read_file(file));
@@ -99,7 +100,8 @@ void write_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config,
     core::make_folder(checkpoint.folder);
     const std::string tensors = format_pth(all, tensors_of(checkpoint).stem().string());
     Json head = {{"format", format}, {"content_hashes", {core::content_hash(tensors)}}};
-    // Two files cannot be replaced at once: until the second is, the first fits the one before as well.
+    // Two files cannot be replaced at once, so until the second is replaced, the first also lists the hash of
+    // its previous content.
     if (std::filesystem::exists(tensors_of(checkpoint)))
         head["content_hashes"].push_back(core::content_hash(core::read_file(tensors_of(checkpoint))));
     head.update(identity_of(config, checkpoint.data_hash));

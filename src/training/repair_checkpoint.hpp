@@ -14,8 +14,8 @@ struct RepairProgress {
     StateDict optimizer;  ///< Adam's moments after the last epoch.
 };
 
-/// Whoever is killed in it leaves this checkpoint or the one before. Does nothing without a folder. Throws
-/// core::EnvironmentError.
+/// A process killed while writing leaves this checkpoint or the previous one. Does nothing without a folder.
+/// Throws core::EnvironmentError.
 void write_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config,
                       const RepairProgress& progress);
 /// False, and nothing read, when there is none. Throws core::InputError when it is damaged, or belongs to

@@ -16,7 +16,7 @@ using detail::field_name;
 using detail::Json;
 using detail::json_from;
 
-/// An interrupted training ends without the measuring.
+/// An interrupted training ends before it is measured.
 bool is_measured(const RepairResult& result) {
     return !result.groups.empty();
 }

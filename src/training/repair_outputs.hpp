@@ -12,7 +12,7 @@ namespace clearway::training {
 /// (RepairConfig::is_whole).
 prediction::Weights repair_weights(const StateDict& state, const prediction::RepairDimensions& dimensions);
 
-/// What makes this training the one that it is.
+/// Identifies a training.
 Identity identity_of(const RepairConfig& config, const std::string& data_hash);
 
 /// What `--json` prints and `summary.json` holds: configuration, seeds, counts, losses, quality. Numbers that

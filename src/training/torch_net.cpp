@@ -1,5 +1,5 @@
-// Few files of the module include torch: its headers take most of a minute to compile in full, so only those
-// needed stand here.
+// Few files of the module include torch, whose headers take most of a minute to compile; so only those needed
+// are included here.
 #include "training/torch_net.hpp"
 
 #include <cassert>

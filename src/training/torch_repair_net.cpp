@@ -148,7 +148,8 @@ Motion place_on_path(const Tensor& displacement, const Tensor& sigma, const Inpu
     const Tensor at_path = (displacement / inputs.reach).clamp(0.0, 1.0) * segments;
     const Tensor segment = at_path.detach().floor().clamp_max(segments - 1.0);
     const Tensor share = at_path - segment;
-    // A training that diverges has places that are no number: any segment will do, the loss tells.
+    // When training diverges, places are NaN: then any segment will do, because the loss shows the
+    // divergence.
     const Tensor index = segment.nan_to_num(0.0).to(torch::kInt64).unsqueeze(2).expand({-1, 1, 2});
     const Tensor from = inputs.path.gather(1, index).squeeze(1);
     const Tensor along = inputs.path.gather(1, index + 1).squeeze(1) - from;
@@ -210,7 +211,7 @@ struct TorchRepairNet::Parts {
         return place_on_path(displacement, sigma, inputs);
     }
 
-    /// What the decoder is told of distances: distance, score, P(d < r), spread.
+    /// Distance inputs of the decoder: distance, score, P(d < r), spread.
     static Tensor distances(const Motion& motion, const Inputs& inputs, Tensor& score) {
         const std::int64_t known = inputs.vehicles - inputs.receivers;
         const Tensor places = at::cat({motion.place, inputs.places.narrow(0, inputs.receivers, known)}, 0);

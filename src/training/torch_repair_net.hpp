@@ -45,8 +45,8 @@ struct RepairLoss {
 };
 
 struct RepairOutput {
-    std::vector<float> logits;          ///< One a pair.
-    std::vector<float> displacement_m;  ///< One a receiver.
+    std::vector<float> logits;          ///< One per pair.
+    std::vector<float> displacement_m;  ///< One per receiver.
     std::vector<float> sigma_m;
 };
 

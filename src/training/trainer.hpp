@@ -12,7 +12,7 @@
 
 namespace clearway::training {
 
-/// What both ways of training share. The defaults are the dissertation's.
+/// Settings shared by both trainings of the published net. The defaults are the dissertation's.
 struct TrainingConfig {
     std::uint32_t epochs = 100;
     double learning_rate = 0.01;

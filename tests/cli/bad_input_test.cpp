@@ -100,7 +100,7 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     refused({"--set", "preempt_signals.lead_s=99"}, "99 is out of range (allowed: 0 to 60)");
     refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is no assignment");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
-    refused({"--model", "none.weights"}, "none.weights is no file");
+    refused({"--model", "none.weights"}, "none.weights is not a file");
     write("net.weights", "no weights");
     refused({"--predictor", "graphsage", "--model", "net.weights"},
             "condition corridor_graphsage_net: model: ");

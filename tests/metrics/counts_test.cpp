@@ -36,11 +36,11 @@ TEST(Counts, TellEveryProblemWithFileAndLine) {
     EXPECT_THAT(
         error_of("edge,vehicles_per_hour\nnorth,many\nsouth,-1\nwest,5\nwest,6\neast\neast,inf\n,7\n"),
         AllOf(HasSubstr("counts.csv:2: \"north,many\""), HasSubstr("counts.csv:3:"),
-              HasSubstr("counts.csv:5: edge west stands there twice"), HasSubstr("counts.csv:6:"),
+              HasSubstr("counts.csv:5: edge west is listed twice"), HasSubstr("counts.csv:6:"),
               HasSubstr("counts.csv:7:"), HasSubstr("counts.csv:8:")));
     EXPECT_THAT(error_of("edge,count\nnorth,4\n"), HasSubstr("counts.csv:1:"));
     EXPECT_THAT(error_of(""), HasSubstr("counts.csv:1:"));
-    EXPECT_THAT(error_of("edge,vehicles_per_hour\n"), HasSubstr("holds no edge"));
+    EXPECT_THAT(error_of("edge,vehicles_per_hour\n"), HasSubstr("lists no edge"));
 }
 
 TEST(Counts, ThatAreMissingAreNamed) {

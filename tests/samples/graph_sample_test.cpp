@@ -99,7 +99,7 @@ TEST_F(GraphSampleTest, a_changed_byte_is_noticed) {
     std::string bytes = core::read_file(file());
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     core::write_atomically(file(), bytes);
-    EXPECT_THAT(message_of([&] { samples::read_graph_samples(file()); }), HasSubstr("hashes to"));
+    EXPECT_THAT(message_of([&] { samples::read_graph_samples(file()); }), HasSubstr("its content hash is"));
 }
 
 TEST_F(GraphSampleTest, an_impossible_count_is_refused_before_memory_is_taken) {

@@ -113,7 +113,7 @@ TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
     const std::string wrong = problems(
         text + "[quick]\nreplications = 0\nscenarios = [\"merg\"]\nconditions = [\"solo\"]\nseed = 3\n");
     EXPECT_THAT(wrong, testing::AllOf(HasSubstr("replications"), HasSubstr("Did you mean 'merge'?"),
-                                      HasSubstr("'solo' is none of the study's"), HasSubstr("unknown key")));
+                                      HasSubstr("'solo' is not in the study"), HasSubstr("unknown key")));
     try {
         read_study(folder_.write("study.toml", text), Extent::quick);
         FAIL() << "accepted";
@@ -150,8 +150,8 @@ TEST_F(StudyFile, RefusesSettingsAndModelsThatDoNotExist) {
                 testing::AllOf(HasSubstr("study.toml:6:"), HasSubstr("'horizon_m'")));
     EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = -1 }\n"),
                 HasSubstr("-1 is out of range"));
-    EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = [1] }\n"), HasSubstr("is no value"));
-    EXPECT_THAT(problems(begin + "model = \"none.weights\"\n"), HasSubstr("none.weights is no file"));
+    EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = [1] }\n"), HasSubstr("is not a value"));
+    EXPECT_THAT(problems(begin + "model = \"none.weights\"\n"), HasSubstr("none.weights is not a file"));
     EXPECT_THAT(problems(begin + "parts = [\"corridor\"]\n"), HasSubstr("parts: is now called policy"));
 }
 

@@ -236,7 +236,7 @@ TEST_F(Precision, ThatCannotBeMeantIsRefused) {
     EXPECT_THAT(problems("[precision]\nhalf_width = 1\nmetric = \"emergency_travel_time\"\n"),
                 HasSubstr("'emergency_travel_time_s'"));
     EXPECT_THAT(problems("replications = 5\n[precision]\nhalf_width = 1\n"),
-                HasSubstr("replications: is given beside [precision]"));
+                HasSubstr("replications: is given together with [precision]"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(Plan, RefusesNamesThatAreTwiceOrNoFolders) {
     StudyConfig config = example();
     config.scenarios[1].name = "alpha";
     config.conditions[1].name = "../up";
-    EXPECT_THAT(problems_of(config), testing::AllOf(testing::HasSubstr("\"alpha\" is there twice"),
+    EXPECT_THAT(problems_of(config), testing::AllOf(testing::HasSubstr("\"alpha\" is used twice"),
                                                     testing::HasSubstr("\"../up\" cannot be the name")));
 }
 

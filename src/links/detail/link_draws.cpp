@@ -11,7 +11,7 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t coarseness = 8;
 
-/// Values by run and column, summed with weights.
+/// Values by run and column; columns can be summed with a weight per run.
 class Table {
   public:
     Table(std::size_t runs, std::size_t columns) : columns_(columns), values_(runs * columns, 0.0) {}
@@ -33,7 +33,7 @@ class Table {
     std::vector<double> values_;
 };
 
-/// Counts of every run on the coarse grid, empty bins left out.
+/// Counts of every run on the coarse grid, without empty bins.
 struct CoarseCounts {
     Table linked;
     Table unlinked;
@@ -59,7 +59,8 @@ CoarseCounts coarse_counts(const std::vector<LinkSummary>& runs) {
     return counts;
 }
 
-/// Moves all draws so that `sample`, the draw of the whole sample, becomes `exact`.
+/// Shifts all draws by the difference between `exact` and `sample`, the value of the whole sample on the
+/// coarse grid.
 void move_to(Drawn& drawn, const std::optional<double>& exact, const std::optional<double>& sample) {
     drawn.value = exact;
     if (!exact || !sample) return;

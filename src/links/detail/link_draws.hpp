@@ -8,7 +8,7 @@
 
 namespace clearway::links::detail {
 
-/// A measure of the whole sample, and of every resample; NaN where it is not defined.
+/// A measure of the whole sample and of every resample; NaN where a resample does not define it.
 struct Drawn {
     std::optional<double> value;
     std::vector<double> draws;
@@ -24,12 +24,12 @@ struct DrawnMeasures {
     Drawn ap, auc, f1, log_loss, ece;
 };
 
-/// `runs` has one summary a run. Ranking measures of resamples come from a grid eight times as coarse, moved
-/// by the difference between both grids on the whole sample.
+/// `runs` has one summary per run. Ranking measures of resamples are computed on a grid eight times as coarse
+/// and shifted by the difference between both grids on the whole sample.
 DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double threshold,
                             const analysis::RunResampling& resampling);
 
-/// numerator / denominator of sums over runs.
+/// Sum of numerators / sum of denominators, over runs.
 Drawn draw_ratio(const std::vector<double>& numerators, const std::vector<double>& denominators,
                  const analysis::RunResampling& resampling);
 

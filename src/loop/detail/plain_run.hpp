@@ -12,10 +12,10 @@
 
 namespace clearway::loop::detail {
 
-// What runs without a policy share whose traffic is only watched: for data sets and to judge predictors.
-// `Order` is experiment::DatasetJob or experiment::LinkJob.
+// Shared by runs without a policy, whose traffic is only watched: to record data sets and to evaluate
+// predictors. `Order` is experiment::DatasetJob or experiment::LinkJob.
 
-/// Car-following alone.
+/// The car-following model alone.
 inline experiment::ConditionSpec plain_traffic(const std::string& name) {
     experiment::ConditionSpec condition;
     condition.name = name;
@@ -26,13 +26,13 @@ inline graph::LinkRules link_rules() {
     return {.radius_m = experiment::LoopConfig{}.link_radius_m};
 }
 
-/// The draws of a job's failures.
+/// The random draws of a job's failures.
 template <class Order>
 core::KeyedRandom random_of(const Order& job) {
     return core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{job.replication});
 }
 
-/// The sensor of a failure (sensing::failure_from). Throws core::InputError for another one.
+/// The sensor of a failure (sensing::failure_from). Throws core::InputError for an unknown failure.
 std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, sensing::Exits exits,
                                                 const core::KeyedRandom& random,
                                                 const sensing::SensorContext& context);

@@ -10,22 +10,22 @@
 
 namespace clearway::metrics::detail {
 
-/// How close vehicles near emergency vehicles come to running into the one ahead: pairs that follow each
-/// other on one lane, lanes across junctions included, both within `near_m` of an emergency vehicle or one
-/// themselves. Ways that cross are left to the counts of collisions and red passages; pairs side by side in
-/// one lane (sublane model) are no conflict.
+/// How close vehicles near emergency vehicles come to rear-end collisions. It looks at pairs that follow each
+/// other in one lane, lanes across junctions included, both of them within `near_m` of an emergency vehicle
+/// or emergency vehicles themselves. Crossing paths are covered by the counts of collisions and red passages.
+/// Pairs side by side in one lane (sublane model) are not conflicts.
 ///
-/// With the gap g from front to rear and the closing speed v: time to collision g / v, and deceleration to
-/// avoid a crash v^2 / (2 g) (SSAM's TTC and DRAC, at constant speeds).
+/// With the gap g from front to rear bumper and the closing speed v, the time to collision is g / v and the
+/// deceleration to avoid a crash is v^2 / (2 g) (SSAM's TTC and DRAC, at constant speeds).
 class ConflictWatch {
   public:
-    static constexpr float near_m = 100.0F;    ///< Assumed: as far as clearing reaches in town.
-    static constexpr float conflict_s = 1.5F;  ///< Times to collision below it are conflicts (SSAM).
+    static constexpr float near_m = 100.0F;    ///< Assumed: about as far ahead as lanes are cleared in town.
+    static constexpr float conflict_s = 1.5F;  ///< A shorter time to collision is a conflict (SSAM).
 
     /// One step; does not allocate once its buffers have grown.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster);
 
-    /// Least time to collision, s; nothing where nobody closed in on anybody.
+    /// Minimum time to collision, s; empty if no vehicle closed in on another.
     std::optional<double> least_ttc_s() const { return least_ttc_s_; }
     std::optional<double> greatest_drac_mps2() const { return greatest_drac_mps2_; }
     /// A vehicle that stays below `conflict_s` for several steps is one conflict.

@@ -19,7 +19,7 @@ class Element {
     std::string_view text(std::string_view attribute) const {
         return attributes_.find(attribute).value_or(std::string_view());
     }
-    /// Number of an attribute. Throws std::invalid_argument naming the attribute when it is none.
+    /// Number of an attribute. Throws std::invalid_argument, naming the attribute, when it is not a number.
     double number(std::string_view attribute) const;
 
   private:
@@ -27,9 +27,9 @@ class Element {
     const core::XmlAttributes& attributes_;
 };
 
-/// Calls `visit` for the start of every element of a file, in its order, with a fixed amount of memory.
-/// Throws core::InputError when the file is missing, cut off or not XML, and std::runtime_error (`FILE:LINE:
-/// what`) for whatever `visit` throws.
+/// Calls `visit` for the start of every element of a file, in order, using a fixed amount of memory. Throws
+/// core::InputError when the file is missing, cut off or not XML, and std::runtime_error (`FILE:LINE: what`)
+/// for whatever `visit` throws.
 void for_each_element(const std::filesystem::path& file, const std::function<void(const Element&)>& visit);
 
 }  // namespace clearway::metrics::detail

@@ -8,7 +8,7 @@
 namespace clearway::metrics::detail {
 namespace {
 
-constexpr float standing_mps = 0.1F;  // SUMO's own bound of waiting
+constexpr float standing_mps = 0.1F;  // SUMO's own threshold for waiting
 
 bool is_red(const std::string& state, std::uint16_t link) {
     return link < state.size() && (state[link] == 'r' || state[link] == 'u');
@@ -52,8 +52,8 @@ void FlowWatch::pass(const truth::Snapshot& snapshot, core::VehicleIndex row, co
     ++(is_emergency ? emergency_red_passages_ : others_red_passages_);
 }
 
-/// A way across a junction is known by its first inner lane, or by both ends where the vehicle jumped over
-/// it within one step.
+/// A path across a junction is identified by its first internal lane, or by the lanes before and after it
+/// when the vehicle crossed it within one step.
 const SignalWay* FlowWatch::way(core::LaneIndex from, core::LaneIndex to) const {
     const std::vector<SignalWay>& ways = layout_.signal_ways;
     for (auto one = std::ranges::lower_bound(ways, to, {}, &SignalWay::to);
@@ -63,7 +63,8 @@ const SignalWay* FlowWatch::way(core::LaneIndex from, core::LaneIndex to) const 
     return nullptr;
 }
 
-/// Red before and after the step: who crosses while the letter changes is given the benefit of the doubt.
+/// Red before and after the step: a vehicle that crosses while the signal changes gets the benefit of the
+/// doubt.
 bool FlowWatch::was_red(const truth::Snapshot& snapshot, const SignalWay& way) const {
     const std::size_t signal = way.signal.value;
     return signal < shown_.size() && signal < snapshot.signals.state.size() &&

@@ -15,8 +15,8 @@ namespace clearway::metrics::detail {
 /// red, queues at signals. Linear in the vehicles on the road; does not allocate once its buffers have grown.
 class FlowWatch {
   public:
-    /// Harder braking of a vehicle that is no emergency vehicle counts, m/s^2: what most drivers stay below
-    /// (AASHTO Green Book, stopping sight distance).
+    /// Braking of vehicles other than emergency vehicles counts as hard above this deceleration, m/s^2, which
+    /// most drivers do not exceed (AASHTO Green Book, stopping sight distance).
     static constexpr float hard_braking_mps2 = 3.4F;
 
     /// The layout outlives the watch.
@@ -27,16 +27,16 @@ class FlowWatch {
     void step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before);
 
     std::uint64_t hard_brakings() const { return hard_brakings_; }
-    /// Root mean square over steps and vehicles that are no emergency vehicles, m/s^3; nothing without one.
+    /// Root mean square over steps and vehicles other than emergency vehicles, m/s^3; empty without any.
     std::optional<double> jerk_mps3() const;
     std::uint64_t emergency_red_passages() const { return emergency_red_passages_; }
     std::uint64_t others_red_passages() const { return others_red_passages_; }
-    /// Vehicles past the stop lines of signals, an hour, while demand departs; nothing without signals.
+    /// Vehicles per hour that pass the stop lines of signals while demand departs; empty without signals.
     std::optional<double> throughput_per_hour() const;
-    /// Vehicles that stand on an approach to a signal, mean over approaches and the time in which demand
-    /// departs.
+    /// Vehicles standing on an approach to a signal, mean over the approaches and over the time in which
+    /// demand departs.
     std::optional<double> mean_queue_vehicles() const;
-    /// Most vehicles that stood on one approach to a signal at once.
+    /// Most vehicles standing on one approach to a signal at once.
     std::optional<double> longest_queue_vehicles() const;
 
   private:
@@ -59,7 +59,7 @@ class FlowWatch {
     double demand_time_s_ = 0.0;
     std::vector<std::uint32_t> halted_;  ///< By approach, now.
     double last_s_ = -1.0;
-    /// The step before, by its rows.
+    /// State at the previous step, by its rows.
     std::vector<core::LaneIndex> lane_;
     std::vector<float> acceleration_mps2_;
     std::vector<std::string> shown_;

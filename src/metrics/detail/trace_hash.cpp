@@ -21,7 +21,8 @@ struct TraceHash::State {
         XXH3_128bits_update(&hash, &number, sizeof(number));
     }
 
-    /// Element types without padding; the length goes first, so that neighbouring arrays cannot merge.
+    /// For element types without padding. The length is hashed first, so that the boundary between two arrays
+    /// counts.
     template <class Element>
     void array(const std::vector<Element>& elements) {
         static_assert(std::is_floating_point_v<Element> || std::has_unique_object_representations_v<Element>);

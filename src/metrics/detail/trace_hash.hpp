@@ -10,8 +10,8 @@
 namespace clearway::metrics::detail {
 
 /// Hash over everything that happened in a run: each snapshot in full, then the leases of that step. XXH3,
-/// 128 bit, streamed. Does not depend on how the compiler pads structs: every number is hashed by itself or
-/// in an array of its own.
+/// 128 bit, streamed. Does not depend on struct padding: every number is hashed by itself or in an array of
+/// numbers.
 class TraceHash {
   public:
     TraceHash();
@@ -21,7 +21,7 @@ class TraceHash {
 
     void add(const truth::Snapshot& snapshot);
     void add(std::span<const traffic::Lease> leases);
-    /// 32 hex digits of what was added so far.
+    /// Hash of everything added so far, 32 hex digits.
     std::string digest() const;
 
   private:

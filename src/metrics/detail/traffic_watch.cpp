@@ -11,18 +11,18 @@ namespace {
 
 using traffic::VehicleClass;
 
-constexpr float standing_mps = 0.1F;  // SUMO's own bound of waiting
+constexpr float standing_mps = 0.1F;  // SUMO's own threshold for waiting
 constexpr double sample_period_s = 5.0;
 constexpr double first_offset_s = -60.0;
 constexpr double last_offset_s = 240.0;
 constexpr double place_period_s = 1.0;
-constexpr double place_tolerance_m = 2.0;  // half a car: not to be seen in a figure of some km
+constexpr double place_tolerance_m = 2.0;  // half a car: invisible in a figure of a few km
 
 std::size_t column_of(VehicleClass vehicle_class) {
     return vehicle_class == VehicleClass::automated ? 1 : 0;
 }
 
-/// What the links of a way show: the best of them.
+/// What the links of a path show: the most permissive of them.
 char shown_by(const std::string& state, const std::vector<std::uint16_t>& links) {
     char best = 'r';
     for (const std::uint16_t link : links) {
@@ -37,7 +37,7 @@ std::string_view name_of(char shown) {
     return shown == 'g' ? "green" : shown == 'y' ? "yellow" : "red";
 }
 
-/// Whether every place strictly between the two lies within the tolerance of the line that joins them.
+/// Whether every place between the two lies within the tolerance of the line that joins them.
 template <class Place>
 bool is_straight(const std::vector<Place>& places, std::size_t from, std::size_t to) {
     const double speed =
@@ -49,7 +49,8 @@ bool is_straight(const std::vector<Place>& places, std::size_t from, std::size_t
     return true;
 }
 
-/// The fewest places, chosen greedily, whose straight lines stay within the tolerance of all of them.
+/// A few of the places, chosen greedily, such that the straight lines between them stay within the tolerance
+/// of all places.
 template <class Place>
 std::vector<Place> simplified(const std::vector<Place>& places) {
     std::vector<Place> kept;
@@ -98,7 +99,7 @@ void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, const std::ve
         Loss& loss = losses_[place][column_of(snapshot.vehicle_class[row])];
         if (before[row] == core::no_row || previous_approach_[before[row]] != approach) {
             ++loss.vehicles;
-            // Who is there already when the watch begins did not enter in its time.
+            // Vehicles that are already there when the watch begins did not enter during it.
             if (snapshot.time.value > first_s_ && snapshot.time.value <= layout_.demand_until_s)
                 ++loss.of_demand;
         }

@@ -10,8 +10,8 @@
 
 namespace clearway::metrics::detail {
 
-/// Collects TrafficTables step by step. Linear in the vehicles on the road; grows with the time that passes,
-/// not with the steps.
+/// Collects TrafficTables step by step. Time per step is linear in the vehicles on the road; memory grows
+/// with simulated time, not with the number of steps.
 class TrafficWatch {
   public:
     /// The layout outlives the watch.
@@ -23,10 +23,10 @@ class TrafficWatch {
     TrafficTables tables() const;
 
   private:
-    /// What a class lost on an approach.
+    /// What a vehicle class lost on an approach.
     struct Loss {
         std::uint64_t vehicles = 0;
-        std::uint64_t of_demand = 0;  ///< That entered while demand departed.
+        std::uint64_t of_demand = 0;  ///< Vehicles that entered while demand departed.
         double waiting_time_s = 0.0;
         double time_loss_s = 0.0;
     };
@@ -46,7 +46,7 @@ class TrafficWatch {
     struct Journey {
         std::uint32_t route_edge = 0;
         bool seen = false;
-        bool passed = false;  ///< It left `route_edge` and is on its way across the junction.
+        bool passed = false;  ///< It left `route_edge` and is crossing the junction.
         std::vector<Place> places;
         std::vector<SignalChange> changes;
         std::vector<char> shown;  ///< Last state of each signal on the route.
@@ -58,8 +58,8 @@ class TrafficWatch {
     void follow(const truth::Snapshot& snapshot);
     void follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
                 Journey& journey);
-    /// Notes that a vehicle leaves an approach, once, whether its way across the junction is seen or jumped
-    /// over.
+    /// Notes, once, that a vehicle leaves an approach, whether or not it is seen on the lanes across the
+    /// junction.
     void pass(double now_s, std::uint32_t edge, bool inside, const WatchedRoute& route, Journey& journey);
     std::vector<RecoveryRow> recovery() const;
     std::vector<JourneyRow> journeys() const;

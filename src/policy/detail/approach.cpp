@@ -6,10 +6,9 @@
 namespace clearway::policy::detail {
 namespace {
 
-/// Stop lines of one signal farther apart than this are passed one after the other, m. Joined junctions are
-/// smaller.
+/// Stop lines of one signal farther apart than this are separate approaches, m. Joined junctions are smaller.
 constexpr double joined_m = 150.0;
-/// Slowest speed that a travel time is reckoned with, m/s: a lane may state a limit near 0.
+/// Lower bound for speeds in travel times, m/s: a lane may state a limit near 0.
 constexpr double slowest_mps = 1.0;
 
 bool starts_on(const View& view, const roads::Signal& signal, std::size_t link, core::EdgeIndex edge) {

@@ -13,22 +13,22 @@ struct Approach {
     core::SignalIndex signal;
     double distance_m = 0.0;               ///< To the first stop line of the signal.
     std::vector<std::uint16_t> own_links;  ///< Links that the emergency vehicle itself may take, ascending.
-    /// These and all other links of its approaches that do not conflict with them, ascending: a left-turner
-    /// ahead that may not go would hold it up.
+    /// `own_links` and all other links of its approaches that do not conflict with them, ascending: a
+    /// left-turner ahead that has to wait would hold the emergency vehicle up.
     std::vector<std::uint16_t> links;
 };
 
-/// Signals ahead of `vehicle` within `horizon`, nearest first. Stop lines of one signal that follow each
-/// other (joined junctions) are one approach.
+/// Signals ahead of `vehicle` within `horizon`, nearest first. Successive stop lines of one signal (joined
+/// junctions) are one approach.
 std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
                                  core::Metres horizon);
 
-/// Vehicles slower than `halted_mps` ahead on the way to a stop line `distance` away: on each edge the
-/// longest queue of its lanes.
+/// Number of vehicles slower than `halted_mps` on the way to a stop line `distance_m` ahead: on each edge
+/// those of the lane with the most, summed over edges.
 std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
                         double halted_mps);
 
-/// Time to drive `distance` along the route at the speed the vehicle is allowed on each edge, s.
+/// Time to drive `distance_m` along the route at the allowed speed on each edge, s.
 double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m);
 
 }  // namespace clearway::policy::detail

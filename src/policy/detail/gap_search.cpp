@@ -15,7 +15,7 @@ const traffic::VehicleInfo& info_of(const View& view, const traffic::BelievedVeh
     return info != nullptr ? *info : unknown;
 }
 
-/// Vehicles on a lane, the rearmost first. `own` is left out: what others believe of it may lag behind.
+/// Vehicles on a lane, rearmost first. `own` is left out, because the belief about it may lag behind.
 std::vector<const traffic::BelievedVehicle*> vehicles_on(const View& view, core::LaneIndex lane,
                                                          core::VehicleKey own) {
     std::vector<const traffic::BelievedVehicle*> on_lane;

@@ -52,7 +52,7 @@ std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& v
     const roads::Route route = route_of(vehicle.key);
     const auto reach = static_cast<float>(horizon.value);
     for (const traffic::BelievedVehicle& other : belief_.vehicles) {
-        // No way is shorter than the straight one; this spares most vehicles the walk along the route.
+        // No path is shorter than a straight line; this avoids searching the route for most vehicles.
         if (std::abs(other.state.x_m - vehicle.state.x_m) > reach ||
             std::abs(other.state.y_m - vehicle.state.y_m) > reach)
             continue;

@@ -31,17 +31,17 @@ class View {
     const roads::Network& network() const { return network_; }
     const traffic::BelievedGraph& belief() const { return belief_; }
 
-    /// Every emergency vehicle on the road that has a place on its route, by what it knows of itself, or else
-    /// as believed. Ordered by key.
+    /// Every emergency vehicle on the road that has a place on its route, as it knows itself, or else as
+    /// believed. Ordered by key.
     std::vector<traffic::BelievedVehicle> emergency_vehicles() const;
 
-    /// Empty when the vehicle is not registered.
+    /// The vehicle's route; empty when it is not registered.
     roads::Route route_of(core::VehicleKey vehicle) const;
-    /// Lane and route are known and fit together, so that questions about the route may be asked.
+    /// Whether lane and route are known and fit together, so that questions about the route may be asked.
     bool is_on_route(const traffic::BelievedVehicle& vehicle) const;
-    /// Highest speed that road and registration allow; 0 for an unregistered vehicle or no lane.
+    /// Highest speed that the road and the vehicle allow; 0 for an unregistered vehicle or without a lane.
     core::MetresPerSecond allowed_speed(const traffic::BelievedVehicle& vehicle) const;
-    /// The edge a vehicle is on, nothing without a lane.
+    /// The edge a vehicle is on; empty without a lane.
     std::optional<core::EdgeIndex> edge_of(const traffic::BelievedVehicle& vehicle) const;
     std::uint32_t lane_number(const traffic::BelievedVehicle& vehicle) const {
         return network_.lane(vehicle.state.lane).number;
@@ -51,8 +51,8 @@ class View {
     std::vector<VehicleAhead> vehicles_ahead(const traffic::BelievedVehicle& vehicle,
                                              core::Metres horizon) const;
 
-    /// Whether lane `number` of the present edge exists, is open to the vehicle, and carries it along its
-    /// route for over 300 m or to the route's end: the rule by which actuation judges.
+    /// Whether lane `number` of the present edge exists, is open to the vehicle, and continues along its
+    /// route for over 300 m or to the route's end. Actuation applies the same rule.
     bool may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const;
     /// The neighbouring lanes that `may_use_lane` allows, the outer (lower) one first.
     std::vector<std::uint32_t> usable_neighbours(const traffic::BelievedVehicle& vehicle) const;
@@ -65,13 +65,13 @@ class View {
 /// Writes the leases of one policy.
 class LeaseWriter {
   public:
-    /// `policy` has static storage; `period` is the time between two decisions. A lease lives `lease_s`
-    /// unless renewed, or two periods where those are longer.
+    /// `policy` has static storage; `period` is the time between two decisions. A lease that is not renewed
+    /// lives `lease_s`, or two periods if those are longer.
     LeaseWriter(const char* policy, core::Seconds period, core::Seconds now,
                 std::vector<traffic::Lease>& leases, double lease_s = 0.0)
         : policy_(policy), usual_(std::max(lease_s, two_periods(period).value)), now_(now), leases_(leases) {}
 
-    /// Long enough for a lease that every decision renews, and no longer.
+    /// Just long enough for a lease that every decision renews.
     static core::Seconds two_periods(core::Seconds period) { return core::Seconds(2.0 * period.value); }
 
     /// `reason` has static storage; `beneficiary` is the emergency vehicle served.

@@ -110,7 +110,7 @@ void PairwisePredictor::collect_detected() {
     }
 }
 
-/// Both are ordered by rows.
+/// Merges `group_` into `links_`; both are ordered by rows.
 void PairwisePredictor::merge_group() {
     if (group_.empty()) return;
     merged_.resize(links_.size() + group_.size());

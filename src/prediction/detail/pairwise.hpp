@@ -8,7 +8,7 @@
 
 namespace clearway::prediction::detail {
 
-/// What a repair believes of one row of the tracks.
+/// What a predictor believes about one row of the tracks.
 struct RowBelief {
     traffic::MotionState state;
     float sigma_m = 0.0F;
@@ -42,9 +42,9 @@ class PairwisePredictor : public Predictor {
     const traffic::Observation& observation() const { return *observation_; }
 
   private:
-    /// Writes one belief a row; `beliefs` has the right size and default values.
+    /// Writes one belief per row; `beliefs` has the right size and default values.
     virtual void believe(const Scene& scene, std::vector<RowBelief>& beliefs) = 0;
-    /// Writes one probability a candidate; `probabilities` has the right size and holds zeros.
+    /// Writes one probability per candidate; `probabilities` has the right size and holds zeros.
     virtual void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                        std::vector<float>& probabilities) = 0;
 

@@ -7,8 +7,8 @@
 
 namespace clearway::prediction::detail {
 
-/// result[row] = bias + sum_i input[row][i] weight[i], or what is not below zero of it. Strides in floats;
-/// `result_stride` is a multiple of lane_count, as are the rows of `weight`.
+/// result[row] = bias + sum_i input[row][i] weight[i]; if `rectified`, negative results become 0. Strides in
+/// floats; `result_stride` is a multiple of lane_count, as are the rows of `weight`.
 struct DenseTask {
     const float* input = nullptr;
     std::size_t input_stride = 0;
@@ -16,7 +16,7 @@ struct DenseTask {
     const std::uint32_t* rows = nullptr;  ///< Numbers of the rows to do; null: 0 ... row_count - 1.
     std::size_t row_count = 0;
     const float* weight = nullptr;  ///< [inputs][result_stride]
-    const float* bias = nullptr;    ///< Null: what stands in `result` already.
+    const float* bias = nullptr;    ///< Null: adds to `result`.
     bool rectified = false;
     float* result = nullptr;
     std::size_t result_stride = 0;

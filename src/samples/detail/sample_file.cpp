@@ -57,14 +57,14 @@ std::size_t check_end(std::string_view& bytes, const std::string& where, std::st
     char digits[33] = {};
     unsigned long count = 0;
     if (!last.ends_with('\n') || std::sscanf(last.c_str(), "end %lu %32[0-9a-f]\n", &count, digits) != 2) {
-        throw core::InputError({where, "its last line is missing: it was cut short", "", cure_remake});
+        throw core::InputError({where, "its last line is missing: it is cut short", "", cure_remake});
     }
     bytes = bytes.substr(0, start);
     hash = core::content_hash(bytes);
     if (hash != digits) {
-        throw core::InputError({where,
-                                fmt::format("its content hashes to {}, its last line says {}", hash, digits),
-                                "", "It was changed or damaged. " + std::string(cure_remake)});
+        throw core::InputError(
+            {where, fmt::format("its content hash is {}, but its last line says {}", hash, digits), "",
+             "It was changed or damaged. " + std::string(cure_remake)});
     }
     return count;
 }
@@ -104,7 +104,7 @@ void read_sample_bytes(const std::filesystem::path& file, std::string_view first
     const std::string where = file.string();
     bytes.samples = bytes.content;
     if (!bytes.samples.starts_with(first_line)) {
-        throw core::InputError({where + ":1", "not a file of such samples, or of another version",
+        throw core::InputError({where + ":1", "not a file of such samples, or one of another version",
                                 fmt::format("first line `{}`", first_line.substr(0, first_line.size() - 1)),
                                 cure_remake});
     }
@@ -117,8 +117,9 @@ void read_sample_bytes(const std::filesystem::path& file, std::string_view first
 
 void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated) {
     if (found == stated) return;
-    throw core::InputError(
-        {file.string(), fmt::format("{} samples, its last line says {}", found, stated), "", cure_remake});
+    throw core::InputError({file.string(),
+                            fmt::format("{} samples, but its last line says {}", found, stated), "",
+                            cure_remake});
 }
 
 std::vector<std::filesystem::path> find_files(const std::filesystem::path& folder, std::string_view ending,

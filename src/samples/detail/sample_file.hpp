@@ -49,7 +49,7 @@ class ByteReader {
         if (count > 0) std::memcpy(numbers.data(), raw.data(), raw.size());
     }
 
-    /// Checked before anything is allocated for it, so that a damaged count cannot exhaust the memory.
+    /// Checks the count before anything is allocated for it, so that a damaged count cannot exhaust memory.
     std::uint32_t next_count(std::size_t bytes_each);
 
   private:
@@ -60,26 +60,27 @@ class ByteReader {
     std::string where_;
 };
 
-/// First line and origin: how a file starts. Throws std::logic_error for an impossible schema.
+/// The start of a file: first line and origin. Throws std::logic_error for an impossible schema.
 std::string file_start(std::string_view first_line, const SampleOrigin& origin);
-/// How it ends.
+/// The last line of a file.
 std::string file_end(std::string_view bytes, std::size_t sample_count);
 
-/// A file without its frame.
+/// The content of a file, taken apart.
 struct SampleBytes {
     std::string content;
-    std::string_view samples;  ///< Part of `content`: keep the struct where it is.
+    std::string_view samples;  ///< Refers to `content`: do not move the struct.
     SampleOrigin origin;
     std::size_t sample_count = 0;
     std::string content_hash;
 };
-/// Throws core::InputError: missing, of another kind or version, cut short, or changed since it was written.
+/// Throws core::InputError for a file that is missing, of another kind or version, cut short, or changed
+/// since it was written.
 void read_sample_bytes(const std::filesystem::path& file, std::string_view first_line, SampleBytes& bytes);
-/// Throws core::InputError when the file holds another number of samples than its last line says.
+/// Throws core::InputError when the number of samples differs from what the last line says.
 void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
 
-/// The files directly in `folder` whose names end so, by name. Throws core::InputError, with `what` they are
-/// and the `cure`, when there is none.
+/// The files directly in `folder` whose names end in `ending`, sorted by name. Throws core::InputError, with
+/// `what` they are and the `cure`, when there is none.
 std::vector<std::filesystem::path> find_files(const std::filesystem::path& folder, std::string_view ending,
                                               std::string_view what, std::string_view cure);
 

@@ -20,7 +20,7 @@ constexpr const char* design_key = "design";
 const std::vector<std::string> condition_keys = {"bluelight", "traffic_model", "failure",
                                                  "policy",    "predictor",     "safety_checks"};
 
-/// What a factor may be of: conditions, scenarios, several settings, or any component with settings.
+/// What a factor may vary: conditions, scenarios, several settings, or any component with settings.
 const std::vector<std::string>& groups() {
     static const std::vector<std::string> all = [] {
         std::vector<std::string> names = {"condition", "scenario", several};
@@ -80,20 +80,21 @@ bool read_value(const toml::node& node, FactorValue& value) {
 
 void read_list(const toml::array& list, Factor factor, std::vector<Factor>& factors, Problems& problems) {
     if (list.empty())
-        problems.push_back({factor.where, "has no values", "one value or more", "Name them, or remove it"});
+        problems.push_back(
+            {factor.where, "has no values", "one value or more", "List them, or remove the factor"});
     for (const toml::node& node : list) {
         FactorValue value;
         if (read_value(node, value)) {
             factor.values.push_back(std::move(value));
         } else {
-            problems.push_back({factor.where, "holds something else than values",
+            problems.push_back({factor.where, "holds something other than values",
                                 "numbers, texts, truth values, or lists of texts", ""});
         }
     }
     factors.push_back(std::move(factor));
 }
 
-/// `set = [{ "a.b" = 1, "c.d" = 2 }, ...]`: each value sets several numbers at a time.
+/// `set = [{ "a.b" = 1, "c.d" = 2 }, ...]`: each value sets several settings at once.
 void read_several(const toml::node& node, const std::string& file, std::vector<Factor>& factors,
                   Problems& problems) {
     Factor factor{several, several, place(node, file, several), {}};
@@ -177,7 +178,7 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
         set_word(factor, value, core::value_from<traffic::SafetyChecks>, condition.safety_checks, problems);
 }
 
-/// Names become folders; what cannot be in one becomes `_`.
+/// Names become folders; replaces characters that a folder name cannot have with `_`.
 std::string folder_text(std::string text) {
     for (char& letter : text) {
         const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
@@ -189,7 +190,8 @@ std::string folder_text(std::string text) {
 
 }  // namespace
 
-/// `"preempt_signals.lead_s" = [4, 8]`: the quoted name of a table's key. Answers whether it was one.
+/// Reads `"preempt_signals.lead_s" = [4, 8]`, a setting with its full name in quotes. Returns whether `name`
+/// is one.
 bool read_quoted(const std::string& name, const toml::node& node, const std::string& file,
                  std::vector<Factor>& factors, Problems& problems) {
     const std::size_t dot = name.find('.');
@@ -264,7 +266,7 @@ std::string name_of(const Assignment& assignment, const Factors& factors) {
 
 Assignment concerning(const experiment::ConditionSpec& condition, const Assignment& assignment) {
     experiment::ConditionSpec changed = condition;
-    Problems ignored;  // found again by `with`
+    Problems ignored;  // `with` reports them
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, changed, ignored);
     }
@@ -296,7 +298,7 @@ experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assign
     for (const auto& [factor, value] : assignment) {
         if (factor->group == "condition") set_condition_key(*factor, *value, condition, problems);
     }
-    // The failure itself is set before its fields.
+    // Set the failure before its fields.
     for (const auto& [factor, value] : assignment) {
         if (is_component(factor->group))
             experiment::set(condition, factor->group + "." + factor->key, value->text);

@@ -17,25 +17,25 @@ namespace clearway::study::detail {
 struct FactorValue {
     std::string text;                ///< As a person writes it: `B5`, `0.3`; lists joined by `.`.
     std::string toml;                ///< As TOML writes it: `"B5"`, `0.3`.
-    std::vector<std::string> words;  ///< Of a list.
-    core::Settings settings;         ///< Of a table: several settings at a time.
+    std::vector<std::string> words;  ///< The elements of a list.
+    core::Settings settings;         ///< The settings of a table: several at a time.
 };
 
-/// A parameter and the values that it takes.
+/// A parameter and the values it takes.
 struct Factor {
     std::string group;  ///< condition, scenario, set, or a component of experiment/settings.hpp.
     std::string key;    ///< Below the group: `failure`, `mean_outage_s`, `demand.human`.
-    std::string where;  ///< Place in the study file, for messages.
+    std::string where;  ///< Position in the study file, for messages.
     std::vector<FactorValue> values;
 };
 
 /// One combination: each factor with one of its values.
 using Assignment = std::vector<std::pair<const Factor*, const FactorValue*>>;
 
-/// Which levels of several factors are run.
+/// Which combinations of factors are run.
 enum class Design : std::uint8_t {
     all_combinations,
-    one_at_a_time,  ///< Without any factor, and each value of each factor alone.
+    one_at_a_time,  ///< No factor at all, then each value of each factor alone.
 };
 
 /// `[factors]` of a study.
@@ -44,27 +44,27 @@ struct Factors {
     Design design = Design::all_combinations;
 };
 
-/// Reads `[factors]`. Problems (unknown group, no list, nothing in it, a value that is neither number, text,
-/// truth value nor list of texts, a setting that does not exist) are added to `problems`.
+/// Reads `[factors]`. Adds problems (unknown group, no list, an empty list, a value that is not a number,
+/// text, truth value or list of texts, an unknown setting) to `problems`.
 Factors read_factors(const toml::table& table, const std::string& file, std::vector<core::Problem>& problems);
 
 /// What a factor changes.
 enum class Subject : std::uint8_t { scenarios, conditions };
 
-/// All combinations of the design, the last factor fastest; one empty combination when there is no factor.
+/// All combinations of the design, the last factor varying fastest; one empty combination without factors.
 std::vector<Assignment> combinations(const Factors& factors, Subject subject);
 
-/// Of an assignment those factors that the condition has under it: settings of a policy or predictor that it
-/// does not have change nothing.
+/// The factors of an assignment that concern the condition under it: settings of a policy or predictor that
+/// it does not have change nothing.
 Assignment concerning(const experiment::ConditionSpec& condition, const Assignment& assignment);
 
-/// `+failure=B5+mean_outage_s=20`, with full keys where short ones would mean two factors.
+/// `+failure=B5+mean_outage_s=20`, with full keys where short ones would be ambiguous.
 std::string name_of(const Assignment& assignment, const Factors& factors);
 
-/// Names as in the study file, `failure.mean_outage_s`, and values.
+/// Values by name as in the study file, `failure.mean_outage_s`.
 core::Settings factors_of(const Assignment& assignment);
 
-/// The condition under a combination. What is wrong with it is added to `problems`.
+/// The condition with a combination applied. Adds what is wrong with it to `problems`.
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                std::vector<core::Problem>& problems);
 

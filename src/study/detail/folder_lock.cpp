@@ -30,8 +30,8 @@ std::string first_line(const std::filesystem::path& file) {
     return text.empty() ? "an unknown process" : text.substr(0, text.find('\n'));
 }
 
-/// A write lock on a whole file, of the open file (not of the process), so that forked children neither hold
-/// nor lose it.
+/// A write lock on a whole file, held by the open file and not the process, so that forked children neither
+/// hold nor lose it.
 struct flock whole_file() {
     struct flock lock {};
     lock.l_type = F_WRLCK;
@@ -57,7 +57,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
                             "disk, NFS, Lustre mounted with `flock`)",
                             file.string(), std::strerror(reason)));
         throw core::EnvironmentError(
-            fmt::format("{}: another study works in this folder ({}). Wait for its end, stop it, or choose "
+            fmt::format("{}: another study runs in this folder ({}). Wait for its end, stop it, or choose "
                         "another folder with --out",
                         folder.string(), first_line(file)));
     }
@@ -69,7 +69,7 @@ void FolderLock::note(std::size_t ended_runs) const {
     const std::string text =
         fmt::format("process {} on {}\n{}\n{}\n", ::getpid(), host(),
                     std::chrono::duration_cast<std::chrono::seconds>(now).count(), ended_runs);
-    // Only for messages: a full disk must not keep a study from being resumed.
+    // Used only in messages: a full disk must not prevent resuming a study.
     if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, text.data(), text.size(), 0);
 }
 

@@ -7,31 +7,31 @@
 
 namespace clearway::study::detail {
 
-/// One study at a time in a run folder. Held while this object lives; the system gives it back when the
+/// Allows one study at a time in a run folder. Held while this object lives; the system releases it when the
 /// process dies, however it dies.
 class FolderLock {
   public:
-    /// Throws core::EnvironmentError, naming the other process, when the folder is taken, not writable,
-    /// or on a file system without locks.
+    /// Throws core::EnvironmentError when the folder is taken (naming the other process), not writable, or on
+    /// a file system without locks.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
-    /// Notes for those who look from outside how many runs had ended when the work began.
+    /// Notes, for `holder_of`, how many runs had ended when the work began.
     void note(std::size_t ended_runs) const;
 
   private:
     int descriptor_;
 };
 
-/// What a FolderLock tells.
+/// What a FolderLock tells other processes.
 struct LockNote {
     std::string holder;           ///< `process 4711 on host`.
     double started_unix_s = 0.0;  ///< When it was taken, by the clock of that host.
     std::size_t ended_runs = 0;   ///< Runs that had ended then.
 };
-/// Of the lock that any process holds on `folder`; nothing when none does. Does not disturb it.
+/// The note of the lock that a process holds on `folder`; empty when none does. Does not disturb the lock.
 std::optional<LockNote> holder_of(const std::filesystem::path& folder);
 
 }  // namespace clearway::study::detail

@@ -9,7 +9,7 @@ namespace {
 
 using Problems = std::vector<core::Problem>;
 
-/// What is read, and where it goes.
+/// The file being read, and where results go.
 struct Reading {
     const std::string& file;
     core::Settings& settings;
@@ -27,7 +27,7 @@ void read_table(const toml::table& table, const std::string& prefix, const Readi
             fmt::format("{}:{}:{}: ", reading.file, node.source().begin.line, node.source().begin.column);
         const auto text = setting_value(node);
         if (!text) {
-            reading.problems.push_back({where + name, "is no value", "a number or a word", ""});
+            reading.problems.push_back({where + name, "is not a value", "a number or a word", ""});
             continue;
         }
         const Problems found = experiment::check_setting(name, *text, where);

@@ -11,11 +11,12 @@
 
 namespace clearway::study::detail {
 
-/// The text of a TOML value as it is set by name: a number, a text or a truth value. Nothing for others.
+/// The text of a TOML value as `experiment::set` takes it: a number, a text or a truth value. Empty for
+/// others.
 std::optional<std::string> setting_value(const toml::node& node);
 
 /// Reads a table of settings, `{ "preempt_signals.lead_s" = 12 }` or `{ preempt_signals = { lead_s = 12 } }`.
-/// Problems, unknown names and values out of range included, are added to `problems` with the place in
+/// Adds problems, including unknown names and values out of range, to `problems` with their position in
 /// `file`.
 core::Settings read_settings(const toml::table& table, const std::string& file,
                              std::vector<core::Problem>& problems);

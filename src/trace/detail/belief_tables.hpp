@@ -20,12 +20,12 @@ class BeliefTables {
   public:
     BeliefTables(File& file, Names& names)
         : names_(names),
-          rows_(file, "belief", "What was believed: a row where a decision was made"),
+          rows_(file, "belief", "What was believed: one row per decision"),
           vehicles_(file, "belief/vehicles",
                     "Believed vehicles, ordered by key; then what emergency vehicles know of themselves"),
           links_(file, "links", "Believed links"),
-          signals_(file, "belief/signals", "What signals are believed to show, where not as observed",
-                   names) {}
+          signals_(file, "belief/signals",
+                   "What signals are believed to show, where it differs from the observation", names) {}
 
     bool is_there() {
         std::size_t count = 0;
@@ -132,12 +132,13 @@ class BeliefTables {
         traffic::BelievedLink link;
     };
 
-    /// The links of each row; where all are stored both ways, only those to higher rows.
+    /// The links of each row. When every link is stored in both directions, only those to higher rows are
+    /// written.
     template <class Belief>
     void code_links(Belief& now, bool both_ways, bool has_links) {
         if constexpr (!File::reading) {
             if (has_links ? now.first_link.size() != now.vehicles.size() + 1 : !now.vehicles.empty())
-                throw std::invalid_argument("a belief has links of other vehicles than it has");
+                throw std::invalid_argument("a belief has links between vehicles that it does not list");
             collect(now, both_ways);
         }
         row_of_.clear();
@@ -170,7 +171,7 @@ class BeliefTables {
             row_of_[vehicles[row].key] = row;
     }
 
-    /// One end of a link by its vehicle.
+    /// One end of a link, coded as its vehicle.
     void code_end(OutputColumn<std::uint32_t>& column, std::uint32_t row,
                   const std::vector<traffic::BelievedVehicle>& vehicles) {
         if (row >= vehicles.size()) throw std::invalid_argument("a link has an end that is not believed");
@@ -218,10 +219,14 @@ class BeliefTables {
     typename File::Rows rows_, vehicles_, links_;
     Column<double> time_s_{rows_, {"time_s", "s", "Time of what is believed"}};
     Column<std::uint32_t> own_states_{
-        rows_, {"own_states", "1", "How many of the vehicles, the last, are emergency vehicles' own states"}};
-    Column<bool> has_signals_{rows_, {"has_signals", "", "Signals are not believed to be as observed"}};
+        rows_,
+        {"own_states", "1",
+         "How many of the vehicles, counted from the end, are emergency vehicles' own states"}};
+    Column<bool> has_signals_{rows_,
+                              {"has_signals", "", "The believed signals differ from the observed ones"}};
     Column<bool> has_links_{rows_, {"has_links", "", "Links were looked for"}};
-    Column<bool> both_ways_{rows_, {"both_ways", "", "Each row of /links is a link and the same backwards"}};
+    Column<bool> both_ways_{rows_,
+                            {"both_ways", "", "Each row of /links stands for both directions of a link"}};
     Column<std::uint32_t> vehicle_{vehicles_, vehicle_column};
     Column<traffic::VehicleClass> vehicle_class_{vehicles_, class_column, class_names};
     Column<float> age_s_{vehicles_, {"age_s", "s", "Age of the report that the belief rests on"}};
@@ -230,10 +235,10 @@ class BeliefTables {
     Column<std::uint32_t> from_{links_, {"from", "", "Row in /vehicles"}};
     Column<std::uint32_t> to_{links_, {"to", "", "Row in /vehicles"}};
     Column<bool> as_positions_{
-        links_, {"as_positions", "", "The distance is that of the believed positions, to the bit"}};
+        links_, {"as_positions", "", "The distance equals that of the believed positions, bit for bit"}};
     Column<float> distance_m_{links_, {"distance_m", "m", "Believed distance; NaN: see as_positions"}};
-    Column<float> probability_{links_,
-                               {"probability", "1", "That the true distance is below the link radius"}};
+    Column<float> probability_{
+        links_, {"probability", "1", "Probability that the true distance is below the link radius"}};
     SignalTable<File> signals_;
     std::vector<End> ends_;
     std::unordered_map<core::VehicleKey, std::uint32_t> row_of_;

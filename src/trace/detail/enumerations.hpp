@@ -40,7 +40,7 @@ std::array<std::string_view, sizeof...(Kind)> action_names_of(std::index_sequenc
     return {traffic::name(empty_action(static_cast<ActionKind>(Kind)))...};
 }
 
-/// What happened, in the order of truth::Events' members.
+/// The kinds of event, in the order of truth::Events' members.
 enum class EventKind : std::uint8_t { departed, arrived, teleported, removed, collision, emergency_braking };
 
 inline const auto class_names = names_of<traffic::VehicleClass, traffic::vehicle_classes.size()>();
@@ -56,6 +56,6 @@ inline constexpr std::array<std::string_view, 6> event_names = {"departed", "arr
 
 // Columns that several tables have.
 inline const Column vehicle_column{"vehicle", "", "Row in /vehicles"};
-inline const Column class_column{"class", "", "Who decides for the vehicle"};
+inline const Column class_column{"class", "", "Human, automated or emergency vehicle"};
 
 }  // namespace clearway::trace::detail

@@ -18,7 +18,7 @@ class EventTables {
     EventTables(File& file, Names& names)
         : names_(names),
           time_s_(file, file.steps(), "steps", {"events_time_s", "s", "Time of the step's events"}),
-          rows_(file, "events", "What happened, in the order of its kinds") {}
+          rows_(file, "events", "What happened, ordered by kind") {}
 
     template <class Events>
     void code(Events& events) {
@@ -50,7 +50,7 @@ class EventTables {
     template <class Value>
     using Column = ColumnOf<File, Value>;
 
-    /// All that any kind of event has.
+    /// The members of all kinds of event.
     struct Row {
         EventKind kind{};
         core::VehicleKey vehicle, other;
@@ -74,7 +74,7 @@ class EventTables {
         each(kind, keys, left, [](auto& key, auto& row) { exchange(key, row.vehicle); });
     }
 
-    /// All events of a kind; `exchange_members(event, row)` in the direction of the file.
+    /// Codes all events of a kind; `exchange_members(event, row)` copies members from or to the row.
     template <class List, class ExchangeMembers>
     void each(EventKind kind, List& events, std::size_t& left, const ExchangeMembers& exchange_members) {
         if constexpr (File::reading) {
@@ -120,13 +120,14 @@ class EventTables {
     Column<EventKind> kind_{rows_, {"kind", "", "What happened"}, event_names};
     Column<std::uint32_t> vehicle_{rows_, vehicle_column};
     Column<std::uint32_t> other_{
-        rows_, {"other", "", "Row in /vehicles: the other of a collision; 4294967295: none"}};
-    Column<truth::CollisionPlace> place_{rows_, {"place", "", "Of a collision"}, place_names};
+        rows_, {"other", "", "Row in /vehicles: the other vehicle of a collision; 4294967295: none"}};
+    Column<truth::CollisionPlace> place_{rows_, {"place", "", "Where a collision happened"}, place_names};
     Column<std::uint32_t> lane_{rows_,
-                                {"lane", "", "Of a collision: index in the network; 4294967295: none"}};
+                                {"lane", "", "Lane of a collision: index in the network; 4294967295: none"}};
     Column<bool> with_emergency_vehicle_{
-        rows_, {"with_emergency_vehicle", "", "One of a collision is an emergency vehicle"}};
-    Column<float> deceleration_mps2_{rows_, {"deceleration_mps2", "m/s^2", "Of an emergency braking"}};
+        rows_, {"with_emergency_vehicle", "", "An emergency vehicle is in the collision"}};
+    Column<float> deceleration_mps2_{rows_,
+                                     {"deceleration_mps2", "m/s^2", "Deceleration of an emergency braking"}};
     Row ahead_;
     bool has_ahead_ = false;  ///< The kind of the next row has been read.
 };

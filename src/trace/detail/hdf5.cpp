@@ -13,20 +13,20 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-/// Elements of a chunk, and bytes that it has at most: one of each data set is in memory.
+/// Elements per chunk, and the most bytes a chunk may have. One chunk of each data set is in memory.
 constexpr std::size_t chunk_elements = 16384;
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
-/// See docs/decisions/0005-recordings-in-hdf5.md for other levels.
+/// docs/decisions/0005-recordings-in-hdf5.md compares other levels.
 constexpr unsigned deflate_level = 4;
 
-/// Before the first call, and in each thread that calls: HDF5 neither prints what fails, for it is thrown,
-/// nor closes at exit what a full disk keeps it from closing.
+/// Call it before the first use of HDF5 in each thread. HDF5 then prints no errors, because they are thrown,
+/// and does not try to close files at exit, which fails on a full disk.
 void prepare_library() {
     static const bool once = [] {
         H5dont_atexit();
         return H5open() >= 0;
     }();
-    if (!once) throw std::runtime_error("HDF5 does not start");
+    if (!once) throw std::runtime_error("HDF5 cannot be initialised");
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -54,7 +54,7 @@ Handle property_list(hid_t list_class) {
     return {H5Pcreate(list_class), H5Pclose};
 }
 
-/// Whole chunks are written and read once, so that a cache would be memory for nothing.
+/// Each chunk is written or read whole and once, so a cache would waste memory.
 Handle without_cache() {
     Handle access = property_list(H5P_DATASET_ACCESS);
     check(H5Pset_chunk_cache(access.get(), 0, 0, 1.0));

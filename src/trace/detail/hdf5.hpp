@@ -14,12 +14,12 @@
 
 namespace clearway::trace::detail {
 
-/// An identifier of HDF5 with what closes it.
+/// An HDF5 identifier and the function that closes it.
 class Handle {
   public:
     using Close = herr_t (*)(hid_t);
     Handle() = default;
-    /// Throws std::runtime_error with HDF5's own words where `id` is none.
+    /// Throws std::runtime_error with HDF5's message when `id` is invalid.
     Handle(hid_t id, Close closing);
     Handle(Handle&& other) noexcept;
     Handle& operator=(Handle&& other) noexcept;
@@ -33,7 +33,7 @@ class Handle {
     Close close_ = nullptr;
 };
 
-/// HDF5 failed. `reason` is the system's errno, 0 where HDF5 names none.
+/// HDF5 failed. `reason` is the system's errno, 0 when HDF5 gives none.
 class Hdf5Error : public std::runtime_error {
   public:
     Hdf5Error(const std::string& message, int reason) : std::runtime_error(message), reason_(reason) {}
@@ -46,15 +46,15 @@ class Hdf5Error : public std::runtime_error {
 /// Throws Hdf5Error for a negative `code`.
 void check(herr_t code);
 
-/// An empty HDF5 file after the seal's user block, in place of what `file` is. Its bytes depend on what is
-/// written into it alone.
+/// Creates an empty HDF5 file with a user block for the seal, replacing `file`. Its bytes depend only on what
+/// is written into it.
 Handle create_file(const std::filesystem::path& file);
 Handle open_file(const std::filesystem::path& file);
 Handle create_group(hid_t parent, const std::string& name);
 
 /// Text as variable-length UTF-8.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
-/// One attribute for each member: numbers and text as such, the rest as JSON.
+/// One attribute per member: numbers and text as such, everything else as JSON.
 void write_attributes(hid_t object, const core::Json& members);
 /// All attributes, numbers and text.
 core::Json read_attributes(hid_t object);
@@ -90,34 +90,34 @@ template <>
 inline hid_t number_type<double>() {
     return H5T_IEEE_F64LE;
 }
-/// One byte with these names, from 0 on.
+/// An enumeration of one byte with these names, numbered from 0.
 Handle named_type(std::span<const std::string_view> names);
-/// Text of `length` bytes, filled up with zeros.
+/// Text of `length` bytes, padded with zeros.
 Handle text_type(std::size_t length);
 
-/// What a data set is called and is of.
+/// Name, unit and description of a data set.
 struct Column {
     std::string name;
     const char* unit = "";
     const char* doc = "";
 };
 
-/// A data set of one dimension that grows by whole chunks: shuffled, deflated and with checksums. Bytes go to
-/// and from memory as they are.
+/// A one-dimensional data set that grows by whole chunks: shuffled, deflated and with checksums. Bytes are
+/// copied to and from memory unchanged.
 class DataSet {
   public:
-    /// Makes it.
+    /// Creates it.
     DataSet(hid_t group, const Column& column, hid_t type);
-    /// Opens it. Throws std::runtime_error when it is not there or of another type.
+    /// Opens it. Throws std::runtime_error when it is missing or has another type.
     DataSet(hid_t group, const std::string& name, hid_t type);
 
     std::size_t size() const { return size_; }
-    /// Elements of a chunk.
+    /// Elements per chunk.
     std::size_t chunk() const { return chunk_; }
     void append(const void* elements, std::size_t count);
     /// Reads from `first` on.
     void read(std::size_t first, std::size_t count, void* elements);
-    /// Hash of all elements that were appended, or read: in order.
+    /// Hash of all elements appended or read so far, in order.
     std::string digest() const { return hash_.digest(); }
 
   private:

@@ -17,7 +17,7 @@
 
 namespace clearway::trace::detail {
 
-/// Numbers with a blank between two.
+/// Numbers separated by blanks.
 inline std::string number_list(const std::vector<std::uint16_t>& numbers) {
     return fmt::format("{}", fmt::join(numbers, " "));
 }
@@ -27,18 +27,18 @@ inline std::vector<std::uint16_t> numbers_from(const std::string& text) {
     for (const char* at = text.data(); at < end; ++at) {
         const auto [next, error] = std::from_chars(at, end, numbers.emplace_back());
         if (error != std::errc() || (next != end && *next != ' '))
-            throw std::runtime_error("links of a signal are no numbers");
+            throw std::runtime_error("links of a signal are not numbers");
         at = next;
     }
     return numbers;
 }
 
-/// What a decision asked for.
+/// The leases that a decision issued.
 template <class File>
 class LeaseTables {
   public:
     LeaseTables(File& file, Names& names)
-        : names_(names), rows_(file, "leases", "What the decision of the step asked for") {}
+        : names_(names), rows_(file, "leases", "The leases issued by the decision of the step") {}
 
     template <class Leases>
     void code(Leases& leases) {
@@ -57,7 +57,7 @@ class LeaseTables {
     template <class Value>
     using Column = ColumnOf<File, Value>;
 
-    /// All that any action has.
+    /// The members of all actions.
     struct Members {
         double speed_mps = 0.0;
         std::uint32_t lane_number = 0;
@@ -71,7 +71,8 @@ class LeaseTables {
         core::VehicleKey vehicle;
         if constexpr (!File::reading) {
             if (const auto* const index = std::get_if<core::SignalIndex>(&target)) {
-                if (!index->exists()) throw std::invalid_argument("a lease is for a signal that is none");
+                if (!index->exists())
+                    throw std::invalid_argument("a lease is for a signal that does not exist");
                 signal = *index;
             } else {
                 vehicle = std::get<core::VehicleKey>(target);
@@ -150,25 +151,24 @@ class LeaseTables {
 
     Names& names_;
     typename File::Rows rows_;
-    Column<std::uint32_t> vehicle_{rows_,
-                                   {"vehicle", "", "Row in /vehicles: who is asked; 4294967295: a signal"}};
+    Column<std::uint32_t> vehicle_{
+        rows_, {"vehicle", "", "Row in /vehicles: the vehicle asked; 4294967295: a signal"}};
     Column<std::uint32_t> signal_{
-        rows_, {"signal", "", "Index in the network: which signal is asked; 4294967295: a vehicle"}};
+        rows_, {"signal", "", "Index in the network: the signal asked; 4294967295: a vehicle"}};
     Column<ActionKind> action_{rows_, {"action", "", "What is asked"}, action_names};
-    Column<double> speed_mps_{rows_, {"speed_mps", "m/s", "Of drive_at"}};
-    Column<std::uint32_t> lane_number_{rows_, {"lane_number", "1", "Of change_lane; 0: the outermost"}};
-    Column<traffic::Side> side_{rows_, {"side", "", "Of pull_aside"}, side_names};
+    Column<double> speed_mps_{rows_, {"speed_mps", "m/s", "Speed of drive_at"}};
+    Column<std::uint32_t> lane_number_{rows_, {"lane_number", "1", "Lane of change_lane; 0: the outermost"}};
+    Column<traffic::Side> side_{rows_, {"side", "", "Side of pull_aside"}, side_names};
     Column<std::uint32_t> links_{rows_,
-                                 {"links", "", "Row in /texts: links of a signal, with blanks between them"}};
+                                 {"links", "", "Row in /texts: links of a signal, separated by blanks"}};
     Column<std::uint32_t> own_links_{
-        rows_, {"own_links", "", "Row in /texts: those that the beneficiary may take itself"}};
+        rows_, {"own_links", "", "Row in /texts: the links that the beneficiary may take itself"}};
     Column<double> expiry_s_{rows_, {"expiry_s", "s", "Simulation time at which the lease ends"}};
-    Column<std::int32_t> priority_{rows_, {"priority", "1", "The higher wins"}};
+    Column<std::int32_t> priority_{rows_, {"priority", "1", "The higher priority wins"}};
     Column<std::uint32_t> policy_{rows_, {"policy", "", "Row in /texts: the policy that asked"}};
     Column<std::uint32_t> reason_{rows_, {"reason", "", "Row in /texts"}};
     Column<std::uint32_t> beneficiary_{
-        rows_,
-        {"beneficiary", "", "Row in /vehicles: the emergency vehicle that it serves; 4294967295: none"}};
+        rows_, {"beneficiary", "", "Row in /vehicles: the emergency vehicle served; 4294967295: none"}};
 };
 
 }  // namespace clearway::trace::detail

@@ -9,12 +9,12 @@ namespace {
 constexpr const char* vehicles_path = "vehicles";
 constexpr const char* texts_path = "texts";
 
-/// Text as a data set of equally long rows, which are compressed as those of variable length are not.
+/// Text as a data set of rows of equal length: unlike rows of variable length, these are compressed.
 void write_texts(hid_t group, const Column& column, const std::vector<std::string>& texts) {
     std::size_t longest = 1;
     for (const std::string& text : texts) {
         if (text.find('\0') != std::string::npos)
-            throw std::invalid_argument("a text to be recorded has a zero in it: " + text);
+            throw std::invalid_argument("a text to be recorded contains a zero byte: " + text);
         longest = std::max(longest, text.size());
     }
     const Handle type = text_type(longest);
@@ -35,7 +35,7 @@ void write_texts(hid_t group, const Column& column, const std::vector<std::strin
 std::vector<std::string> read_texts(hid_t group, const std::string& name) {
     const Handle found(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle type(H5Dget_type(found.get()), H5Tclose);
-    if (H5Tget_class(type.get()) != H5T_STRING) throw std::runtime_error(name + " is no text");
+    if (H5Tget_class(type.get()) != H5T_STRING) throw std::runtime_error(name + " is not text");
     const std::size_t longest = H5Tget_size(type.get());
     const Handle same_type = text_type(longest);
     DataSet set(group, name, same_type.get());
@@ -65,7 +65,7 @@ void Names::write(TableWriter& file) const {
         numbers.push_back(key.value);
     for (std::size_t first = 0; first < numbers.size(); first += keys.chunk())
         keys.append(numbers.data() + first, std::min(keys.chunk(), numbers.size() - first));
-    write_texts(vehicles.get(), {"id", "", "SUMO's id; empty for who is no vehicle of the roster"}, ids_);
+    write_texts(vehicles.get(), {"id", "", "SUMO's id; empty for a vehicle that no roster knows"}, ids_);
     const Handle texts = create_group(file.id(), texts_path);
     write_attribute(texts.get(), "doc", "Every text that the other tables name by its row here");
     write_texts(texts.get(), {"value", "", ""}, texts_.values());
@@ -82,7 +82,7 @@ void Names::read(TableReader& file) {
         keys.push_back({number});
     keys_.assign(std::move(keys));
     ids_ = read_texts(vehicles.get(), "id");
-    if (ids_.size() != numbers.size()) throw std::runtime_error("vehicles have other ids than keys");
+    if (ids_.size() != numbers.size()) throw std::runtime_error("vehicles have more or fewer ids than keys");
     const Handle texts(H5Gopen2(file.id(), texts_path, H5P_DEFAULT), H5Gclose);
     texts_.assign(read_texts(texts.get(), "value"));
 }

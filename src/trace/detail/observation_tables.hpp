@@ -14,17 +14,17 @@ class ObservationTables {
   public:
     ObservationTables(File& file, Names& names)
         : names_(names),
-          rows_(file, "observation", "What the sensors reported: a row where a report or decision was due"),
+          rows_(file, "observation", "What the sensors reported: a row per step with a report or a decision"),
           vehicles_(
               file, "observation/vehicles",
-              "The last that is known of each vehicle, ordered by key; then what emergency vehicles know "
+              "What was last reported of each vehicle, ordered by key; then what emergency vehicles know "
               "of themselves"),
           detections_(file, "observation/detections", "Dark vehicles that a neighbour detected"),
-          signals_(file, "observation/signals", "What signals were seen to show, where not as in /signals",
-                   names),
+          signals_(file, "observation/signals",
+                   "What signals were seen to show, where it differs from /signals", names),
           roster_(file, "observation/", names) {}
 
-    /// Whether the step has one.
+    /// Whether the step has an observation.
     bool is_there() {
         std::size_t count = 0;
         rows_.count(count);
@@ -104,19 +104,22 @@ class ObservationTables {
     Column<bool> exits_known_{rows_, {"exits_known", "", "Vehicles that left the network are absent"}};
     Column<bool> has_roster_{rows_, {"has_roster", "", "The sensor keeps a roster of its own"}};
     Column<std::uint32_t> own_states_{
-        rows_, {"own_states", "1", "How many of the vehicles, the last, are emergency vehicles' own states"}};
-    Column<bool> has_signals_{rows_, {"has_signals", "", "Signals are not seen as /signals says"}};
+        rows_,
+        {"own_states", "1",
+         "How many of the vehicles, counted from the end, are emergency vehicles' own states"}};
+    Column<bool> has_signals_{rows_, {"has_signals", "", "The observed signals differ from /signals"}};
     Column<std::uint32_t> vehicle_{vehicles_, vehicle_column};
     Column<traffic::VehicleClass> vehicle_class_{vehicles_, class_column, class_names};
     Column<traffic::Freshness> freshness_{
         vehicles_, {"freshness", "", "stale: its newest report was lost"}, freshness_names};
     Column<float> age_s_{vehicles_, {"age_s", "s", "Time since the state was measured"}};
-    Column<float> position_sigma_m_{vehicles_, {"position_sigma_m", "m", "Stated error of the sensor"}};
+    Column<float> position_sigma_m_{vehicles_,
+                                    {"position_sigma_m", "m", "Standard deviation that the sensor states"}};
     StateColumns<File> state_{vehicles_};
-    Column<std::uint32_t> from_{detections_, {"from", "", "Row in /vehicles: who detects"}};
-    Column<std::uint32_t> to_{detections_, {"to", "", "Row in /vehicles: who is detected"}};
+    Column<std::uint32_t> from_{detections_, {"from", "", "Row in /vehicles: the vehicle that detects"}};
+    Column<std::uint32_t> to_{detections_, {"to", "", "Row in /vehicles: the vehicle that is detected"}};
     Column<float> range_m_{detections_, {"range_m", "m", "Measured distance; negative: not measured"}};
-    Column<float> range_sigma_m_{detections_, {"range_sigma_m", "m", "Error of the distance"}};
+    Column<float> range_sigma_m_{detections_, {"range_sigma_m", "m", "Standard deviation of the distance"}};
     SignalTable<File> signals_;
     RosterTables<File> roster_;
 };

@@ -12,14 +12,14 @@
 
 namespace clearway::trace::detail {
 
-/// Vehicles and routes that a roster got, and vehicles that changed, since the step before.
+/// Vehicles and routes added to a roster, and vehicles that changed, since the previous step.
 template <class File>
 class RosterTables {
   public:
-    /// `prefix` is that of the groups: "" or "observation/".
+    /// `prefix` of the groups: "" or "observation/".
     RosterTables(File& file, const std::string& prefix, Names& names)
         : names_(names),
-          routes_(file, prefix + "routes", "Routes that came up, numbered in this order"),
+          routes_(file, prefix + "routes", "Routes in the order of their numbers"),
           route_edges_(file, prefix + "route_edges", "Their edges, in driving order"),
           roster_(file, prefix + "roster", "Vehicles that were registered or whose entry changed") {}
 
@@ -57,7 +57,7 @@ class RosterTables {
                 code_value(edge_, edge);
             if constexpr (File::reading) {
                 if (roster.add_route(route).value != known_routes_++)
-                    throw std::runtime_error("a route comes twice");
+                    throw std::runtime_error("a route is listed twice");
             }
         });
     }
@@ -129,11 +129,14 @@ class RosterTables {
     Column<traffic::VehicleKind> kind_{roster_, {"kind", "", "What the vehicle is"}, kind_names};
     Column<float> length_m_{roster_, {"length_m", "m", ""}};
     Column<float> width_m_{roster_, {"width_m", "m", ""}};
-    Column<float> minimum_gap_m_{roster_, {"minimum_gap_m", "m", "Gap that is kept when standing"}};
+    Column<float> minimum_gap_m_{roster_,
+                                 {"minimum_gap_m", "m", "Gap kept to the vehicle ahead at standstill"}};
     Column<float> maximum_speed_mps_{roster_, {"maximum_speed_mps", "m/s", ""}};
-    Column<float> acceleration_mps2_{roster_, {"acceleration_mps2", "m/s^2", "Greatest usual acceleration"}};
-    Column<float> deceleration_mps2_{roster_, {"deceleration_mps2", "m/s^2", "Greatest usual deceleration"}};
-    Column<float> speed_factor_{roster_, {"speed_factor", "1", "Desired speed over the limit"}};
+    Column<float> acceleration_mps2_{
+        roster_, {"acceleration_mps2", "m/s^2", "Greatest acceleration in normal driving"}};
+    Column<float> deceleration_mps2_{
+        roster_, {"deceleration_mps2", "m/s^2", "Greatest deceleration in normal driving"}};
+    Column<float> speed_factor_{roster_, {"speed_factor", "1", "Desired speed divided by the limit"}};
     Column<std::uint32_t> route_{roster_, {"route", "", "Number of the route; 4294967295: none"}};
 
     std::size_t known_routes_ = 0;

@@ -6,7 +6,7 @@
 
 namespace clearway::trace::detail {
 
-/// Hash of what was added, 32 hex digits; the same as core::content_hash of all of it.
+/// Hash of everything added, 32 hex digits: equal to core::content_hash of the whole.
 class RunningHash {
   public:
     RunningHash();

@@ -17,7 +17,7 @@ namespace clearway::trace::detail {
 namespace {
 
 constexpr std::string_view first_words = "CLEARWAY recording, format ";
-/// How files of formats 1 and 2 began, which were not HDF5.
+/// Start of files of formats 1 and 2, which were not HDF5.
 constexpr std::string_view older_word = "CLEARWAY";
 constexpr std::size_t piece_length = std::size_t{1} << 20U;
 
@@ -28,7 +28,7 @@ std::string seal_text(std::uint64_t length, const std::string& hash) {
     return text;
 }
 
-/// Hash of what follows the seal; nothing when the stream cannot be read to its end.
+/// Hashes what follows the seal. False when the stream cannot be read to its end.
 bool hash_rest(std::ifstream& stream, RunningHash& hash, std::uint64_t& length) {
     std::vector<char> piece(piece_length);
     stream.seekg(seal_length);
@@ -94,7 +94,7 @@ void check_seal(const std::filesystem::path& file) {
     if (size - seal_length < length) fail(file, "is cut short: it has no end");
     RunningHash hash;
     std::uint64_t found = 0;
-    if (!hash_rest(stream, hash, found)) fail(file, "cannot be read on");
+    if (!hash_rest(stream, hash, found)) fail(file, "cannot be read to its end");
     if (length != 0 && found > length) fail(file, "is damaged: something follows its end");
     if (head != seal_text(found, hash.digest())) fail(file, "is damaged: it does not fit its hash");
 }

@@ -26,7 +26,9 @@ class SignalTable {
     Names& names_;
     typename File::Rows rows_;
     ColumnOf<File, std::uint32_t> state_{
-        rows_, {"state", "", "Row in /texts: SUMO's letter of each link. Rows of a step are the signals"}};
+        rows_,
+        {"state", "",
+         "Row in /texts: SUMO's letter of each link. One row per signal, in the order of the network"}};
 };
 
 /// The true states of all vehicles on the road.
@@ -57,7 +59,7 @@ class SnapshotTables {
         signals_.code(now.signals);
         known.start_step(now, vehicles_, rows_.begin());
     }
-    /// Steps of a file that is read.
+    /// Number of steps; when reading.
     std::size_t steps() const { return time_s_.size(); }
 
   private:
@@ -90,8 +92,8 @@ class SnapshotTables {
     Column<std::uint32_t> lane_{rows_, {"lane", "", "Index in the network; 4294967295: none"}};
     Column<float> lane_position_m_{rows_,
                                    {"lane_position_m", "m", "Front bumper from the start of the lane"}};
-    Column<std::uint32_t> route_edge_{
-        rows_, {"route_edge", "1", "Position in the route of the last edge that was entered"}};
+    Column<std::uint32_t> route_edge_{rows_,
+                                      {"route_edge", "1", "Position in the route of the edge entered last"}};
     SignalTable<File> signals_;
     std::vector<std::uint32_t> vehicles_;
 };

@@ -13,15 +13,16 @@
 
 namespace clearway::trace::detail {
 
-/// In place of a row of /snapshot: there is none.
+/// Stands for no row of /snapshot.
 inline constexpr std::int64_t no_snapshot_row = -1;
 
-/// The rows of /snapshot that a report or belief may name in place of a state: of each vehicle the present
-/// one and that of its last report. Most reports and beliefs say the truth of some moment, and so cost next
-/// to nothing.
+/// The rows of /snapshot that a report or belief may name in place of a state: for each vehicle the present
+/// row and that of its last report. Most reports and beliefs equal the truth of some moment, and so take
+/// almost no space.
 class KnownStates {
   public:
-    /// Begins a step: `vehicles` are the rows of `now` in /vehicles, `first_row` is that of /snapshot.
+    /// Begins a step: `vehicles` are the rows in /vehicles of the vehicles of `now`, `first_row` is the first
+    /// row of the step in /snapshot.
     void start_step(const truth::Snapshot& now, const std::vector<std::uint32_t>& vehicles,
                     std::uint64_t first_row) {
         ++step_;
@@ -32,7 +33,7 @@ class KnownStates {
             known.step = step_;
         }
     }
-    /// Row with this very state; `no_snapshot_row` where none is known.
+    /// Row with exactly this state; `no_snapshot_row` when none is known.
     std::int64_t row_of(std::uint32_t vehicle, const traffic::MotionState& state) const {
         if (vehicle >= known_.size()) return no_snapshot_row;
         const Known& known = known_[vehicle];
@@ -41,14 +42,14 @@ class KnownStates {
             return known.reported.row;
         return no_snapshot_row;
     }
-    /// Throws std::runtime_error for a row that `row_of` would not have given.
+    /// Throws std::runtime_error for a row that `row_of` cannot have returned.
     const traffic::MotionState& state_at(std::uint32_t vehicle, std::int64_t row) const {
         if (vehicle < known_.size()) {
             const Known& known = known_[vehicle];
             if (known.step == step_ && known.present.row == row) return known.present.state;
             if (known.reported.row == row) return known.reported.state;
         }
-        throw std::runtime_error("a state is named that is not there");
+        throw std::runtime_error("a state is named that does not exist");
     }
     void remember_report(std::uint32_t vehicle, std::int64_t row, const traffic::MotionState& state) {
         if (vehicle != none && row != no_snapshot_row) of(vehicle).reported = {row, state};
@@ -88,7 +89,7 @@ class StateColumns {
   public:
     explicit StateColumns(typename File::Rows& rows) : rows_(rows) {}
 
-    /// Answers the row of /snapshot.
+    /// Returns the row of /snapshot.
     template <class State>
     std::int64_t code(State& state, std::uint32_t vehicle, const KnownStates& known) {
         std::int64_t row = no_snapshot_row;
@@ -120,18 +121,18 @@ class StateColumns {
 
     typename File::Rows& rows_;
     Column<std::int64_t> snapshot_row_{
-        rows_, {"snapshot_row", "", "Row of /snapshot with the same state, which is left out here; or -1"}};
+        rows_,
+        {"snapshot_row", "", "Row of /snapshot with the same state, which is then omitted here; else -1"}};
     Column<float> x_m_{rows_, {"x_m", "m", "Front bumper; NaN: see snapshot_row"}};
     Column<float> y_m_{rows_, {"y_m", "m", "Front bumper; NaN: see snapshot_row"}};
     Column<float> heading_rad_{rows_, {"heading_rad", "rad", "From the x axis; NaN: see snapshot_row"}};
     Column<float> speed_mps_{rows_, {"speed_mps", "m/s", "NaN: see snapshot_row"}};
     Column<std::uint32_t> lane_{rows_, {"lane", "", "Index in the network; 4294967295: none"}};
     Column<float> lane_position_m_{rows_, {"lane_position_m", "m", "NaN: see snapshot_row"}};
-    Column<std::uint32_t> route_edge_{rows_, {"route_edge", "1", "Edge of the route, from 0 on"}};
+    Column<std::uint32_t> route_edge_{rows_, {"route_edge", "1", "Edge of the route, counted from 0"}};
 };
 
-/// Rows must be ordered by key. `Error` is std::invalid_argument for a writer's caller, std::runtime_error
-/// for a file.
+/// Rows must be ordered by key. Throws std::invalid_argument when writing, std::runtime_error when reading.
 template <class File>
 void require_order(core::VehicleKey before, core::VehicleKey key) {
     if (before < key) return;

@@ -9,8 +9,8 @@
 
 namespace clearway::trace::detail {
 
-/// Does not compile when one of the structs gets or loses a member: it needs a column, and
-/// `recording_format` must be raised.
+/// Does not compile when one of the structs gains or loses a member: then the columns and `recording_format`
+/// must change.
 inline void every_member_has_a_column(const traffic::Lease& lease, const truth::Events& events,
                                       const truth::Snapshot& snapshot,
                                       const traffic::Observation& observation,

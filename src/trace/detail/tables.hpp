@@ -18,13 +18,13 @@
 
 namespace clearway::trace::detail {
 
-// Tables of an HDF5 file, one data set a column, written or read row by row. One description of them serves
-// both ways: `File` is a TableWriter and the structs are const, or a TableReader that fills them.
+// Tables of an HDF5 file, one data set per column, written or read row by row. One description serves both
+// directions: `File` is a TableWriter and the structs are const, or a TableReader that fills them.
 
-/// In place of a row number: there is none.
+/// Stands for no row.
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// What an element of a column is in the file.
+/// Type of a column's elements in the file.
 template <class Value>
 struct Stored {
     using Type = Value;
@@ -59,7 +59,7 @@ class ColumnFile {
     ColumnFile(const ColumnFile&) = delete;
     ColumnFile& operator=(const ColumnFile&) = delete;
     virtual ~ColumnFile() = default;
-    /// Writes what is left, or throws std::runtime_error when something is left to be read.
+    /// Writes what is still buffered; when reading, throws std::runtime_error if anything is left to be read.
     virtual void finish() = 0;
     const std::string& path() const { return path_; }
     virtual std::string digest() const = 0;
@@ -147,13 +147,13 @@ class InputColumn : public ColumnFile {
     std::size_t next_ = 0;
 };
 
-/// A group of columns of one length, and how many of their rows the present step has.
+/// A group of columns of equal length, and the rows of the present step.
 class Rows {
   public:
     Rows(Handle group, std::string path) : group_(std::move(group)), path_(std::move(path)) {}
     hid_t group() const { return group_.get(); }
     const std::string& path() const { return path_; }
-    /// Row with which the present step begins.
+    /// First row of the present step.
     std::uint64_t begin() const { return begin_; }
 
   protected:
@@ -162,7 +162,7 @@ class Rows {
     std::uint64_t begin_ = 0;
 };
 
-/// Where the rows of steps begin: a column of `/steps`.
+/// The column of `/steps` that says where the rows of each step begin.
 inline Column begin_column(const std::string& path) {
     std::string name = path;
     for (char& letter : name)
@@ -188,7 +188,7 @@ class TableWriter {
             file.tables_.push_back(this);
         }
         TableWriter& file() const { return file_; }
-        /// The step has `count` rows more.
+        /// Adds `count` rows to the step.
         void count(std::size_t& count) { end_ += count; }
         void end_step() {
             begin_ = end_;
@@ -205,14 +205,14 @@ class TableWriter {
         : file_(create_file(file)), steps_(create_group(file_.get(), "steps")) {}
 
     hid_t id() const { return file_.get(); }
-    /// The group of what each step has once.
+    /// The group of columns with one row per step.
     hid_t steps() const { return steps_.get(); }
     void add(ColumnFile& column) { columns_.push_back(&column); }
     void end_step() {
         for (Rows* const table : tables_)
             table->end_step();
     }
-    /// Writes what the columns hold still.
+    /// Writes what the columns still buffer.
     void finish() {
         for (ColumnFile* const column : columns_)
             column->finish();
@@ -226,7 +226,7 @@ class TableWriter {
     std::vector<Rows*> tables_;
 };
 
-/// Reads one.
+/// Reads an HDF5 file of tables.
 class TableReader {
   public:
     static constexpr bool reading = true;
@@ -243,17 +243,17 @@ class TableReader {
             file.tables_.push_back(this);
         }
         TableReader& file() const { return file_; }
-        /// Rows of the step.
+        /// Sets `count` to the number of rows of the step.
         void count(std::size_t& count) const { count = static_cast<std::size_t>(end_ - begin_); }
         void start_step() {
             begin_ = end_;
             offsets_(end_);
             if (end_ < begin_ || end_ - begin_ > most_rows)
-                throw std::runtime_error(path_ + " has rows that do not follow each other");
+                throw std::runtime_error(path_ + " has row numbers that are out of order");
         }
 
       private:
-        /// No step of a run has more; a number beyond it is none.
+        /// No step of a run has more; a larger number means damage.
         static constexpr std::uint64_t most_rows = 100'000'000;
 
         TableReader& file_;
@@ -265,14 +265,14 @@ class TableReader {
         : file_(open_file(file)), steps_(H5Gopen2(file_.get(), "steps", H5P_DEFAULT), H5Gclose) {}
 
     hid_t id() const { return file_.get(); }
-    /// The group of what each step has once.
+    /// The group of columns with one row per step.
     hid_t steps() const { return steps_.get(); }
     void add(ColumnFile& column) { columns_.push_back(&column); }
     void start_step() {
         for (Rows* const table : tables_)
             table->start_step();
     }
-    /// Throws std::runtime_error where a column holds more than its rows.
+    /// Throws std::runtime_error when a column is longer than its rows.
     void finish() {
         for (ColumnFile* const column : columns_)
             column->finish();
@@ -292,7 +292,7 @@ struct ColumnOf : File::template Column<Value> {
         : File::template Column<Value>(rows.file(), rows.group(), rows.path(), column, names) {}
 };
 
-/// One row for each of `elements`. `code(element)` writes or fills one.
+/// One row per element. `code(element)` writes or fills one of them.
 template <class File, class List, class Code>
 void list(typename File::Rows& rows, List& elements, const Code& code) {
     std::size_t count = elements.size();
@@ -302,13 +302,13 @@ void list(typename File::Rows& rows, List& elements, const Code& code) {
         code(element);
 }
 
-/// A column of numbers that have a type of their own: an index, a time.
+/// A column of a wrapped number: an index, a time.
 template <class Column, class Quantity>
 void code_value(Column& column, Quantity& quantity) {
     column(quantity.value);
 }
 
-/// Text or keys that columns name by their row in a table of the whole file.
+/// Texts or keys that columns refer to by their row in a table of the whole file.
 template <class Value, class Hash = std::hash<Value>>
 class Interned {
   public:
@@ -318,7 +318,7 @@ class Interned {
         return at->second;
     }
     const Value& value(std::uint32_t row) const {
-        if (row >= values_.size()) throw std::runtime_error("a row is named that is not there");
+        if (row >= values_.size()) throw std::runtime_error("a row is named that does not exist");
         return values_[row];
     }
     void assign(std::vector<Value> values) { values_ = std::move(values); }
@@ -329,10 +329,10 @@ class Interned {
     std::unordered_map<Value, std::uint32_t, Hash> rows_;
 };
 
-/// `/vehicles`: everybody that a file names, with the id that a roster knows; and `/texts`.
+/// `/vehicles`, every vehicle that a file names, with its id where a roster knows it; and `/texts`.
 class Names {
   public:
-    /// Codes a vehicle by its row, which is the answer; `none` stands for key 0.
+    /// Writes a vehicle as its row and returns that; `none` stands for key 0.
     std::uint32_t code(OutputColumn<std::uint32_t>& column, core::VehicleKey key) {
         const std::uint32_t row = key.value == 0 ? none : vehicle(key);
         column(row);
@@ -352,7 +352,7 @@ class Names {
         column(row);
         text = texts_.value(row);
     }
-    /// As long as these names live.
+    /// `text` stays valid as long as this object.
     void code_text(InputColumn<std::uint32_t>& column, const char*& text) const {
         std::uint32_t row = none;
         column(row);
@@ -364,12 +364,12 @@ class Names {
         return row;
     }
     core::VehicleKey key(std::uint32_t vehicle) const { return keys_.value(vehicle); }
-    /// SUMO's id; empty for what no roster knows.
+    /// SUMO's id; empty for a vehicle that no roster knows.
     std::string& id(std::uint32_t vehicle) { return ids_.at(vehicle); }
 
     void write(TableWriter& file) const;
     void read(TableReader& file);
-    /// Adds all of it.
+    /// Adds all names to the hash.
     void add_to(RunningHash& hash) const;
 
   private:

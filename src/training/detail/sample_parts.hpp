@@ -11,8 +11,7 @@
 
 namespace clearway::training::detail {
 
-// What the trainings on many snapshots share. `File` is a sample file of prediction, whose origin names its
-// seed.
+// Shared by the trainings on many snapshots. `File` is a file of samples, whose origin names its seed.
 
 template <class File>
 DataSeed seed_of(const File& file) {
