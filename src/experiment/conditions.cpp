@@ -9,7 +9,7 @@ namespace {
 
 /// Bursty outages of 10 s on average, dark 30 % of the time: where repair matters most.
 constexpr const char* usual_failure = "B10";
-constexpr const char* dissertation_part = "dissertation";
+constexpr const char* dissertation_policy = "dissertation";
 
 BuiltInCondition with_policy(const char* name, const char* failure, const char* predictor,
                              const char* summary) {
@@ -17,7 +17,7 @@ BuiltInCondition with_policy(const char* name, const char* failure, const char* 
     condition.name = name;
     condition.failure = failure;
     condition.predictor = predictor;
-    condition.policies = {dissertation_part};
+    condition.policies = {dissertation_policy};
     return {summary, condition};
 }
 

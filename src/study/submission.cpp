@@ -18,7 +18,7 @@ std::string shard_script(const Submission& submission) {
     std::vector<std::string> options = submission.study_options;
     const std::string extra = options.empty() ? "" : " " + core::shell_text(options);
     return fmt::format(R"(#!/usr/bin/env bash
-# Runs one shard of {count}: shard.sh I. Given again, it goes on where it was.
+# Runs one shard of {count}: shard.sh I. A second call continues where the first one stopped.
 set -uo pipefail
 readonly shard=$1 count={count} folder={folder}
 readonly out=$folder/shards/$shard-of-$count
@@ -39,8 +39,8 @@ exec >>"$folder/logs/shard-$shard.log" 2>&1
 run_in "$out"
 code=$?
 if [[ $code == 4 && ${{SLURM_RESTART_COUNT:-0}} -gt 0 ]]; then
-    # A node that was declared dead may still hold the folder. Work beside it: units are the same wherever they are
-    # made, and the merge checks that they are.
+    # A node that was declared dead may still hold the folder, so this attempt works in another one. Units are the same
+    # wherever they are made, and the merge checks that.
     run_in "$out.$SLURM_RESTART_COUNT"
     code=$?
 fi
@@ -97,7 +97,7 @@ exec {}
 }
 
 constexpr const char* submit_head = R"(#!/usr/bin/env bash
-# Runs the shards of a study and merges them. Given again, it runs what is missing.
+# Runs the shards of a study and merges them. A second call runs what is missing.
 set -euo pipefail
 )";
 
