@@ -29,7 +29,7 @@ std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& depart
     return xml + "</routes>\n";
 }
 
-/// Copies the additional files beside the others; answers their names.
+/// Copies the additional files next to the others and returns their names.
 std::string copied(const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder) {
     std::string names;
     std::size_t number = 0;

@@ -32,12 +32,12 @@ struct StopAtLine {};
 /// Show green for these links of a signal and red for those that conflict, with yellow and all-red between.
 struct HoldGreen {
     std::vector<std::uint16_t> links;  ///< Link numbers of the signal, ascending.
-    /// Those of them that the beneficiary itself may take, ascending; empty: all. Beside the hold of another
-    /// the rest may yield.
+    /// Those that the beneficiary itself may take, ascending; empty means all. The others may yield when
+    /// another hold is served at the same time.
     std::vector<std::uint16_t> own_links = {};
 };
-/// Lengthen or shorten what a signal's background plan shows, to give time back to the approaches that
-/// waited.
+/// Lead a signal's background plan to these links sooner, by ending greens that serve none of them: this
+/// gives time back to the approaches that waited.
 struct AdjustGreen {
     std::vector<std::uint16_t> links;
 };

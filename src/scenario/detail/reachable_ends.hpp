@@ -8,8 +8,8 @@
 namespace clearway::scenario::detail {
 
 /// Draws the ends of trips where not all edges reach each other. The weight of an edge is its share of the
-/// length of all, and, for an edge at which traffic can only enter (or leave) the network, its share of the
-/// lanes of all such edges.
+/// total length, plus, where traffic can only enter (or leave) the network, its share of the lanes of all
+/// such edges.
 class ReachableEnds {
   public:
     /// `edges`: those on which trips may start and end, ascending, not empty.
