@@ -45,13 +45,11 @@ struct ActuatorConfig {
                   "dense intersection: 5.5 emergency brakings a run at 0 s, 3.9 at 2 s"},
             Field{"hold_cap_s", "s", &C::hold_cap_s, 1.0, 600.0,
                   "Longest time away from the signal's background plan, counted anew when the hold passes on "
-                  "to "
-                  "links that conflict with those held before",
+                  "to links that conflict with those held before",
                   "as the prototype"},
             Field{"lockout_s", "s", &C::lockout_s, 0.0, 600.0,
                   "The signal's background plan runs at least this long between holds, and after one that "
-                  "reached "
-                  "the cap for a whole cycle (180 s at most)",
+                  "reached the cap for a whole cycle (180 s at most)",
                   "assumed"},
             Field{"least_green_s", "s", &C::least_green_s, 1.0, 120.0,
                   "A recovering signal ends no green of its program earlier", "assumed"});

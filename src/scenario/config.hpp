@@ -267,11 +267,10 @@ struct Trips {
                         "assumed: the longest vehicle, a bus of 12 m, fits"},
             core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
                         "Longest straight-line distance between the ends of a trip.", "none: no limit"},
-            core::Field{
-                "ends", "", &S::ends, 0, 0,
-                "connected: in the largest set of edges that all reach each other; reachable: any edge and "
-                "one that it leads to.",
-                "connected"});
+            core::Field{"ends", "", &S::ends, 0, 0,
+                        "connected: in the largest set of edges that all reach each other; reachable: any "
+                        "edge and one that it leads to.",
+                        "connected"});
     }
 };
 

@@ -21,8 +21,7 @@ std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& depart
     for (const traffic::EmergencyDeparture& departure : departures)
         xml += fmt::format(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departSpeed=\"{}\">\n    "
-            "    <route "
-            "edges=\"{}\"/>\n{}    </vehicle>\n",
+            "    <route edges=\"{}\"/>\n{}    </vehicle>\n",
             core::escaped(departure.id), core::escaped(departure.type), departure.depart.value,
             departure.depart_lane, departure.depart_speed,
             core::escaped(fmt::format("{}", fmt::join(departure.edges, " "))), device);

@@ -158,10 +158,10 @@ std::string greet(const std::string& host, int port, core::Seconds patience) {
         }
     }).detach();
     if (answer.wait_for(std::chrono::duration<double>(patience.value)) != std::future_status::ready)
-        throw core::EnvironmentError(fmt::format(
-            "{}:{} does not answer as SUMO does within {} s. Start SUMO with --remote-port {}, and give "
-            "the port of SUMO",
-            host, port, patience.value, port));
+        throw core::EnvironmentError(
+            fmt::format("{}:{} does not answer as SUMO does within {} s. Start SUMO with --remote-port {}, "
+                        "and give the port of SUMO",
+                        host, port, patience.value, port));
     try {
         return answer.get();
     } catch (const std::exception& fault) {
