@@ -42,6 +42,7 @@ struct ReactionConfig {
 /// those who comply leave its lane as soon as they can, into a lane that continues; those in other lanes stay
 /// out of it. Compliance and reaction time are drawn per driver, so they are the same in every condition.
 /// Automated vehicles are left to the policies.
+///
 /// Part of the environment, not a policy: it sees the truth, as drivers do with ears and mirrors. One per
 /// run; single-threaded.
 class Siren {

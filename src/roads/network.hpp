@@ -87,7 +87,7 @@ struct Signal {
     std::vector<bool> crossings;  ///< By link number: whether it is a crossing.
     std::vector<Phase> program;
     std::string program_id;
-    double offset_s = 0.0;    ///< The program starts anew whenever time - offset is a multiple of its cycle.
+    double offset_s = 0.0;    ///< The program restarts whenever time - offset is a multiple of its cycle.
     bool fixed_time = false;  ///< Not actuated by vehicles, so it stays coordinated with its neighbours.
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.
     /// Symmetric, false on the diagonal and between links of different junctions.
@@ -98,7 +98,7 @@ struct Signal {
 struct Location {
     double offset_x_m = 0.0;
     double offset_y_m = 0.0;
-    std::string projection;  ///< PROJ string, `!` where there is none.
+    std::string projection;  ///< PROJ string, `!` if there is none.
     double x_minimum_m = 0.0, y_minimum_m = 0.0, x_maximum_m = 0.0, y_maximum_m = 0.0;
 };
 

@@ -18,7 +18,7 @@ class ReachableEnds {
     /// Where a trip starts, by a uniform number in [0, 1).
     core::EdgeIndex origin(double uniform) const;
     /// The other end of a trip that starts at `end` (way onward) or ends there (way back), but not `end`
-    /// itself; `none` where there is none.
+    /// itself; `none` if there is none.
     core::EdgeIndex other_end(core::EdgeIndex end, roads::Way way, double uniform) const;
 
   private:

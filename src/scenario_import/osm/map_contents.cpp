@@ -70,7 +70,7 @@ double distance_km(const Coordinates& from, const Coordinates& to) {
 
 struct PendingSite {
     std::size_t row;   ///< In MapContents::sites.
-    std::string node;  ///< That stands for it.
+    std::string node;  ///< Node that represents it.
 };
 
 class MapReader {
