@@ -245,7 +245,7 @@ TEST_F(SumoPersons, alone_they_are_no_traffic) {
     const Findings findings =
         run(request({grid(), write("town.rou.xml",
                                    "<routes>" + person("walker", "<walk edges='A0A1'/>") + "</routes>")}));
-    EXPECT_THAT(findings.changes, Contains(HasSubstr("no vehicle for the road: demand is synthetic")));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("no road vehicles: the demand is synthetic")));
     EXPECT_THAT(findings.left_out, Contains(HasSubstr("1 persons, because no vehicle is left (walker)")));
     EXPECT_FALSE(scenario::load((out() / "town").string()).measured);
 }
