@@ -12,14 +12,14 @@
 namespace clearway::actuation {
 namespace {
 
-/// How long a driver takes to react to yellow, s. Assumed: short, for it is foreseen.
+/// Reaction time of a driver to yellow, s. Assumed to be short, because drivers expect it.
 constexpr double reaction_s = 0.5;
 /// Drivers stop this far before the line, m: SUMO's own stop-line gap.
 constexpr double stop_line_gap_m = 1.0;
-/// Farther from the line everybody can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
+/// Farther away than this, every vehicle can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
 constexpr double farthest_stop_m = 200.0;
 
-/// Why a lease can never be carried out, or null.
+/// Reason why a lease can never be carried out, or null.
 const char* check_vehicle_action(const traffic::Action& action) {
     if (std::holds_alternative<traffic::HoldGreen>(action) ||
         std::holds_alternative<traffic::AdjustGreen>(action))
@@ -64,8 +64,8 @@ struct Actuator::State {
             return check_signal_action(network, *signal, lease.action);
         return check_vehicle_action(lease.action);
     }
-    /// Whether a vehicle can stop before the end of its lane with its usual deceleration, but not when it
-    /// takes its time to react: one that is shown yellow now brakes hard.
+    /// Whether a vehicle could stop before the end of its lane with its usual deceleration, but only without
+    /// a reaction time: if it got yellow now, it would brake hard.
     bool could_just_stop(const truth::Snapshot& snapshot, std::size_t row,
                          const traffic::Roster& roster) const {
         const double speed_mps = snapshot.speed_mps[row];

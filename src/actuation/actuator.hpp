@@ -19,33 +19,32 @@
 
 namespace clearway::actuation {
 
-/// Turns leases into commands: the only place that judges feasibility (as the vehicle itself would), lets
-/// leases expire, runs signal transitions (yellow, all-red, hold cap, lockout, back to the program) and
-/// restores what was changed on every way out. One per run; one thread.
+/// Turns leases into commands. This is the only place that judges feasibility (as the vehicle itself would),
+/// lets leases expire, runs signal transitions (yellow, all-red, hold cap, lockout, return to the background
+/// plan) and always restores what was changed. One per run; single-threaded.
 ///
-/// Of the leases for one target that cannot be carried out together (one speed, one lane, one set of links
-/// that do not conflict) the one of higher priority wins, then the earlier; the others wait and are counted
-/// as `outranked`. What is not feasible now is judged again at every step until its expiry, and counted once
-/// for each reason:
+/// When leases for one target conflict (a target has one speed, one lane, one set of compatible links), the
+/// higher priority wins, then the earlier lease; the others wait and are counted as `outranked`. A lease that
+/// is not feasible now is judged again at every step until it expires, and is counted once per reason:
 ///
 /// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
 ///   `no_such_signal`, `wrong_target`;
 /// - `unreachable`: commands do not reach it now;
-/// - the target is not there (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
+/// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
 /// - human drivers take no leases, only emergency vehicles pass red: `not_controllable`,
 ///   `not_an_emergency_vehicle`;
-/// - `above_allowed_speed`: faster than road limit and vehicle allow;
+/// - `above_allowed_speed`: faster than the road limit or the vehicle allows;
 /// - `cannot_stop_comfortably`: a stop that needs more than the vehicle's usual deceleration;
-/// - the lane is not there for this vehicle: `on_a_junction`, `no_such_lane`, `lane_not_allowed`;
+/// - there is no such lane for this vehicle: `on_a_junction`, `no_such_lane`, `lane_not_allowed`;
 /// - `lane_does_not_continue`: neither a best lane for its route nor drivable for over 300 m;
 /// - `no_room_beside`: the vehicle itself would not change now;
 /// - `needs_sublane_model`: lateral positions without the sublane model;
 /// - `outranked`, `hold_cap`, `lockout`: see Config;
-/// - a green that cannot be granted: `no_phase_serves`; `unknown_program`, another than the network and the
-///   additional files start the signal with.
+/// - a green that cannot be granted: `no_phase_serves`, `unknown_program` (the signal runs a program other
+///   than its initial one).
 ///
-/// A speed lease never brakes harder than the vehicle's usual deceleration: SUMO bounds the change of every
-/// step while the safety checks are on.
+/// A speed lease never brakes harder than the vehicle's usual deceleration: while the safety checks are on,
+/// SUMO limits the change per step.
 class Actuator {
   public:
     using Config = ActuatorConfig;
@@ -57,17 +56,17 @@ class Actuator {
     Actuator& operator=(const Actuator&) = delete;
 
     /// Takes new leases and renewals. A lease of the same policy for the same target, beneficiary and kind of
-    /// thing renews the running one. Leases for the `unreachable` vehicles (ordered by key) are refused, so
-    /// that those running there expire.
+    /// action renews the running one. Leases for `unreachable` vehicles (ordered by key) are refused, so
+    /// running ones expire there.
     void accept(std::span<const traffic::Lease> leases, core::Seconds now,
                 std::span<const core::VehicleKey> unreachable = {});
 
-    /// Appends the commands for this step, ordered by vehicle key, then by signal. `snapshot` and `self` are
-    /// the vehicles' knowledge of themselves. Called once for every step, in order of time.
+    /// Appends the commands for this step: vehicles by key, then signals. `snapshot` and `self` are what
+    /// vehicles know about themselves. Call once per step, in order of time.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
               const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands);
 
-    /// Appends the commands that give back everything still held; afterwards nothing is.
+    /// Appends the commands that restore everything that is still changed. No lease is in force afterwards.
     void restore_all(std::vector<traffic::Command>& commands);
 
     /// Number of leases in force, waiting ones included.

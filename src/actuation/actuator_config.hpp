@@ -26,35 +26,33 @@ struct ActuatorConfig {
         using core::Field;
         return std::make_tuple(
             Field{"yellow_s", "s", &C::yellow_s, 0.0, 10.0,
-                  "Yellow before a green is taken away, on a dry road; longer where the road is slippery",
+                  "Yellow before a green is withdrawn, on a dry road; longer on slippery roads",
                   "usual in towns"},
-            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0, "All red after yellow", "as the prototype"},
+            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0, "All red after yellow", "as in the prototype"},
             Field{"clearing_s", "s", &C::clearing_s, 0.0, 30.0,
-                  "All red lasts up to this much longer while a vehicle that loses green is still inside the "
-                  "junction",
-                  "assumed: a left-turner that stands there needs 4 s to leave"},
-            Field{
-                "walking_s", "s", &C::walking_s, 0.0, 120.0,
-                "Likewise while a pedestrian is still on a crossing that those who get green will cross, or "
-                "a vehicle on the way of pedestrians who get green; 0 where nobody can walk",
-                "assumed: 20 m at 0.5 m/s, so that it ends when the crossing is empty, unless somebody is "
-                "stuck there"},
+                  "All red lasts up to this much longer while a vehicle that has lost green is still inside "
+                  "the junction",
+                  "assumed: a waiting left-turner needs 4 s to leave"},
+            Field{"walking_s", "s", &C::walking_s, 0.0, 120.0,
+                  "All red lasts up to this much longer while a pedestrian is on a crossing that vehicles "
+                  "with green will cross, or "
+                  "a vehicle is in the way of pedestrians who get green; 0 without pedestrians",
+                  "assumed: 20 m at 0.5 m/s, so that it ends when the crossing is empty, unless somebody is "
+                  "stuck there"},
             Field{"gap_wait_s", "s", &C::gap_wait_s, 0.0, 10.0,
-                  "A green is prolonged by up to this while a vehicle that would lose it could stop, but not "
+                  "A green is extended by up to this while a vehicle that would lose it could stop, but not "
                   "comfortably",
-                  "dense intersection: 5.5 emergency brakings a run at 0 s, 3.9 at 2 s"},
+                  "dense intersection: 5.5 emergency brakings per run at 0 s, 3.9 at 2 s"},
             Field{"hold_cap_s", "s", &C::hold_cap_s, 1.0, 600.0,
-                  "Longest time away from the signal's background plan, counted anew when the hold passes on "
-                  "to "
-                  "links that conflict with those held before",
+                  "Longest time away from the signal's background plan; restarts when the hold passes "
+                  "to links that conflict with those held before",
                   "as the prototype"},
             Field{"lockout_s", "s", &C::lockout_s, 0.0, 600.0,
-                  "The signal's background plan runs at least this long between holds, and after one that "
-                  "reached "
-                  "the cap for a whole cycle (180 s at most)",
+                  "The signal's background plan runs at least this long between holds; after a hold that "
+                  "reached the cap, also for a whole cycle (180 s at most)",
                   "assumed"},
             Field{"least_green_s", "s", &C::least_green_s, 1.0, 120.0,
-                  "A recovering signal ends no green of its program earlier", "assumed"});
+                  "No green of the background plan ends earlier while a signal recovers", "assumed"});
     }
 };
 

@@ -8,7 +8,7 @@
 namespace clearway::drivers {
 namespace {
 
-/// Counters of the draws of one driver.
+/// Numbers of the random draws made for one driver.
 constexpr std::uint64_t compliance_draw = 0;
 constexpr std::uint64_t reaction_draw = 1;
 

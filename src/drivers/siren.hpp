@@ -19,7 +19,7 @@ namespace clearway::drivers {
 
 using traffic::SirenConfig;
 
-/// How drivers react to a siren beside what a scenario says of them.
+/// Settings of the drivers' reaction to a siren that no scenario sets.
 struct ReactionConfig {
     double fastest_reaction_s = 0.3;
     double memory_s = 3.0;
@@ -29,35 +29,36 @@ struct ReactionConfig {
         using C = ReactionConfig;
         using core::Field;
         return std::make_tuple(
-            Field{"fastest_reaction_s", "s", &C::fastest_reaction_s, 0.0, 10.0, "No driver reacts faster",
-                  "assumed: a simple reaction"},
+            Field{"fastest_reaction_s", "s", &C::fastest_reaction_s, 0.0, 10.0,
+                  "Shortest reaction time of any driver", "assumed: simple reaction time"},
             Field{"memory_s", "s", &C::memory_s, 0.1, 60.0,
                   "A siren that was not heard for this long is forgotten", "assumed"},
             Field{"lane_request_s", "s", &C::lane_request_s, 0.1, 60.0,
-                  "A driver tries for one lane this long before looking again", "assumed"});
+                  "How long a driver tries to reach one lane before choosing again", "assumed"});
     }
 };
 
-/// Human drivers who hear an emergency vehicle behind them on its way: after their reaction time those who
-/// comply leave its lane as soon as their vehicle could change, into lanes that continue; those beside its
-/// lane stay out of it. Who complies and how fast is drawn by driver, so it is the same in every condition.
-/// Nothing is asked of automated vehicles: that is policy.
+/// Human drivers on the route of an emergency vehicle who hear it behind them. After their reaction time,
+/// those who comply leave its lane as soon as they can, into a lane that continues; those in other lanes stay
+/// out of it. Compliance and reaction time are drawn per driver, so they are the same in every condition.
+/// Automated vehicles are left to the policies.
 ///
-/// Environment, not policy: it sees the truth, as ears and mirrors do. One per run; one thread.
+/// Part of the environment, not a policy: it sees the truth, as drivers do with ears and mirrors. One per
+/// run; single-threaded.
 class Siren {
   public:
     /// The network outlives the object.
     Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
           const ReactionConfig& reaction = {});
 
-    /// Appends what drivers do in this step, ordered by vehicle key. Does nothing for compliance 0.
+    /// Appends the drivers' commands for this step, ordered by vehicle key. Does nothing if compliance is 0.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
               const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands);
 
-    /// Appends the commands that give back every driver's own ways.
+    /// Appends the commands that restore every driver's own behaviour.
     void restore_all(std::vector<traffic::Command>& commands);
 
-    /// Drivers who are reacting or about to.
+    /// Number of drivers who react or are about to.
     std::size_t aware() const { return drivers_.size(); }
 
   private:
@@ -66,7 +67,7 @@ class Siren {
         core::Seconds noticed;
         core::Seconds last_heard;
         Position position = Position::beside;
-        bool is_holding = false;  ///< Keeps its lane by our command.
+        bool is_holding = false;  ///< Holds its lane because of our command.
         core::Seconds asked_until{-1e9};
     };
 

@@ -15,10 +15,10 @@ struct LinkKeys {
     auto operator<=>(const LinkKeys&) const = default;
 };
 
-/// What separates two graphs, whatever rows their vehicles have in each.
+/// The links in which two graphs differ. Vehicles are compared by key, so their rows do not matter.
 struct Difference {
-    std::vector<LinkKeys> lost;   ///< In the first graph alone, ascending.
-    std::vector<LinkKeys> added;  ///< In the second graph alone, ascending.
+    std::vector<LinkKeys> lost;   ///< Only in the first graph, ascending.
+    std::vector<LinkKeys> added;  ///< Only in the second graph, ascending.
     std::size_t kept = 0;         ///< Links in both.
 };
 
@@ -28,8 +28,8 @@ struct KeyedGraph {
     std::span<const core::VehicleKey> keys;
 };
 
-/// Compares two graphs by key: O(links log links). A vehicle that only one graph has is no error; its links
-/// are lost or added. Throws std::invalid_argument when a graph and its keys differ in length. Allocates.
+/// Compares two graphs by key: O(links log links). A vehicle may be in only one graph; its links are then
+/// lost or added. Throws std::invalid_argument when a graph and its keys differ in length. Allocates.
 Difference difference(const KeyedGraph& before, const KeyedGraph& after);
 
 }  // namespace clearway::graph

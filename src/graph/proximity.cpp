@@ -30,7 +30,7 @@ struct Range {
     float high = std::numeric_limits<float>::lowest();
 };
 
-/// Smallest and largest value; refuses what is no finite number.
+/// Smallest and largest value. Throws std::invalid_argument when a value is not finite.
 Range range_of(std::span<const float> values) {
     Range range;
     bool finite = true;
@@ -43,7 +43,8 @@ Range range_of(std::span<const float> values) {
     return range;
 }
 
-/// The least float whose root is not below `radius`: squared distances below it are distances below `radius`.
+/// The smallest float whose square root is at least `radius`: a squared distance below it means a distance
+/// below `radius`.
 float squared_limit(float radius) {
     float limit = radius * radius;
     while (std::sqrt(limit) >= radius) {
@@ -55,7 +56,7 @@ float squared_limit(float radius) {
     return limit;
 }
 
-/// Moves the start and end of a range of cells on as the middle cell grows: in all O(n).
+/// A range of cells that only moves forward as the middle cell grows: O(n) in total.
 struct Window {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -126,7 +127,7 @@ void ProximityBuilder::find_cells(const Places& places, double radius_m) {
     }
 }
 
-/// Radix sort from the low digit up: stable, and as many passes as the largest cell number needs.
+/// Radix sort, lowest digit first: stable, with as many passes as the largest cell number needs.
 void ProximityBuilder::sort_by_cell() {
     constexpr unsigned digit_bits = 11;
     constexpr std::uint64_t digit_mask = (1U << digit_bits) - 1U;

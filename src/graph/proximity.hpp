@@ -10,11 +10,10 @@
 
 namespace clearway::graph {
 
-/// Which pairs of classes may be linked (dissertation 4.1). Human and human never are: human drivers are
-/// passive.
+/// Which pairs of classes may be linked (dissertation 4.1). Two human drivers never are: they are passive.
 struct LinkRules {
-    double radius_m =
-        50.0;  ///< Link when the distance is below this; (0, 1000]. 50 m assumed: the source states none.
+    /// Vehicles nearer than this are linked, m; (0, 1000]. 50 m is assumed: the source states no value.
+    double radius_m = 50.0;
     enum class Pairs : std::uint8_t { excluded, included };
     Pairs automated_automated = Pairs::excluded;
     Pairs emergency_emergency = Pairs::excluded;
@@ -39,33 +38,33 @@ struct ProximityGraph {
     }
 };
 
-/// Positions and classes, one row a vehicle.
+/// Positions and classes, one row per vehicle.
 struct Places {
     std::span<const float> x_m;
     std::span<const float> y_m;
     std::span<const traffic::VehicleClass> vehicle_class;
 };
 
-/// Builds proximity graphs with a sorted uniform grid: O(n + pairs that are near, whatever their class),
-/// however far apart the vehicles lie. Distance is Euclidean: equation (1) of the dissertation *corrected*
-/// (it prints a minus sign), in single precision; a pair is near when that distance is below the radius.
-/// Keeps its buffers: no allocation once they have grown. One builder, one thread. A k-d tree (nanoflann) was
-/// 4 to 11 times slower; a plain grid over the bounding box pays for one far outlier with its area.
+/// Builds proximity graphs with a sorted uniform grid: O(n + near pairs of any class), however far apart the
+/// vehicles are. Distance is Euclidean: equation (1) of the dissertation *corrected* (it prints a minus
+/// sign), in single precision; a pair is near when that distance is below the radius. Keeps its buffers: no
+/// allocation once they have grown. Use one builder per thread. A k-d tree (nanoflann) was 4 to 11 times
+/// slower; a plain grid over the bounding box gets huge when one vehicle is far away.
 class ProximityBuilder {
   public:
-    /// How pairs are compared. Both give the same graph, bit for bit; `scalar` is for machines without AVX2
-    /// and for the test that says so.
+    /// How pairs are compared. Both give the same graph, bit for bit, which a test checks; `scalar` is for
+    /// machines without AVX2.
     enum class Kernel : std::uint8_t { fastest_here, scalar };
     explicit ProximityBuilder(Kernel kernel = Kernel::fastest_here);
 
-    /// Links allowed by `rules`. Throws std::invalid_argument for a position that is no finite number,
-    /// columns of different lengths, or a radius outside (0, 1000].
+    /// Links allowed by `rules`. Throws std::invalid_argument for a position that is not finite, columns of
+    /// different lengths, or a radius outside (0, 1000].
     void build(const Places& places, const LinkRules& rules, ProximityGraph& graph);
-    /// All pairs within `radius_m`, whatever their class. Throws likewise.
+    /// All pairs within `radius_m`, whatever their class. Throws as `build` does.
     void build_all_pairs(const Places& places, double radius_m, ProximityGraph& graph);
 
   private:
-    /// By class of one end, bit c: a link to class c is allowed.
+    /// Indexed by the class of one end; bit c is set when a link to class c is allowed.
     using AllowedClasses = std::array<std::uint32_t, traffic::vehicle_classes.size()>;
 
     void build_with(const Places& places, double radius_m, const AllowedClasses& allowed,
@@ -77,11 +76,11 @@ class ProximityBuilder {
     void write_rows(ProximityGraph& graph);
 
     Kernel kernel_;
-    std::uint64_t columns_ = 0;  ///< Of the grid, a margin of one cell on each side included.
+    std::uint64_t columns_ = 0;  ///< Columns of the grid, including a margin of one cell on each side.
     std::uint64_t last_cell_ = 0;
     std::vector<std::uint64_t> cell_;        ///< Sorted, once `sort_by_cell` is done.
     std::vector<core::VehicleIndex> order_;  ///< Vehicles by cell, then by row.
-    std::vector<std::uint64_t> spare_cell_;  ///< The other side of each pass of sorting.
+    std::vector<std::uint64_t> spare_cell_;  ///< Output buffer of a sorting pass.
     std::vector<core::VehicleIndex> spare_order_;
     std::vector<float> sorted_x_, sorted_y_;  ///< In the order of `order_`, with a margin for vector loads.
     std::vector<std::uint32_t> sorted_class_;

@@ -16,7 +16,8 @@ bool open_to_cars(const Network& network, core::EdgeIndex index) {
     return std::ranges::any_of(lanes, &Lane::allows_cars);
 }
 
-/// Tarjan's strongly connected components (1972) without recursion: real networks are deeper than a stack.
+/// Tarjan's strongly connected components (1972) without recursion, because real networks would overflow the
+/// stack.
 class ComponentSearch {
   public:
     explicit ComponentSearch(const Network& network)
@@ -76,7 +77,8 @@ class ComponentSearch {
         for (auto member = first; member != open_.end(); ++member) {
             number_[member->value] = closed;
         }
-        // Of two of one size the one with the smallest edge, so that the answer does not depend on the order.
+        // Of components of equal size, take the one with the smallest edge: the result must not depend on the
+        // order.
         const auto size = static_cast<std::size_t>(open_.end() - first);
         const auto smallest = *std::min_element(first, open_.end());
         if (size > best_.size() || (size == best_.size() && smallest < *std::ranges::min_element(best_))) {

@@ -7,7 +7,7 @@
 namespace clearway::roads {
 namespace {
 
-/// What pedestrians walk on inside junctions: crossings, and the walking areas at their ends.
+/// Where pedestrians walk inside junctions: crossings and the walking areas at their ends.
 class FootWays {
   public:
     explicit FootWays(const Network& network) : network_(network) {

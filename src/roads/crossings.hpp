@@ -16,8 +16,8 @@ struct SidewalkEnd {
     LaneEnd end = LaneEnd::last;
 };
 
-/// A crossing for pedestrians and the sidewalks on its two sides; where an island lies on one side, the
-/// sidewalks behind the crossings beyond it.
+/// A pedestrian crossing and the sidewalks on its two sides. If one side is a traffic island, that side has
+/// the sidewalks that the island's other crossings lead to.
 struct Crossing {
     core::EdgeIndex edge;
     bool has_signal = false;
@@ -25,7 +25,7 @@ struct Crossing {
     std::vector<SidewalkEnd> other_side;
 };
 
-/// The crossings that lead from sidewalks to others, in the order of the network's edges.
+/// The crossings that connect sidewalks, in the order of the network's edges.
 std::vector<Crossing> crossings(const Network& network);
 
 }  // namespace clearway::roads

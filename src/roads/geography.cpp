@@ -20,7 +20,7 @@ struct Ellipsoid {
 constexpr Ellipsoid wgs84{6378137.0, 298.257223563};
 constexpr Ellipsoid grs80{6378137.0, 298.257222101};
 
-/// `+proj=utm +zone=32 +south` as names and values; names without value have an empty one.
+/// `+proj=utm +zone=32 +south` as names and values; a name without a value gets an empty one.
 std::map<std::string, std::string, std::less<>> parameters_of(const std::string& projection) {
     std::map<std::string, std::string, std::less<>> parameters;
     detail::for_each_word(projection, ' ', [&](std::string_view word) {
@@ -48,7 +48,7 @@ Series series_of(double equator_m, double n) {
         {n / 2.0 - 2.0 * n2 / 3.0 + 37.0 * n3 / 96.0, n2 / 48.0 + n3 / 15.0, 17.0 * n3 / 480.0}};
 }
 
-/// Of the term in row `j` of the series.
+/// Factor of the angle in term `j` of the series.
 double order_of(std::size_t j) {
     return 2.0 * static_cast<double>(j + 1);
 }
@@ -64,7 +64,7 @@ double conformal(double tangent, double eccentricity) {
     return tangent * std::sqrt(1.0 + sigma * sigma) - sigma * std::sqrt(1.0 + tangent * tangent);
 }
 
-/// Northing of a latitude on the central meridian, over the scale.
+/// Northing of a latitude on the central meridian, divided by the scale.
 double meridian_m(double latitude_rad, double equator_m, double n) {
     const Series series = series_of(equator_m, n);
     const double xi = std::atan(conformal(std::tan(latitude_rad), eccentricity_of(n)));

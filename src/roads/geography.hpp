@@ -13,13 +13,13 @@ struct Coordinates {
     double latitude_deg = 0.0;
 };
 
-/// The way between the plane of a network and the globe, for networks in a transverse Mercator projection
+/// Converts between the plane of a network and the globe, for networks in a transverse Mercator projection
 /// (UTM, which netconvert chooses, and `+proj=tmerc`), on WGS 84 or GRS 80. Krueger's series to the third
-/// order (Karney 2011, "Transverse Mercator with an accuracy of a few nanometers", equations 35 and 36):
-/// below 1 mm within 10 degrees of the central meridian.
+/// order (Karney 2011, "Transverse Mercator with an accuracy of a few nanometers", equations 35 and 36): the
+/// error is below 1 mm within 10 degrees of the central meridian.
 class Geography {
   public:
-    /// Nothing where the network has no projection or another one.
+    /// Nothing when the network has no projection or another one.
     static std::optional<Geography> of(const Location& location);
 
     Coordinates coordinates(double x_m, double y_m) const;
@@ -32,7 +32,7 @@ class Geography {
     double offset_x_m_ = 0.0, offset_y_m_ = 0.0;
     double central_meridian_rad_ = 0.0;
     double scale_ = 1.0;
-    double false_easting_m_ = 0.0, false_northing_m_ = 0.0;  ///< The origin's latitude included.
+    double false_easting_m_ = 0.0, false_northing_m_ = 0.0;  ///< The northing includes the origin's latitude.
     double equator_m_ = 6378137.0;                           ///< Semi-major axis.
     double third_flattening_ = 0.0;
 };

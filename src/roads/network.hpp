@@ -77,33 +77,33 @@ struct SignalLink {
     core::LaneIndex via;
 };
 
-/// A traffic signal and the program that it starts with: of several programs the last that is read, as SUMO
-/// does. Signals and crossings of railways are left out: they have no program, and nothing may pre-empt them.
+/// A traffic signal and its initial program: of several programs the last one read, as in SUMO. Railway
+/// signals and railway crossings are left out: they have no program and must not be preempted.
 struct Signal {
     std::string id;
-    /// By link number, as many as the letters of a phase; several connections may share one, some have none.
-    /// Crossings for pedestrians are links too.
+    /// By link number, one per letter of a phase. A link may have several connections or none. Pedestrian
+    /// crossings are links too.
     std::vector<std::vector<SignalLink>> links;
     std::vector<bool> crossings;  ///< By link number: whether it is a crossing.
     std::vector<Phase> program;
     std::string program_id;
-    double offset_s = 0.0;    ///< The program starts anew whenever time - offset is a multiple of its cycle.
-    bool fixed_time = false;  ///< It never waits for vehicles, so it keeps in step with its neighbours.
+    double offset_s = 0.0;    ///< The program restarts whenever time - offset is a multiple of its cycle.
+    bool fixed_time = false;  ///< Not actuated by vehicles, so it stays coordinated with its neighbours.
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.
     /// Symmetric, false on the diagonal and between links of different junctions.
     std::vector<std::vector<bool>> foes;
 };
 
-/// How a network file lies on the globe, for the way back to WGS 84.
+/// Where a network lies on the globe, for conversion to WGS 84.
 struct Location {
     double offset_x_m = 0.0;
     double offset_y_m = 0.0;
-    std::string projection;  ///< PROJ string, `!` where there is none.
+    std::string projection;  ///< PROJ string, `!` if there is none.
     double x_minimum_m = 0.0, y_minimum_m = 0.0, x_maximum_m = 0.0, y_maximum_m = 0.0;
 };
 
-/// The map as anyone may know it: SUMO's network file in memory. Immutable after reading, so it may be shared
-/// by threads.
+/// The map, which is known to everybody: SUMO's network file in memory. Immutable after reading, so threads
+/// may share it.
 class Network {
   public:
     /// Reads `.net.xml` or `.net.xml.gz`, streaming, then the signal programs of SUMO's additional files in
@@ -129,8 +129,7 @@ class Network {
     core::LaneIndex lane_of(core::EdgeIndex edge, std::uint32_t number) const;
     /// In the order of the file, which is that of SUMO's link numbers.
     std::span<const Connection> connections_from(core::LaneIndex lane) const;
-    /// Edges outside junctions that can be reached directly from `edge` by a car, without repetition,
-    /// ascending.
+    /// Edges outside junctions that can be reached directly from `edge` by a car, each once, ascending.
     std::span<const core::EdgeIndex> successors(core::EdgeIndex edge) const;
 
     /// Point and heading (rad, counter-clockwise from the x axis) at `position` along a lane; clamped to its
@@ -148,7 +147,7 @@ class Network {
     std::vector<Connection> connections_;
     std::vector<core::EdgeIndex> successors_;
     std::vector<std::uint32_t> first_successor_;
-    /// Lets a map of strings be asked with a view.
+    /// Allows lookups by std::string_view.
     struct TextHash {
         using is_transparent = void;
         std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }

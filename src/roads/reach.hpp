@@ -20,8 +20,8 @@ class Reach {
 
     /// Whether no edge leads on from it, or to it: traffic leaves or enters the network there.
     bool is_end(core::EdgeIndex edge, Way way) const;
-    /// By edge: whether a car gets there from `start`, or from there to `start`; `start` itself included.
-    /// Takes time proportional to the network.
+    /// By edge: whether a car can get there from `start`, or from there to `start`; true for `start` itself.
+    /// Linear in the size of the network.
     std::vector<bool> from(core::EdgeIndex start, Way way) const;
 
   private:

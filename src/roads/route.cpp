@@ -22,7 +22,8 @@ traffic::MotionState place_on(const Network& network, const Walk& walk, double p
             .route_edge = walk.route_edge()};
 }
 
-/// Distance from the start of a way from `from` to `to` to the place `lane`, `position_m` on it.
+/// Distance along the way across a junction, from the end of edge `from` towards `to`, up to `position_m` on
+/// `lane`.
 std::optional<double> distance_into_junction(const Network& network, core::EdgeIndex from, core::EdgeIndex to,
                                              core::LaneIndex lane, double position_m) {
     const Edge& edge = network.edge(from);
@@ -164,7 +165,7 @@ std::vector<StopLine> signals_ahead(const Network& network, Route route, const t
     return lines;
 }
 
-// Six parameters, as the public header explains each.
+// Six parameters; the public header explains each.
 // NOLINTNEXTLINE(readability-function-size)
 core::Metres drivable(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,
                       core::Metres lane_position, core::Metres horizon) {

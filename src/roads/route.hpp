@@ -14,15 +14,15 @@ namespace clearway::roads {
 
 // Functions that take a route and a state expect `state.route_edge` within the route and `state.lane` to
 // exist (on that edge, or inside the junction behind it); they throw std::invalid_argument otherwise. They
-// walk the lanes as `advance` says, so their answers agree with each other. A route that the network does not
-// join ends where it breaks. Cost: linear in the lanes passed; no allocation unless stated.
+// walk the lanes as `advance` says, so their answers agree with each other. A route whose edges are not
+// connected ends at the gap. Cost: linear in the lanes passed; no allocation unless stated.
 
 /// Edges in driving order, internal edges left out: what a navigation system knows.
 using Route = std::span<const core::EdgeIndex>;
 
 /// The cheapest route for cars by free-flow travel time, `from` and `to` included; nothing when `to` cannot
-/// be reached or one of the two is closed to cars. Time on the ways across junctions counts. Dijkstra (1959)
-/// on edges; ties are broken by edge index, so the answer is deterministic. Allocates.
+/// be reached or one of the two is closed to cars. Time across junctions counts. Dijkstra (1959) on edges;
+/// ties are broken by edge index, so the answer is deterministic. Allocates.
 std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
                                                           core::EdgeIndex to);
 
@@ -31,9 +31,9 @@ std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network
 core::Metres route_length(const Network& network, Route route);
 
 /// Where a vehicle is after driving `distance` further along its route from `state`, staying on its lane as
-/// long as the lane continues and taking the nearest lane that continues otherwise. Internal lanes count.
-/// Stops at the end of the route: `past_end` then tells by how much it overshot. `distance` >= 0, or
-/// std::invalid_argument.
+/// long as the lane continues and otherwise taking the nearest lane that does. Internal lanes count. Stops at
+/// the end of the route; `past_end` is the distance left over. Throws std::invalid_argument for a negative
+/// `distance`.
 struct Advanced {
     traffic::MotionState state;  ///< Speed is copied from the start.
     core::Metres past_end{0.0};
@@ -47,12 +47,12 @@ struct RouteStep {
     float start_m = 0.0F;  ///< From the vehicle's place to the start of the lane; negative on the first one.
     float end_m = 0.0F;
     std::uint32_t route_edge = 0;
-    /// Of the connection taken at the end of the lane: none where it has no signal or the way ends.
+    /// Signal of the connection taken at the end of the lane; none if it has no signal or the route ends.
     core::SignalIndex signal;
     std::uint16_t signal_link = 0;
 };
-/// The lanes that `advance` would pass on the first `horizon` metres, in order; `steps` is reused. True when
-/// the route goes on behind the last of them.
+/// The lanes that `advance` would pass on the first `horizon` metres, in order; `steps` is reused. Returns
+/// whether the route continues after the last of them.
 bool lanes_ahead(const Network& network, Route route, const traffic::MotionState& state, core::Metres horizon,
                  std::vector<RouteStep>& steps);
 
@@ -71,8 +71,8 @@ struct StopLine {
     core::SignalIndex signal;  ///< None for a junction without signal (not listed by signals_ahead).
     core::EdgeIndex edge;      ///< The edge that ends there.
     core::EdgeIndex next_edge;
-    std::vector<std::uint16_t>
-        links;                   ///< Links of the signal from any lane of `edge` to `next_edge`, ascending.
+    /// Links of the signal from any lane of `edge` to `next_edge`, ascending.
+    std::vector<std::uint16_t> links;
     core::Metres distance{0.0};  ///< Along the route from the vehicle's front.
 };
 /// Signals ahead within `horizon`, nearest first. Allocates.
@@ -80,11 +80,11 @@ std::vector<StopLine> signals_ahead(const Network& network, Route route, const t
                                     core::Metres horizon);
 
 /// A lane that is not among the best for a route is worth taking when it can be followed for longer than this
-/// (measured on the prototype: less strands vehicles before turns).
+/// (measured on the prototype: with shorter distances, vehicles get stuck before turns).
 inline constexpr core::Metres worth_following{300.0};
 
-/// How far `route` can be followed from the start of lane `lane` (on route[route_edge]) without a lane
-/// change, counted from `lane_position`; the end of the route ends the count, capped at `horizon`.
+/// How far a vehicle at `lane_position` on `lane` (on route[route_edge]) can follow `route` without a lane
+/// change: at most to the end of the route, and at most `horizon`.
 core::Metres drivable(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,
                       core::Metres lane_position, core::Metres horizon);
 

@@ -16,7 +16,7 @@ double free_flow_s(const Lane& lane) {
                                        : unreachable;
 }
 
-/// Least time along an edge on a lane open to cars.
+/// Shortest time along an edge on a lane open to cars.
 double edge_time_s(const Network& network, core::EdgeIndex index) {
     const Edge& edge = network.edge(index);
     double best_s = unreachable;

@@ -36,7 +36,7 @@ std::optional<std::string> Walkways::fault(std::span<const core::EdgeIndex> edge
     const auto id = [&](std::size_t row) { return network_.edge(edges[row]).id; };
     for (std::size_t row = 0; row < edges.size(); ++row) {
         if (!open(edges[row])) return fmt::format("edge \"{}\" is closed to pedestrians", id(row));
-        // Whoever turns round so can make SUMO die of an assertion of its own.
+        // A person who turns round like this can make SUMO fail an assertion.
         if ((row > 0 && edges[row] == edges[row - 1]) || (row > 1 && edges[row] == edges[row - 2]))
             return fmt::format("its walk comes back to edge \"{}\" at once", id(row));
     }
@@ -44,7 +44,7 @@ std::optional<std::string> Walkways::fault(std::span<const core::EdgeIndex> edge
     const Course backward = course(edges, LaneEnd::first);
     const bool either_is_sound = forward.worst == Link::by_areas || backward.worst == Link::by_areas;
     const auto holds = [](const Course& course) { return course.worst >= Link::straight_over; };
-    // Where both directions lead on, SUMO asks its router, which knows nothing of ways straight over.
+    // Where both directions lead on, SUMO uses its router, which does not know ways straight over a junction.
     const bool both = forward.worst > Link::apart && backward.worst > Link::apart;
     if (either_is_sound || (both ? holds(forward) && holds(backward) : holds(forward) || holds(backward)))
         return std::nullopt;

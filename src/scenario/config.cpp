@@ -123,7 +123,7 @@ toml::table parse(const std::filesystem::path& file, const std::string& shown) {
     }
 }
 
-/// Puts `value`, as TOML writes it, at a dotted key.
+/// Sets a dotted key to `value`, which is TOML text.
 void set_key(toml::table& root, const std::string& dotted, const std::string& value) {
     toml::table* table = &root;
     std::size_t begin = 0;
@@ -133,13 +133,13 @@ void set_key(toml::table& root, const std::string& dotted, const std::string& va
         toml::table* const next = table->get(key)->as_table();
         if (next == nullptr)
             throw core::InputError(
-                {fmt::format("factor scenario.{}", dotted), fmt::format("{} is no table", key), "", ""});
+                {fmt::format("factor scenario.{}", dotted), fmt::format("{} is not a table", key), "", ""});
         table = next;
         begin = dot + 1;
     }
     const toml::table parsed = toml::parse("value = " + value);
     const std::string last = dotted.substr(begin);
-    table->erase(last);  // with its place in the file
+    table->erase(last);  // also forgets its place in the file
     parsed.get("value")->visit([&](const auto& node) { table->insert(last, node); });
 }
 

@@ -17,21 +17,21 @@
 
 namespace clearway::scenario {
 
-/// Named parameter sets of the Intelligent Driver Model; the numbers stand in vehicle_types.cpp.
+/// Named parameter sets of the Intelligent Driver Model; vehicle_types.cpp has the numbers.
 enum class IdmPreset { sumo, treiber };
 /// Whether an imported network is cut down to its largest set of edges that all reach each other by car.
 enum class Restriction { none, largest_car_component };
 /// Which lanes a measured vehicle may use: those of its kind, or all (SUMO's class `ignoring`).
 enum class Access { own, unrestricted };
-/// How the vehicles of an imported demand follow each other: by the model of their own type, or by the
+/// How the vehicles of an imported demand follow each other: with the model of their own type, or with the
 /// Intelligent Driver Model of `[drivers]`.
 enum class CarFollowing { own, idm };
 /// A place that emergency vehicles start from or drive to.
 enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
-/// Between which edges the trips of `[trips]` are drawn: those of the largest set that all reach each other
-/// by car, or any edge and one that can be reached from it, for networks that are driven through: an
-/// intersection alone, a motorway.
+/// Edges between which the trips of `[trips]` are drawn: `connected` means the largest set whose edges all
+/// reach each other by car; `reachable` means any edge and one that can be reached from it, for networks with
+/// through traffic (a single intersection, a motorway).
 enum class TripEnds { connected, reachable };
 /// Where the demand of a scenario comes from.
 enum class DemandKind { flows, trips, measured };
@@ -88,7 +88,8 @@ struct NetworkSource {
                         "scenario"},
             core::Field{"restrict", "", &S::restrict, 0, 0, "none or largest_car_component (imports only).",
                         "none: the network as it is"},
-            core::Field{"attribution", "", &S::attribution, 0, 0, "Whom the map data must name.", "licence"});
+            core::Field{"attribution", "", &S::attribution, 0, 0, "Whom users of the map data must name.",
+                        "licence"});
     }
 };
 
@@ -105,21 +106,22 @@ struct Times {
         return std::make_tuple(
             core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0,
                         "Emergency vehicles depart at this time or later.",
-                        "60 s: the first vehicles are most of the way through the road"},
+                        "60 s: the first vehicles have passed most of the road"},
             core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "All vehicles depart in [0, window_s].",
                         "facts of the project: 100, 120, 200 s"},
-            core::Field{"horizon_s", "s", &S::horizon_s, 1.0, 604800.0,
-                        "A run that is not over by then is cut, and its vehicles count as running at end.",
-                        "assumed: several times the longest free trip"},
+            core::Field{
+                "horizon_s", "s", &S::horizon_s, 1.0, 604800.0,
+                "A run that is not over by then is cut off, and its vehicles count as running at end.",
+                "assumed: several times the longest free trip"},
             core::Field{"step_length_s", "s", &S::step_length_s, 0.1, 0.25, "Simulation step.",
                         "docs/decisions/0001-step-length.md"},
             core::Field{"time_to_teleport_s", "s", &S::time_to_teleport_s, -1.0, 86400.0,
-                        "SUMO lifts a vehicle that stood this long over the jam; -1: never.",
+                        "SUMO teleports a vehicle that has stood this long past the jam; -1: never.",
                         "none: SUMO's 300 s"});
     }
 };
 
-/// Table `[demand]`. Human and automated vehicles are counted here unless the demand is measured.
+/// Table `[demand]`. It sets the numbers of human and automated vehicles unless the demand is measured.
 struct Demand {
     int human = 0;
     int automated = 0;
@@ -140,7 +142,8 @@ struct Demand {
                         "Factor on the human and automated vehicles; at most 1 for measured demand.",
                         "1: as counted"},
             core::Field{"counts", "", &S::counts, 0, 0,
-                        "CSV of counted flows, edge and vehicles_per_hour, to judge the demand by.", "none"});
+                        "CSV of counted flows (edge, vehicles_per_hour) to compare the demand with.",
+                        "none"});
     }
 };
 
@@ -164,7 +167,7 @@ struct Dense {
     }
 };
 
-/// Table `[limits]`. A vehicle's limit is the lower one of its class's and of the road's.
+/// Table `[limits]`. A vehicle's limit is the lower of its class limit and the road limit.
 struct SpeedLimits {
     double human_kmh = 120.0;
     double automated_kmh = 140.0;
@@ -175,13 +178,13 @@ struct SpeedLimits {
         using S = SpeedLimits;
         return std::make_tuple(
             core::Field{"human_kmh", "km/h", &S::human_kmh, 1.0, 400.0,
-                        "No human driver goes faster, whatever the road allows.", "dissertation TABLE I"},
+                        "No human driver drives faster, whatever the road allows.", "dissertation TABLE I"},
             core::Field{"automated_kmh", "km/h", &S::automated_kmh, 1.0, 400.0,
-                        "No automated vehicle goes faster.", "dissertation TABLE I"},
+                        "No automated vehicle drives faster.", "dissertation TABLE I"},
             core::Field{"emergency_kmh", "km/h", &S::emergency_kmh, 1.0, 400.0,
-                        "No emergency vehicle goes faster.", "dissertation TABLE I"},
+                        "No emergency vehicle drives faster.", "dissertation TABLE I"},
             core::Field{"road_kmh", "km/h", &S::road_kmh, 0.0, 400.0,
-                        "Faster roads are limited to this; 0 leaves the roads as they are.",
+                        "Roads with a higher limit are limited to this; 0 leaves the roads as they are.",
                         "0: the network's own limits"});
     }
 };
@@ -200,19 +203,19 @@ struct Drivers {
             core::Field{"idm", "", &S::idm, 0, 0, "Parameters of the car-following model: sumo or treiber.",
                         "docs/decisions/0001-step-length.md"},
             core::Field{"speed_factor_mean", "1", &S::speed_factor_mean, 0.1, 3.0,
-                        "Human drivers: mean of desired speed over road limit.",
+                        "Human drivers: mean ratio of desired speed to road limit.",
                         "facts of the project: N(1, 0.1)"},
             core::Field{"speed_factor_deviation", "1", &S::speed_factor_deviation, 0.0, 1.0,
                         "Its standard deviation before truncation.", "facts of the project: N(1, 0.1)"},
-            core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0, "Truncated below.",
-                        "facts of the project: [0.75, 1.25]"},
-            core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0, "Truncated above.",
-                        "facts of the project: [0.75, 1.25]"});
+            core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0,
+                        "Lower bound of the truncation.", "facts of the project: [0.75, 1.25]"},
+            core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0,
+                        "Upper bound of the truncation.", "facts of the project: [0.75, 1.25]"});
     }
 };
 
-/// Table `[kinds.traffic]`: relative frequency of the kinds among human and automated vehicles of generated
-/// demand.
+/// Table `[kinds.traffic]`: relative frequency of each kind among the human and automated vehicles of
+/// generated demand.
 struct TrafficKinds {
     double car = 1.0;
     double van = 0.0;
@@ -244,7 +247,7 @@ struct EmergencyKinds {
     }
 };
 
-/// Table `[trips]`: origins and destinations drawn over the whole network, by length of edge.
+/// Table `[trips]`: origins and destinations are drawn over the whole network, weighted by edge length.
 struct Trips {
     double minimum_length_m = 500.0;
     double emergency_minimum_length_m = 1000.0;
@@ -263,12 +266,11 @@ struct Trips {
                         "Trips start and end on edges at least this long.",
                         "assumed: the longest vehicle, a bus of 12 m, fits"},
             core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
-                        "Longest straight line between the ends of a trip.", "none: no limit"},
-            core::Field{
-                "ends", "", &S::ends, 0, 0,
-                "connected: in the largest set of edges that reach each other; reachable: any edge and "
-                "one that it leads to.",
-                "connected"});
+                        "Longest straight-line distance between the ends of a trip.", "none: no limit"},
+            core::Field{"ends", "", &S::ends, 0, 0,
+                        "connected: in the largest set of edges that all reach each other; reachable: any "
+                        "edge and one that it leads to.",
+                        "connected"});
     }
 };
 
@@ -283,12 +285,12 @@ struct EmergencySite {
         return std::make_tuple(
             core::Field{"kind", "", &S::kind, 0, 0, "hospital, ambulance_station or fire_station.",
                         "scenario"},
-            core::Field{"edge", "", &S::edge, 0, 0, "Edge that it lies at.", "scenario"},
+            core::Field{"edge", "", &S::edge, 0, 0, "Edge at which it lies.", "scenario"},
             core::Field{"name", "", &S::name, 0, 0, "Its name on the map; text from a file.", "none"});
     }
 };
 
-/// One of `[[flow]]`: a share of all vehicles drives the fastest way from an edge to another.
+/// One of `[[flow]]`: a share of all vehicles drives the fastest route from one edge to another.
 struct Flow {
     std::string from;
     std::string to;
@@ -304,7 +306,7 @@ struct Flow {
     }
 };
 
-/// One of `[[emergency_trip]]`: an emergency vehicle with a trip of its own, beside those that
+/// One of `[[emergency_trip]]`: an emergency vehicle with its own trip, in addition to those that
 /// `demand.emergency` counts.
 struct EmergencyTrip {
     std::string from;
@@ -318,7 +320,7 @@ struct EmergencyTrip {
             core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
             core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
             core::Field{"depart_s", "s", &S::depart_s, 0.0, 604800.0,
-                        "Departure, not before the warm-up ends.", "scenario"},
+                        "Departure, not before the end of the warm-up.", "scenario"},
             core::Field{"kind", "", &S::kind, 0, 0, "ambulance, fire_engine or police_car.", "ambulance"});
     }
 };
@@ -331,17 +333,17 @@ struct MeasuredType {
 
     static constexpr auto fields() {
         using S = MeasuredType;
-        return std::make_tuple(
-            core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
-            core::Field{"kind", "", &S::kind, 0, 0, "car, van, truck, bus, or other (of own_types).", "car"},
-            core::Field{"access", "", &S::access, 0, 0,
-                        "own: the lanes of its kind; unrestricted: all lanes.", "own"});
+        return std::make_tuple(core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
+                               core::Field{"kind", "", &S::kind, 0, 0,
+                                           "car, van, truck, bus, or other (needs own_types).", "car"},
+                               core::Field{"access", "", &S::access, 0, 0,
+                                           "own: the lanes of its kind; unrestricted: all lanes.", "own"});
     }
 };
 
 /// Table `[measured.own_types]`: the vehicles keep the size, dynamics and permissions of their own types,
-/// which stand in a file of SUMO. Without it they get those of their kind. Automated vehicles follow by the
-/// Intelligent Driver Model in any case.
+/// which a SUMO file defines. Without this table they get those of their kind. Automated vehicles always use
+/// the Intelligent Driver Model.
 struct OwnTypes {
     std::string file;
     CarFollowing car_following = CarFollowing::own;
@@ -352,7 +354,7 @@ struct OwnTypes {
             core::Field{"file", "", &S::file, 0, 0, "Additional file with a <vType> for each measured.type.",
                         "scenario"},
             core::Field{"car_following", "", &S::car_following, 0, 0,
-                        "own: as the types say; idm: parameters of [drivers].", "own"});
+                        "own: as in the types; idm: parameters of [drivers].", "own"});
     }
 };
 
@@ -363,7 +365,7 @@ struct Measured {
     double emergency_minimum_length_m = 1000.0;
     std::vector<std::string> routes;
     std::vector<std::string> additional;
-    /// Route files of `<person>` who walk, with their types. They are the same in every condition.
+    /// Route files of walking `<person>`s, with their types. They are the same in every condition.
     std::vector<std::string> persons;
     std::vector<MeasuredType> types;
     std::optional<OwnTypes> own_types;
@@ -379,8 +381,8 @@ struct Measured {
     }
 };
 
-/// A scenario, complete and checked. Demand and drivers that follow from it depend on nothing but study seed
-/// and replication.
+/// A scenario, complete and checked. Apart from it, demand and drivers depend only on study seed and
+/// replication.
 struct ScenarioConfig {
     std::string name;
     std::string version;
@@ -403,13 +405,13 @@ struct ScenarioConfig {
     std::optional<Measured> measured;
 
     std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.
-    std::map<std::string, std::string>
-        origins;  ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
+    /// Where each key was set: `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
+    std::map<std::string, std::string> origins;
 
     DemandKind demand_kind() const;
-    /// Whether people walk, measured or drawn. In solo runs they do not.
+    /// Whether there are pedestrians, measured or drawn. Solo runs have none.
     bool has_pedestrians() const;
-    /// Place of a key for messages: file, line and column, or the option that set it, or the key alone.
+    /// Where a key was set, for messages: file, line and column, or the option, or only the key.
     std::string where(const std::string& key) const;
 };
 
@@ -427,17 +429,17 @@ struct Options {
     std::optional<double> siren_compliance;    ///< --siren, 0 to 1
     std::optional<double> road_speed_factor;   ///< --road-speed, 0.05 to 1
     std::optional<double> friction;            ///< --friction, 0.1 to 1
-    std::optional<double> pedestrians;         ///< --pedestrians, 0 to 2000 an hour at each crossing
-    std::string traffic_kinds;    ///< --kinds, weights as `car=8,truck=2`; kinds not named get 0.
-    std::string emergency_kinds;  ///< --emergency-kinds, `ambulance=1,police_car=1`
-    /// Keys of scenario.toml that replace the file's before it is read, `demand.human` -> `40` as TOML writes
-    /// the value. Lists of tables cannot be reached.
+    std::optional<double> pedestrians;         ///< --pedestrians, 0 to 2000 per hour at each crossing
+    std::string traffic_kinds;    ///< --kinds, weights such as `car=8,truck=2`; kinds not named get 0.
+    std::string emergency_kinds;  ///< --emergency-kinds, such as `ambulance=1,police_car=1`
+    /// Keys that replace those of scenario.toml before it is checked: `demand.human` -> `40`, the value as
+    /// TOML text. Arrays of tables cannot be set.
     std::map<std::string, std::string> settings = {};
 };
 
-/// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks the whole.
+/// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks everything.
 /// Strict: throws core::InputError with every problem found, each with file, line, column, value, what is
-/// allowed and the nearest valid key. Edges are checked later, by `prepare`, when there is a network. Throws
+/// allowed and the nearest valid key. `prepare` checks the edges later, when there is a network. Throws
 /// core::EnvironmentError when SUMO_HOME is needed and not set.
 ScenarioConfig load(const std::string& name_or_path, const Options& options = {});
 
@@ -445,21 +447,21 @@ ScenarioConfig load(const std::string& name_or_path, const Options& options = {}
 /// configuration.
 std::string to_toml(const ScenarioConfig& config);
 
-/// Content hash of `to_toml` (32 hex digits): two configurations with one hash mean the same.
+/// Content hash of `to_toml` (32 hex digits): configurations with the same hash mean the same.
 std::string configuration_hash(const ScenarioConfig& config);
 
-/// Content hash of `to_toml` and of the files that it names relative to its folder, as far as they exist.
+/// Content hash of `to_toml` and of those files that exist among the ones it names relative to its folder.
 std::string scenario_hash(const ScenarioConfig& config);
 
 /// Writes the effective `scenario.toml` and copies the files that it names relative to its folder, so that
-/// `folder` is a scenario of its own.
+/// `folder` is a complete scenario.
 void store(const ScenarioConfig& config, const std::filesystem::path& folder);
 
 /// Names of the scenarios that come with Clearway, sorted.
 std::vector<std::string> list();
 
-/// Makes `folder` a copy of scenario `from` (name, folder or file) for the user to edit; its name becomes the
-/// folder's. Throws core::InputError when the folder exists and is not empty.
+/// Makes `folder` a copy of scenario `from` (name, folder or file) for the user to edit; it is named after
+/// the folder. Throws core::InputError when the folder exists and is not empty.
 void init(const std::filesystem::path& folder, const std::string& from);
 
 /// A path of a scenario: `$SUMO_HOME` replaced, relative ones below `config.folder`.

@@ -28,8 +28,8 @@ std::string value_text(const Member& value) {
     }
 }
 
-/// Empty texts and empty optionals are the absence of a value. So are connected ends of trips: configurations
-/// from before there were others keep their `configuration_hash`.
+/// Empty texts and empty optionals count as absent. So does `connected`, the default of trips.ends: older
+/// configurations keep their `configuration_hash`.
 template <class Member>
 bool is_absent(const Member& value) {
     if constexpr (std::is_same_v<Member, std::string>) return value.empty();
@@ -38,7 +38,7 @@ bool is_absent(const Member& value) {
     return false;
 }
 
-/// Members of a struct as lines `key = value`; what is absent is left out.
+/// Members of a struct as lines `key = value`, without the absent ones.
 template <class Struct>
 std::string members(const Struct& values) {
     std::string text;
@@ -68,7 +68,7 @@ std::string tables(const char* name, const std::vector<Struct>& rows) {
 std::string measured_text(const Measured& measured) {
     std::string text = fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n", members(measured),
                                    text_array(measured.routes), text_array(measured.additional));
-    // Only where there are any, so that older configurations keep their `configuration_hash`.
+    // Only if there are any, so that older configurations keep their `configuration_hash`.
     if (!measured.persons.empty()) text += fmt::format("persons = {}\n", text_array(measured.persons));
     if (measured.own_types) text += "\n[measured.own_types]\n" + members(*measured.own_types);
     return text + tables("measured.type", measured.types);
@@ -107,7 +107,7 @@ void copy_files(const ScenarioConfig& config, const std::filesystem::path& folde
     }
 }
 
-/// The text with the line of its key `name` replaced; comments and all else stay.
+/// The text with the line of its key `name` replaced; everything else stays, comments included.
 std::string renamed(const std::string& text, const std::string& name) {
     const toml::table table = toml::parse(text);
     const auto line = table.get("name")->source().begin.line;
@@ -131,8 +131,7 @@ std::string to_toml(const ScenarioConfig& config) {
     if (config.dense) text += "\n[dense]\n" + members(*config.dense);
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
-    // A siren that nobody heeds is none, and so are a dry road and crossings that nobody uses: so
-    // configurations from before them keep their `configuration_hash`.
+    // Left out when they have no effect, so that older configurations keep their `configuration_hash`.
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
     if (!config.road.is_dry()) text += road_text(config.road);
     if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* network_name = "network.net.xml";
 constexpr int shown_log_lines = 8;
 
-/// Where the messages of a problem with the network's sources point to.
+/// The key that messages about the network's sources point to.
 std::string source_place(const ScenarioConfig& config) {
     return config.where(config.network.plain() ? "network.edges" : "network.file");
 }
@@ -34,20 +34,21 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
     const core::Exit exit = core::run(command);
     constexpr int not_found = 127;
     if (exit.code == not_found)
-        throw core::EnvironmentError("netconvert does not start. Install package sumo");
+        throw core::EnvironmentError("netconvert does not start. Install the package sumo");
     if (!exit.ok())
         throw core::InputError(core::Problem{
             source_place(config),
             fmt::format("netconvert refuses this network ({}):\n{}", exit.describe(),
                         core::tail(command.output, shown_log_lines)),
-            "", fmt::format("correct the file that it names; the whole log is {}", command.output.string())});
+            "",
+            fmt::format("correct the file that it names; the whole log is in {}", command.output.string())});
 }
 
 std::vector<std::string> plain_arguments(const ScenarioConfig& config) {
     const NetworkSource& source = config.network;
     std::vector<std::string> arguments = {"--no-turnarounds", "true"};
-    // Sidewalks at roads of any speed: crossings at signals want them. Netconvert builds none across fast
-    // roads where there is no signal, and gives the programs their phases for pedestrians.
+    // Sidewalks at roads of any speed, because crossings at signals need them. Netconvert builds no crossings
+    // over fast roads without a signal, and it adds the pedestrian phases to the programs.
     if (config.pedestrians.walk())
         arguments.insert(arguments.end(), {"--sidewalks.guess", "true", "--sidewalks.guess.max-speed", "1000",
                                            "--crossings.guess", "true"});
@@ -71,7 +72,7 @@ std::string kept_edges(const ScenarioConfig& config, const roads::Network& netwo
     return text;
 }
 
-/// netconvert cuts a copy of the network in `raw` down to its largest car-connected component.
+/// Lets netconvert reduce the network in `raw` to its largest car-connected component.
 void restrict_network(const ScenarioConfig& config, const std::filesystem::path& folder,
                       const std::filesystem::path& raw) {
     const std::filesystem::path kept = folder / "kept_edges.txt";
@@ -85,8 +86,8 @@ void restrict_network(const ScenarioConfig& config, const std::filesystem::path&
     std::filesystem::remove(whole);
 }
 
-/// Speed factors of the lanes by edge; edges inside junctions have the factor of all roads. Throws
-/// core::InputError for stretches over edges that the network does not have.
+/// Multiplies the speed limits of the lanes by the factor of their edge; edges inside junctions get the
+/// factor of all roads. Throws core::InputError for stretches over edges that the network does not have.
 void slow_down(const ScenarioConfig& config, NetworkDocument& document) {
     const RoadCondition& road = config.road;
     std::map<std::string, double> own;

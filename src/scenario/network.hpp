@@ -13,15 +13,15 @@ namespace clearway::scenario {
 struct BuiltNetwork {
     std::filesystem::path file;  ///< `network.net.xml`
     roads::Network network;
-    std::string inputs_hash;  ///< Content of what it was built from, and how.
+    std::string inputs_hash;  ///< Hash of the inputs and of how it was built from them.
 };
 
-/// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file, cut
-/// down to its largest car-connected component where the scenario says so and with faster roads limited to
-/// `limits.road_kmh` and then slowed as `[road]` says. Plain XML gets sidewalks and crossings where
-/// pedestrians walk; network files keep those that they have. The result holds no time stamp and no path, so
-/// equal inputs give equal bytes. Throws core::InputError naming file and cure for what netconvert refuses,
-/// for a network without edges open to cars and for a stretch of road that is not in it,
+/// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file,
+/// reduced to its largest car-connected component if the scenario says so. Faster roads are limited to
+/// `limits.road_kmh` and then slowed as `[road]` says. Plain XML gets sidewalks and crossings if there are
+/// pedestrians; network files keep those that they have. The result holds no time stamp and no path, so equal
+/// inputs give equal bytes. Throws core::InputError naming file and cure for input that netconvert refuses,
+/// for a network without edges open to cars and for a stretch of road that is not in it;
 /// core::EnvironmentError when netconvert is missing.
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 7> newer_classes = {"cable_car", "subway"
         core::Problem{file.string(), what, "a SUMO network, .net.xml or .net.xml.gz", "choose another file"});
 }
 
-/// The bytes of a file, decompressed where it is compressed.
+/// The bytes of a file, decompressed if it is compressed.
 std::string inflated(const std::filesystem::path& file) {
     gzFile stream = gzopen(file.c_str(), "rb");
     if (stream == nullptr) refuse(file, "cannot be read");
@@ -102,7 +102,7 @@ NetworkDocument& NetworkDocument::without_newer_classes() {
         if (pugi::xml_attribute disallow = node.attribute("disallow")) repair(disallow);
         pugi::xml_attribute allow = node.attribute("allow");
         if (!allow || !repair(allow) || !std::string_view(allow.value()).empty()) return;
-        node.remove_attribute(allow);  // An empty list would open the lane to all.
+        node.remove_attribute(allow);  // An empty list would open the lane to all classes.
         node.append_attribute("disallow").set_value("all");
     });
     return *this;

@@ -12,7 +12,7 @@
 namespace clearway::scenario {
 
 /// A SUMO network file as XML, for changes that netconvert cannot make without touching the geometry.
-/// Comments are left out: in one of them netconvert notes time, options and paths. Holds the whole file in
+/// Comments are dropped, because netconvert writes time, options and paths into one. Holds the whole file in
 /// memory.
 class NetworkDocument {
   public:
@@ -20,23 +20,23 @@ class NetworkDocument {
     /// network.
     explicit NetworkDocument(const std::filesystem::path& file);
 
-    /// Takes out the vehicle classes that netconvert 1.18 and later write and SUMO 1.15 refuses.
+    /// Removes the vehicle classes that netconvert 1.18 and later write but SUMO 1.15 rejects.
     NetworkDocument& without_newer_classes();
-    /// Lists of classes that `without_newer_classes` changed.
+    /// Number of class lists that `without_newer_classes` changed.
     int repaired_lists() const { return repaired_lists_; }
-    /// Opens what is open to cars to class `emergency` too. Answers the number of lists changed.
+    /// Opens everything that is open to cars to class `emergency` too. Returns the number of lists changed.
     int admit_emergency();
     /// Whether there is an edge outside junctions.
     bool has_edges() const;
-    /// Attribute of the root element, `version`; empty where there is none.
+    /// Attribute of the root element, such as `version`; empty if there is none.
     std::string attribute(const char* name) const;
-    /// No lane is faster than `limit`.
+    /// Lowers the speed limit of each faster lane to `limit`.
     void limit_speed(core::MetresPerSecond limit);
     /// Ids of the edges outside junctions.
     std::set<std::string> edges() const;
-    /// Multiplies the limit of each lane with the factor of its edge, those inside junctions included.
+    /// Multiplies the speed limit of each lane by the factor of its edge, inside junctions too.
     void scale_speeds(const std::function<double(const std::string& edge)>& factor_of);
-    /// Shifts the offsets of signal programs, so that at time 0 they stand where they stood at `begin_s`.
+    /// Shifts the offsets of signal programs so that at time 0 they are where they were at `begin_s`.
     void begin_programs_at(double begin_s);
     std::string text() const;
 

@@ -17,16 +17,16 @@ constexpr double picture_width = 960.0;   // user units of the SVG
 constexpr double picture_height = 540.0;  // at most; flat networks get less
 constexpr double margin = 30.0;
 
-/// A network flatter than this is stretched across, or its lanes would be one line; at most by the factor
-/// below.
+/// A network with a smaller ratio of height to width is stretched in y, or its lanes would merge into one
+/// line; at most by the factor below.
 constexpr double flattest = 0.1;
 constexpr double largest_stretch = 10.0;
 
 /// From the network's metres (y up) to the picture's units (y down).
 struct Frame {
     double scale = 1.0;
-    double stretch = 1.0;  ///< Of y over x; above 1 for flat networks only.
-    double left = margin;  ///< Of the drawing, which stands in the middle.
+    double stretch = 1.0;  ///< Of y relative to x; above 1 for flat networks only.
+    double left = margin;  ///< Left edge of the drawing, which is centred.
     double left_m = 0.0;
     double top_m = 0.0;
     double height = 0.0;
@@ -92,7 +92,7 @@ void draw_signals(const roads::Network& network, const Frame& frame, std::string
     }
 }
 
-/// The longest of 1, 2, 5 x 10^n metres that takes at most a fifth of the width.
+/// The longest of 1, 2 or 5 x 10^n metres that takes at most a fifth of the width.
 double scale_bar_m(const Frame& frame) {
     const double longest = picture_width / 5.0 / frame.scale;
     const double power = std::pow(10.0, std::floor(std::log10(longest)));

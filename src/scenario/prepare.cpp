@@ -42,11 +42,11 @@ std::uint64_t simulator_seed(const core::KeyedRandom& random) {
     return 1 + random.below(largest - 1, core::Purpose::simulator, 0);
 }
 
-/// SUMO separates additional files by commas, so a comma in a path would be taken for two files.
+/// SUMO separates additional files by commas, so it would take a path with a comma for two files.
 void refuse_commas(const std::filesystem::path& folder) {
     if (folder.string().find(',') == std::string::npos) return;
     throw core::InputError(core::Problem{folder.string(),
-                                         "has a comma in its path, which SUMO takes for a separator",
+                                         "has a comma in its path, which SUMO takes as a separator",
                                          "a path without commas", "choose another folder"});
 }
 

@@ -15,27 +15,26 @@ namespace clearway::scenario {
 /// What SUMO needs for one replication.
 struct Prepared {
     std::filesystem::path network_file;
-    /// Human and automated vehicles, by departure; then, where there are any, the persons of measured demand
-    /// and the drawn pedestrians.
+    /// Human and automated vehicles, by departure; then, if there are any, the persons of measured demand and
+    /// the drawn pedestrians.
     std::vector<std::filesystem::path> route_files;
-    std::vector<std::filesystem::path>
-        additional_files;  ///< Vehicle types first, then what the demand refers to.
-    /// By departure. The run adds them after the warm-up; they stand in no route file. Also in
-    /// `emergency.csv`.
+    /// Vehicle types first, then the files that the demand refers to.
+    std::vector<std::filesystem::path> additional_files;
+    /// By departure. The run adds them after the warm-up; they are in no route file, but in `emergency.csv`.
     std::vector<traffic::EmergencyDeparture> emergency;
     Times time;
     std::uint64_t simulator_seed = 1;  ///< For SUMO's own generator, 31 bits, not 0.
     int human = 0;
     int automated = 0;
-    std::string demand_hash;  ///< Content of all files that it writes.
+    std::string demand_hash;  ///< Hash of all files that `prepare` writes.
 };
 
 /// Writes vehicle types, routes, emergency departures and pedestrians of one replication into `folder` and
-/// tells where they are. A pure function of configuration, network, seed and replication: equal arguments
-/// give equal bytes, whatever else was prepared, and a vehicle keeps its departure, route and driver when
-/// others are added. Throws core::InputError with every unknown edge, unreachable destination and unknown
-/// measured type, for persons who cannot walk as they are to, and for pedestrians in a network without
-/// crossings; core::EnvironmentError when `folder` cannot be written.
+/// returns where they are. A pure function of configuration, network, seed and replication: equal arguments
+/// give equal bytes, and a vehicle keeps its departure, route and driver when others are added. Throws
+/// core::InputError with every unknown edge, unreachable destination and unknown measured type, for persons
+/// who cannot walk as planned, and for pedestrians in a network without crossings; core::EnvironmentError
+/// when `folder` cannot be written.
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder);
 

@@ -21,15 +21,14 @@ std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& depart
     for (const traffic::EmergencyDeparture& departure : departures)
         xml += fmt::format(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departSpeed=\"{}\">\n    "
-            "    <route "
-            "edges=\"{}\"/>\n{}    </vehicle>\n",
+            "    <route edges=\"{}\"/>\n{}    </vehicle>\n",
             core::escaped(departure.id), core::escaped(departure.type), departure.depart.value,
             departure.depart_lane, departure.depart_speed,
             core::escaped(fmt::format("{}", fmt::join(departure.edges, " "))), device);
     return xml + "</routes>\n";
 }
 
-/// Copies the additional files beside the others; answers their names.
+/// Copies the additional files next to the others and returns their names.
 std::string copied(const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder) {
     std::string names;
     std::size_t number = 0;

@@ -36,7 +36,7 @@ using detail::SumoFiles;
 
 constexpr const char* network_name = "network.net.xml";
 
-/// The files of a request by what they are.
+/// The files of a request by kind.
 struct Sources {
     std::vector<std::filesystem::path> maps;
     std::optional<std::filesystem::path> network;
@@ -46,19 +46,20 @@ struct Sources {
 void check_folder(const std::filesystem::path& folder) {
     const std::string name = folder.filename().string();
     if (!core::is_folder_name(name))
-        throw core::InputError(core::Problem{"--name", fmt::format("\"{}\" is no name for a scenario", name),
+        throw core::InputError(core::Problem{"--name",
+                                             fmt::format("\"{}\" is not a valid scenario name", name),
                                              core::folder_name_rule, "choose another name"});
     if (folder.string().find(',') != std::string::npos)
         throw core::InputError(
             core::Problem{folder.string(),
-                          "would lie in a folder with a comma in its path, which SUMO takes for a separator",
+                          "would lie in a folder with a comma in its path, which SUMO takes as a separator",
                           "a path without commas", "import it in another folder"});
     if (std::filesystem::exists(folder))
         throw core::InputError(core::Problem{folder.string(), "exists already", "a new folder",
                                              "choose another name, or remove it"});
 }
 
-/// Another import of the name may have been quicker.
+/// Another import of the same name may have been quicker.
 void move_to(const std::filesystem::path& made, const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::rename(made, folder, error);
@@ -76,7 +77,7 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
                       configuration.end_s, configuration.scale};
     if (configuration.scale != 1.0)
         import.findings.changes.push_back(fmt::format(
-            "option scale of the configuration: there are {:g} of each vehicle", configuration.scale));
+            "option scale of the configuration: each vehicle occurs {:g} times", configuration.scale));
     for (const std::string& option : configuration.other_options)
         import.left_out.add("options of the configuration that are not taken over", option,
                             detail::LeftOut::all);
@@ -116,7 +117,7 @@ Sources sort_files(Import& import, bool& leaves_out_bad_vehicles) {
     return sources;
 }
 
-/// Networks of SUMO say 0.x or 1.x.
+/// SUMO networks have version 0.x or 1.x.
 void check_version(const scenario::NetworkDocument& document, const std::filesystem::path& file) {
     const std::string version = document.attribute("version");
     const auto number = detail::number(version);
@@ -139,13 +140,12 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
     if (document.repaired_lists() > 0)
         import.findings.changes.push_back(
             fmt::format("{} lists of vehicle classes name classes of a newer netconvert that SUMO 1.15 "
-                        "refuses; those words are "
-                        "taken out",
+                        "rejects; those classes are removed",
                         document.repaired_lists()));
     const int admitted = document.admit_emergency();
     if (admitted > 0)
         import.findings.changes.push_back(
-            fmt::format("{} lanes or ways open to cars are opened to emergency vehicles", admitted));
+            fmt::format("{} lanes or connections open to cars are opened to emergency vehicles", admitted));
     import.findings.left_hand = document.attribute("lefthand") == "true";
     core::write_atomically(import.scenario / network_name, document.text());
     roads::Network network = roads::Network::read(import.scenario / network_name);
@@ -154,7 +154,7 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
     return network;
 }
 
-/// `without_crossings`: what is said when there are none.
+/// Throws `without_crossings` when there are no crossings.
 void add_pedestrians(Import& import, const roads::Network& network, scenario::ScenarioConfig& config,
                      const core::Problem& without_crossings) {
     const double per_hour = import.request.pedestrians_per_hour;
@@ -165,13 +165,13 @@ void add_pedestrians(Import& import, const roads::Network& network, scenario::Sc
     config.pedestrians.per_hour = per_hour;
     if (signalled == 0) config.pedestrians.crossings = scenario::Crossings::all;
     import.findings.changes.push_back(
-        fmt::format("{:g} pedestrians an hour at each of {} crossings{}", per_hour,
+        fmt::format("{:g} pedestrians per hour at each of {} crossings{}", per_hour,
                     signalled == 0 ? crossings.size() : static_cast<std::size_t>(signalled),
                     signalled == 0 ? ", none of which has a signal"
                                    : fmt::format(" with a signal, of {} in all", crossings.size())));
 }
 
-/// What the map does not say and what cannot be told from it.
+/// Reports unfinished maps and missing speed limits.
 void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
                  const detail::MapContents& map) {
     for (const std::filesystem::path& file : maps)
@@ -181,9 +181,8 @@ void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
     constexpr double least_km = 0.05;
     if (map.unlimited_km >= least_km)
         import.findings.changes.push_back(
-            fmt::format("the limit of {:.1f} km of the map's {:.1f} km of road is not on it: there it is the "
-                        "one of SUMO's "
-                        "types for towns, 50 km/h on main roads, 100 km/h on motorways",
+            fmt::format("{:.1f} km of the map's {:.1f} km of road have no speed limit: they get those of "
+                        "SUMO's types for towns, 50 km/h on main roads, 100 km/h on motorways",
                         map.unlimited_km, map.car_roads_km));
 }
 
@@ -200,12 +199,11 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     const roads::Network network = take_network(import, built);
     import.findings.side_reason = choice.reason;
     std::filesystem::remove(built);
-    add_pedestrians(
-        import, network, config,
-        {"--pedestrians",
-         "netconvert finds no place for a crossing: the map has none, and it guesses them at roads "
-         "of at most 50 km/h",
-         "a map with crossings or with such roads", "leave it out"});
+    add_pedestrians(import, network, config,
+                    {"--pedestrians",
+                     "netconvert finds no place for a crossing: the map has none, and it guesses them at "
+                     "roads of at most 50 km/h",
+                     "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
     detail::choose_trips(import, config, network);
     config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
@@ -215,7 +213,8 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     detail::add_synthetic_demand(import, config, network);
 }
 
-/// `text` with the user's names for what an import makes: places of additional files, ids of types.
+/// `text` with the user's own names in place of those of the import: places in additional files, ids of
+/// types.
 std::string in_own_words(std::string text, const Import& import) {
     const std::string made = (import.scenario / "additional.add.xml").string();
     for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1)) {
@@ -262,7 +261,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
         return;
     }
     if (has_files)
-        import.findings.changes.emplace_back("the files hold no vehicle for the road: demand is synthetic");
+        import.findings.changes.emplace_back("the files have no road vehicles: the demand is synthetic");
     detail::choose_trips(import, config, network);
     detail::add_synthetic_demand(import, config, network);
 }

@@ -15,7 +15,7 @@ namespace clearway::scenario_import {
 /// On which side of the road traffic drives; `by_country` looks at the map.
 enum class DrivingSide : std::uint8_t { by_country, right, left };
 
-/// What becomes of vehicles that cannot drive, and persons who cannot walk, as a route file says: an unknown
+/// What to do with vehicles that cannot drive, or persons who cannot walk, as a route file says: an unknown
 /// edge, edges that do not join, an edge that is closed to pedestrians.
 enum class BadVehicles : std::uint8_t { refuse, leave_out };
 
@@ -23,15 +23,15 @@ struct ImportRequest {
     /// One map (.osm, .osm.gz, .osm.bz2, .osm.pbf; several are merged), one network (.net.xml or .net.xml.gz)
     /// with any number of route and additional files, or one configuration (.sumocfg).
     std::vector<std::filesystem::path> files;
-    std::filesystem::path folder;  ///< Of the scenario; its name becomes the scenario's. Must not exist.
+    std::filesystem::path folder;  ///< Of the scenario, which gets its name. Must not exist.
     DrivingSide side = DrivingSide::by_country;
     BadVehicles bad_vehicles = BadVehicles::refuse;
     double automated_share = 0.35;                                       ///< 0 to 1.
     scenario::CarFollowing car_following = scenario::CarFollowing::own;  ///< Of vehicles with own types.
-    /// At each crossing; 0 to 2000. Above 0 the roads of a map get sidewalks and crossings; networks keep
+    /// At each crossing; 0 to 2000. Above 0, the roads of a map get sidewalks and crossings; networks keep
     /// those that they have.
     double pedestrians_per_hour = 0.0;
-    std::optional<double> begin_s;  ///< Time of the route files at which the scenario begins.
+    std::optional<double> begin_s;  ///< Time in the route files at which the scenario begins.
 };
 
 /// What a map, network or scenario holds, what was changed, and what could not be used. Texts may hold names
@@ -39,34 +39,36 @@ struct ImportRequest {
 struct Findings {
     std::string name;
     std::size_t edges = 0;      ///< Outside junctions.
-    std::size_t car_edges = 0;  ///< Of them open to cars.
+    std::size_t car_edges = 0;  ///< Of these, those open to cars.
     std::size_t lanes = 0;      ///< Of edges open to cars.
     double road_km = 0.0;       ///< Length of the edges open to cars.
     double lane_km = 0.0;
     std::size_t signals = 0;
-    double connected_share = 0.0;  ///< Of the car edges, those in the largest set that reach each other.
+    /// Share of the car edges that are in the largest set whose edges reach each other.
+    double connected_share = 0.0;
     bool left_hand = false;
     std::string side_reason;              ///< Why traffic drives on that side.
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
-    double vehicles_per_hour = 0.0;       ///< Human and automated ones, over the window of departures.
+    double vehicles_per_hour = 0.0;       ///< Human and automated vehicles, over the departure window.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
-    std::size_t persons = 0;              ///< Who walk as the scenario's own files say, in the window.
+    std::size_t persons = 0;              ///< Persons of the scenario's own files, in the window.
     std::string demand;                   ///< Where the demand comes from and how busy it is, in words.
     std::vector<std::string> changes;
     std::vector<std::string> left_out;
 };
 
-/// Called often while an import works: what is done now, and for how long. May throw, which ends the import
+/// Called often while an import works: what it is doing, and for how long. May throw, which ends the import
 /// and leaves nothing behind.
 using OnProgress = std::function<void(const std::string& stage, double elapsed_s)>;
 
 /// Makes a scenario folder that `scenario::load` reads: scenario.toml, network.net.xml, network.svg,
-/// import.json with the findings and, for SUMO scenarios, their demand. It is made aside and renamed when it
-/// is whole. Netconvert, osmium, duarouter and sumo work in child processes. Equal inputs give equal bytes.
-/// Throws core::InputError for what cannot be imported, core::EnvironmentError when a program is missing.
+/// import.json with the findings and, for SUMO scenarios, their demand. The folder is made elsewhere and
+/// renamed when complete. Netconvert, osmium, duarouter and sumo run in child processes. Equal inputs give
+/// equal bytes. Throws core::InputError for what cannot be imported, core::EnvironmentError when a program is
+/// missing.
 Findings import(const ImportRequest& request, const OnProgress& on_progress);
 
-/// The findings as lines for a reader, and as JSON with units in the names.
+/// The findings as lines of text, and as JSON with units in the names.
 std::string to_text(const Findings& findings);
 std::string to_json(const Findings& findings);
 

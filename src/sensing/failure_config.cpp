@@ -49,7 +49,7 @@ FailureConfig late(double latency_s) {
     return config;
 }
 
-/// Whether anything is drawn or seen by report rounds.
+/// Whether the configuration needs report rounds.
 bool needs_rounds(const FailureConfig& config) {
     return config.loss_rate > 0.0 || config.dark_share > 0.0 || config.position_sigma_m > 0.0 ||
            config.speed_sigma_mps > 0.0 || config.latency_s > 0.0 || config.connected_share < 1.0 ||
@@ -71,7 +71,7 @@ void check_ranges(const FailureConfig& config, const std::string& where,
     });
 }
 
-/// Parts of an error without the error that they are parts of.
+/// Checks settings that have no effect without another one.
 void check_errors(const FailureConfig& config, const std::string& where,
                   std::vector<core::Problem>& problems) {
     const auto refuse = [&](const char* field, const char* what, const char* cure) {
@@ -95,10 +95,11 @@ void check_together(const FailureConfig& config, const std::string& where,
     if (interval_s == 0.0 && needs_rounds(config)) {
         problems.push_back({where + ".report_interval_s", "0 together with failures",
                             "0 for perfect sensing alone",
-                            "failures and sights are drawn per report: give an interval, as 1"});
+                            "failures and observations are drawn per report: give an interval, such as 1"});
     }
     check_errors(config, where, problems);
-    // Outages shorter than this would be rarer than chance after each other; independent loss is the limit.
+    // With shorter outages, losses would follow each other less often than by chance; independent loss is the
+    // limit.
     const double least_outage_s = interval_s / (1.0 - config.dark_share);
     if (config.dark_share > 0.0 && config.mean_outage_s < least_outage_s - 1e-9) {
         problems.push_back(
@@ -120,7 +121,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Sets one field from its text. What is allowed instead, or nothing when it was set.
+/// Sets one field from its text. Returns what is allowed instead, or nothing when it was set.
 std::optional<std::string> set(double& value, std::string_view text) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -156,10 +157,10 @@ class FieldReader {
             if (name != field.name) return;
             found = true;
             const auto allowed = set(config.*field.member, value);
-            if (allowed) problem(name, fmt::format("'{}' is not a value of it", value), *allowed);
+            if (allowed) problem(name, fmt::format("'{}' is not a valid value", value), *allowed);
         });
         if (!found) problems.push_back(unknown("field of a failure", name, names));
-        if (std::ranges::find(seen_, name) != seen_.end()) problem(name, "stands there twice", "once");
+        if (std::ranges::find(seen_, name) != seen_.end()) problem(name, "occurs twice", "once");
         seen_.emplace_back(name);
     }
 
@@ -184,7 +185,7 @@ std::vector<core::Problem> problems_of(const FailureConfig& config, const std::s
 
 std::vector<FailurePreset> failure_presets() {
     std::vector<FailurePreset> presets = {
-        {"perfect", "every vehicle reports exactly at every step", perfect()}};
+        {"perfect", "every vehicle reports its exact state at every step", perfect()}};
     for (int tenths = 1; tenths <= 7; ++tenths) {
         presets.push_back({fmt::format("A.{}", tenths),
                            fmt::format("{} % of the reports lost independently", 10 * tenths),
@@ -230,8 +231,8 @@ FailureConfig failure_from(const std::string& text) {
         }
         if (!found) reader.problems.push_back(unknown("failure preset", item, names));
         if (found && !first) {
-            reader.problems.push_back({"failure", fmt::format("the preset '{}' behind other parts", item),
-                                       "one preset, in front", "Give its fields instead"});
+            reader.problems.push_back({"failure", fmt::format("the preset '{}' after other items", item),
+                                       "one preset, at the front", "Give its fields instead"});
         }
     }
     if (reader.problems.empty()) reader.problems = problems_of(reader.config, "failure");

@@ -14,10 +14,10 @@ namespace clearway::sensing {
 
 /// What is still known of a dark vehicle that a neighbour detects.
 enum class Detection { presence, range };
-/// Whether it is known when a vehicle leaves the network (detectors at every exit), so that its last report
-/// is dropped.
+/// Whether it is known when a vehicle leaves the network (detectors at every exit); if so, its last report is
+/// dropped.
 enum class Exits { known, unknown };
-/// Whether a vehicle between two others hides them from each other's sensors.
+/// Whether a vehicle in between hides two others from each other's sensors.
 enum class Occlusion { ignored, considered };
 /// Whether a vehicle whose newest report was lost still receives commands.
 enum class DarkCommands { received, lost };
@@ -36,7 +36,7 @@ constexpr core::Spellings<DarkCommands, 2> spellings(DarkCommands) {
     return {{{DarkCommands::received, "received"}, {DarkCommands::lost, "lost"}}};
 }
 
-/// How sensors report and how they fail. The parts combine freely; each is off at its default.
+/// How sensors report and how they fail. The failures combine freely; each is off by default.
 /// docs/reference/sensing.md explains them.
 struct FailureConfig {
     double report_interval_s = 1.0;
@@ -76,11 +76,12 @@ struct FailureConfig {
             Field{"dark_share", "1", &C::dark_share, 0.0, 0.99,
                   "Share of time that a vehicle spends in outages (Gilbert-Elliott)", "off; presets B: 0.3"},
             Field{"mean_outage_s", "s", &C::mean_outage_s, 0.1, 3600.0, "Mean length of an outage",
-                  "10 s assumed: a fault that a restart mends"},
+                  "10 s assumed: a fault that a restart fixes"},
             Field{"link_detection_rate", "1", &C::link_detection_rate, 0.0, 1.0,
                   "Probability per report that a dark vehicle's link is still detected by the neighbour",
                   "off; presets C: 0.5"},
-            Field{"detection", "", &C::detection, 0, 0, "What a detection tells", "presence is the least"},
+            Field{"detection", "", &C::detection, 0, 0, "What a detection reports",
+                  "presence: the least information"},
             Field{"range_sigma_m", "m", &C::range_sigma_m, 0.0, 100.0, "Standard error of a detected range",
                   "off; preset C.range: 1 m"},
             Field{"link_detection_range_m", "m", &C::link_detection_range_m, 0.0, 1000.0,
@@ -88,31 +89,30 @@ struct FailureConfig {
             Field{"position_sigma_m", "m", &C::position_sigma_m, 0.0, 100.0,
                   "Standard error of a reported position, along each axis", "off; presets D"},
             Field{"position_correlation_s", "s", &C::position_correlation_s, 0.0, 600.0,
-                  "Time in which the position error forgets itself (first-order); 0 for white noise",
-                  "white"},
+                  "Correlation time of the position error (first-order process); 0 for white noise", "white"},
             Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 0.0, 20.0,
                   "Standard error of a reported speed", "off"},
             Field{"speed_correlation_s", "s", &C::speed_correlation_s, 0.0, 600.0,
-                  "Time in which the speed error forgets itself (first-order); 0 for white noise", "white"},
+                  "Correlation time of the speed error (first-order process); 0 for white noise", "white"},
             Field{"latency_s", "s", &C::latency_s, 0.0, 60.0,
-                  "Time from measuring to arrival of every report", "off; preset DL2: 2 s"},
+                  "Time from measurement to arrival of every report", "off; preset DL2: 2 s"},
             Field{"connected_share", "1", &C::connected_share, 0.0, 1.0,
-                  "Share of the human-driven vehicles that report at all; the others always do",
-                  "everybody, as the dissertation assumes"},
+                  "Share of the human-driven vehicles that report at all; all other vehicles do",
+                  "all of them, as the dissertation assumes"},
             Field{"roadside_range_m", "m", &C::roadside_range_m, 0.0, 1000.0,
-                  "Units at signals see every vehicle within this distance, whatever its equipment", "off"},
+                  "Roadside units at signals see every vehicle within this distance, equipped or not", "off"},
             Field{"roadside_sigma_m", "m", &C::roadside_sigma_m, 0.0, 100.0,
                   "Standard error of a position that a roadside unit sees, along each axis",
                   "1 m assumed: a camera on a mast"},
-            Field{
-                "onboard_range_m", "m", &C::onboard_range_m, 0.0, 1000.0,
-                "Automated and emergency vehicles that report also report whom they see within this distance",
-                "off"},
+            Field{"onboard_range_m", "m", &C::onboard_range_m, 0.0, 1000.0,
+                  "Automated and emergency vehicles that report also report the vehicles that they see "
+                  "within this distance",
+                  "off"},
             Field{"onboard_sigma_m", "m", &C::onboard_sigma_m, 0.0, 100.0,
                   "Standard error of a position seen from a vehicle, along each axis",
                   "0.5 m assumed: lidar or radar, with the observer's own error"},
             Field{"occlusion", "", &C::occlusion, 0, 0,
-                  "Whether a vehicle between hides others from on-board sensors and link detection",
+                  "Whether a vehicle in between hides others from on-board sensors and link detection",
                   "ignored: presets C have none"},
             Field{"dark_commands", "", &C::dark_commands, 0, 0,
                   "Whether a vehicle whose newest report was lost still receives commands",
@@ -121,12 +121,12 @@ struct FailureConfig {
                   "known: the frozen benchmark reports both"},
             Field{"forget_after_s", "s", &C::forget_after_s, 1.0, 86400.0,
                   "Age at which the last report of a silent vehicle is dropped",
-                  "300 s: of 20 s outages one in a million lasts longer"});
+                  "300 s: with a mean of 20 s, fewer than one outage in a million lasts longer"});
     }
 };
 
-/// Everything wrong with a configuration: a value out of its range, values that do not go together. `where`
-/// names the place, for example `study.toml: failure`. Empty when nothing is.
+/// Everything wrong with a configuration: values out of range, values that contradict each other. `where`
+/// names the place, for example `study.toml: failure`. Empty when all is well.
 std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where);
 
 /// A named, frozen configuration.
@@ -143,9 +143,10 @@ struct FailurePreset {
 std::vector<FailurePreset> failure_presets();
 
 /// The configuration that a text names: a preset, fields of FailureConfig, or both, separated by commas:
-/// `B10`, `B10,dark_share=0.5,exits=unknown`, `connected_share=0.3,onboard_range_m=80`. Without a preset,
-/// reports of 1 Hz that never fail are the start. Throws core::InputError with all that is wrong: unknown
-/// names (with the nearest), fields twice, values that are no numbers, out of range or do not go together.
+/// `B10`, `B10,dark_share=0.5,exits=unknown`, `connected_share=0.3,onboard_range_m=80`. Without a preset, it
+/// starts from reports at 1 Hz that never fail. Throws core::InputError with every problem: unknown names
+/// (with the nearest known one), repeated fields, values that are not numbers, are out of range or contradict
+/// each other.
 FailureConfig failure_from(const std::string& text);
 
 }  // namespace clearway::sensing

@@ -6,7 +6,7 @@
 namespace clearway::sensing {
 namespace {
 
-/// Narrows [enter, leave], the part of the line inside so far, to that with |start + t x change| <= half.
+/// Narrows [enter, leave], the part of the line that is inside so far, to where |start + t x change| <= half.
 bool clip(float start, float change, float half, float& enter, float& leave) {
     if (change == 0.0F) return std::abs(start) <= half;
     const float one = (-half - start) / change;

@@ -6,7 +6,7 @@
 namespace clearway::sensing {
 namespace {
 
-/// In the middle of the stop lines of a signal; nothing for one that no lane leads to.
+/// The middle of the stop lines of each signal; signals without lanes are left out.
 std::vector<Place> unit_places(const roads::Network& network) {
     std::vector<Place> places;
     for (const roads::Signal& signal : network.signals()) {

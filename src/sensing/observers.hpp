@@ -12,26 +12,27 @@
 
 namespace clearway::sensing {
 
-/// Who is seen by others although it does not report: by units at signals, and from automated and emergency
-/// vehicles that do. Keeps buffers; one thread.
+/// Finds vehicles that do not report but are seen by others: by units at signals, and by automated and
+/// emergency vehicles that report. Keeps buffers; single-threaded.
 ///
-/// A roadside unit stands in the middle of the stop lines of its signal, above the traffic: nothing hides a
-/// vehicle from it. A vehicle looks from its centre to the centres of others; with occlusion, the box of a
-/// third vehicle that the line meets hides them. Who is seen is recognised: trackers keep its identity.
+/// A roadside unit stands in the middle of the stop lines of its signal, above the traffic, so nothing hides
+/// a vehicle from it. A vehicle looks from its centre to the centres of others; with occlusion, a third
+/// vehicle whose box meets that line hides them. Vehicles that are seen are identified: trackers keep their
+/// identity.
 class Observers {
   public:
     Observers(const FailureConfig& config, const roads::Network& network);
     bool none() const { return units_.empty() && onboard_range_m_ == 0.0; }
     bool considers_occlusion() const { return occlusion_ == Occlusion::considered; }
 
-    /// Takes the boxes of a snapshot, for `hidden` and `look`.
+    /// Stores the boxes of a snapshot, for `hidden` and `look`.
     void take(const truth::Snapshot& snapshot, const traffic::Roster& roster);
-    /// Standard error of the position of each row, m, that is seen; negative where nobody sees it. Rows that
-    /// `reports` are 0. The better of two sensors counts.
+    /// Standard error of the seen position of each row, m; negative if nothing sees it, 0 for rows that
+    /// report (`reports`). The better of two sensors counts.
     void look(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
               std::vector<float>& sigma_m);
-    /// Whether another vehicle stands between two rows of the snapshot. `near` has at least all vehicles
-    /// within their distance of the first.
+    /// Whether another vehicle stands between two rows of the snapshot. `near` must have all vehicles that
+    /// are no farther from the first than the second is.
     bool hidden(core::VehicleIndex from, core::VehicleIndex to,
                 std::span<const core::VehicleIndex> near) const;
 

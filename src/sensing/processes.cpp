@@ -8,7 +8,7 @@ namespace {
 
 constexpr double least_weight = 1e-3;
 
-/// Even draws choose renewals, odd ones the state; both from one purpose.
+/// Even draws decide on renewals, odd ones on the state; both have the same purpose.
 constexpr std::uint64_t renewal_draw(ReportNumber report) {
     return 2 * report;
 }
@@ -16,7 +16,7 @@ constexpr std::uint64_t state_draw(ReportNumber report) {
     return 2 * report + 1;
 }
 
-/// From one report to the next, of a first-order process.
+/// Correlation of a first-order process from one report to the next.
 double correlation(double interval_s, double correlation_s) {
     return correlation_s > 0.0 ? std::exp(-interval_s / correlation_s) : 0.0;
 }

@@ -18,18 +18,18 @@ using ReportNumber = std::uint64_t;
 
 /// Which reports are lost: a pure function of (vehicle, report number).
 ///
-/// Bursts are a Gilbert-Elliott chain: dark or not, with transitions per report that give the wanted mean
-/// outage and share of time dark. To be a function of the number alone, not of where counting started, the
-/// chain is drawn as a mixture: at each report, with probability p = (1 / outage) / (1 - share), outage in
-/// reports, the state is drawn anew (dark with probability `share`), otherwise it stays. The state at report
-/// k is the one drawn at the latest renewal at or before k, found by walking back, 1 / p reports on average.
-/// The same chain, as P(dark -> not) = p (1 - share) = 1 / outage. It needs p <= 1, which FailureConfig's
-/// check demands. (Walking a cached chain forward from each vehicle's departure was rejected: departures
-/// differ between conditions.)
+/// Bursts are a Gilbert-Elliott chain: dark or not, with transition probabilities per report that give the
+/// wanted mean outage and share of time dark. To depend only on the report number, not on where counting
+/// started, the chain is drawn as a mixture: at each report, the state is drawn anew (dark with probability
+/// `share`) with probability p = (1 / outage) / (1 - share), outage in reports; otherwise it stays. The state
+/// at report k is the one drawn at the latest renewal at or before k, found by walking back 1 / p reports on
+/// average. This is the same chain, because P(dark -> not) = p (1 - share) = 1 / outage. It needs p <= 1,
+/// which FailureConfig's check ensures. (Walking a cached chain forward from each vehicle's departure was
+/// rejected: departures differ between conditions.)
 class LossProcess {
   public:
     LossProcess(const FailureConfig& config, const core::KeyedRandom& random);
-    /// Whether this report does not arrive, for either reason.
+    /// Whether this report is lost, for either reason.
     bool lost(core::VehicleKey vehicle, ReportNumber report) const;
     /// Whether the vehicle is in an outage.
     bool in_outage(core::VehicleKey vehicle, ReportNumber report) const;
@@ -42,7 +42,7 @@ class LossProcess {
 };
 
 /// Which vehicles report at all: a pure function of the vehicle. A human-driven vehicle is equipped with
-/// probability `connected_share`; the draw is one number a vehicle, so a larger share equips the same
+/// probability `connected_share`; the draw is one number per vehicle, so a larger share equips the same
 /// vehicles and more.
 class EquipmentProcess {
   public:
@@ -54,26 +54,26 @@ class EquipmentProcess {
     double connected_share_;
 };
 
-/// Errors of what a report says: a pure function of (vehicle, report number).
+/// Errors of reports: a pure function of (vehicle, report number).
 ///
-/// Position and, with noise of its own, speed: white noise on each axis, or with a correlation time tau the
-/// stationary first-order process with correlation exp(-interval / tau) from one report to the next, as a
-/// weighted sum of past white noise, cut where a weight falls below 1/1000. A speed stays at least 0. The
-/// place on the map moves with it: the lane position by the part along the heading, the lane by whole lane
-/// widths of the part across, so that nothing in the report is more exact than the position.
+/// Position and, with separate noise, speed: white noise on each axis or, with a correlation time tau, the
+/// stationary first-order process with correlation exp(-interval / tau) between reports, as a weighted sum of
+/// past white noise, cut off where a weight falls below 1/1000. A speed stays at least 0. The place on the
+/// map moves with the position: the lane position by the error along the heading, the lane by whole lane
+/// widths of the error across it, so that nothing in the report is more exact than the position.
 class NoiseProcess {
   public:
     NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random, const roads::Network& network);
     bool none() const { return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0; }
     void apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
-    /// The error of a position that somebody else saw: white, of standard deviation `sigma_m` along each
-    /// axis.
+    /// Adds the error of a position that another observer saw: white, with standard deviation `sigma_m` along
+    /// each axis.
     void blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
               traffic::MotionState& state) const;
 
   private:
-    /// Standard normal, correlated with the report before by `correlation`; `axis` of `axes` independent
-    /// ones.
+    /// A standard normal series with `correlation` between successive reports; number `axis` of `axes`
+    /// independent ones.
     struct Series {
         core::Purpose purpose = core::Purpose::position_noise;
         std::uint64_t axes = 1;
@@ -96,10 +96,10 @@ class DetectionProcess {
   public:
     DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random);
     bool none() const { return rate_ == 0.0; }
-    /// Whether the range allows it at all.
+    /// Whether the vehicles are near enough for a detection.
     bool in_range(float true_distance_m) const { return true_distance_m < most_m_; }
     bool detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const;
-    /// The range that a detection tells, or a negative number when it tells presence only.
+    /// The range that a detection reports, or a negative number when it only reports presence.
     float range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
                   float true_distance_m) const;
     float range_sigma_m() const { return static_cast<float>(range_sigma_m_); }

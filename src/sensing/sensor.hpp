@@ -14,11 +14,11 @@
 
 namespace clearway::sensing {
 
-/// What was missing at one step, for scoring alone. Vehicles and links that are on the road now.
+/// What was missing at one step, among the vehicles and links that are on the road now. Only for scoring.
 struct FailureLog {
     enum class Cause {
-        dark,        ///< An end was not heard at the newest round, but is known from before.
-        never_seen,  ///< An end was never heard of yet, or was forgotten.
+        dark,        ///< An end did not report in the newest round, but is known from before.
+        never_seen,  ///< An end has not reported yet, or was forgotten.
     };
     struct LostLink {
         core::VehicleKey left;
@@ -27,17 +27,17 @@ struct FailureLog {
     };
 
     core::Seconds time;
-    std::vector<core::VehicleKey>
-        dark;  ///< Known from before, not heard at the newest round. Ordered by key.
+    /// Known from before, but not heard in the newest round. Ordered by key.
+    std::vector<core::VehicleKey> dark;
     std::vector<core::VehicleKey> never_seen;  ///< Ordered by key.
     /// True links with an end of either list that no neighbour detected. Ordered by (left, right), left <
     /// right.
     std::vector<LostLink> lost_links;
 };
 
-/// From the true state to what was reported. Failures are drawn per report (1 Hz by default, whatever the
-/// step) and keyed by vehicle and report number, so that every condition of a replication meets the same
-/// ones. A model keeps state between steps (the last report of each vehicle) and is used by one thread.
+/// Turns the true state into what was reported. Failures are drawn per report (1 Hz by default, whatever the
+/// step length) and keyed by vehicle and report number, so that every condition of a replication has the same
+/// ones. A model keeps state between steps (the last report of each vehicle) and is single-threaded.
 class SensorModel {
   public:
     SensorModel() = default;
@@ -51,26 +51,26 @@ class SensorModel {
     virtual void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                          traffic::Observation& observation) = 0;
 
-    /// What the last observation lacks of the truth it came from. `true_graph` holds the links of `snapshot`,
-    /// the snapshot of the last call of `observe`.
+    /// What the last observation lacks compared to the truth. `snapshot` is that of the last call of
+    /// `observe`, and `true_graph` has its links.
     virtual void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
                               FailureLog& log) const = 0;
 
     /// Vehicles that commands do not reach since the newest round, ordered by key; valid until the next call
-    /// of `observe`. Empty unless `dark_commands` says otherwise.
+    /// of `observe`. Empty unless `dark_commands` is `lost`.
     virtual std::span<const core::VehicleKey> unreachable() const { return {}; }
 };
 
-/// What a sensor needs beside its configuration. `network` outlives the sensor.
+/// What a sensor needs besides its configuration. `network` outlives the sensor.
 struct SensorContext {
     const roads::Network& network;
     graph::LinkRules rules;  ///< Which links a neighbour can detect.
 };
 
 /// The sensor of a configuration. Rounds count from time 0 of the simulation, so a sensor made in the middle
-/// of a run meets the failures of that time; its first call is a report round. With a latency, reports are
-/// fresh when the newest round that can have arrived brought one, and `report_time` is the time at which that
-/// round measured. Throws core::InputError with all problems of the configuration.
+/// of a run has the failures of that time; its first call is a report round. With a latency, a vehicle is
+/// fresh when it is in the newest round that has arrived, and `report_time` is the time at which that round
+/// was measured. Throws core::InputError with all problems of the configuration.
 std::unique_ptr<SensorModel> make_sensor(const FailureConfig& config, const core::KeyedRandom& random,
                                          const SensorContext& context);
 

@@ -21,13 +21,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int shown_log_lines = 8;
-constexpr int not_started = 127;  // as core::Exit has it
-/// A large city loads for minutes, and its window is built before the first answer.
+constexpr int not_started = 127;  // as in core::Exit
+/// A large city takes minutes to load, and SUMO opens its window before the first answer.
 constexpr core::Seconds loading_patience{600.0};
 constexpr core::Seconds answer_patience{120.0};
 constexpr core::Seconds ending_patience{5.0};
 
-/// A port of this machine that nobody uses at this moment.
+/// A port of this machine that is free at this moment.
 int free_port() {
     const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in place{};
@@ -41,7 +41,7 @@ int free_port() {
     return ntohs(place.sin_port);
 }
 
-/// As the system's own table has it: SUMO would take a trial for its client.
+/// Reads the system's table, because SUMO would take a test connection for its client.
 bool is_listened_to(int port) {
     return core::read_file("/proc/net/tcp").find(fmt::format(":{:04X} 00000000:0000 0A", port)) !=
            std::string::npos;
@@ -74,7 +74,7 @@ ChildSumo::~ChildSumo() {
         ::kill(child_.pid, SIGKILL);
         core::wait(child_);
     } catch (const std::exception&) {
-        // It is gone, and a destructor has nobody to tell.
+        // It has ended, and a destructor cannot report errors.
     }
 }
 

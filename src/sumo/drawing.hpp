@@ -25,7 +25,7 @@ struct Spot {
     bool operator==(const Spot&) const = default;
 };
 
-/// A line over two or more points, above roads and vehicles.
+/// A line through two or more points, drawn above roads and vehicles.
 struct Stroke {
     std::vector<Spot> points;
     Colour colour;
@@ -34,13 +34,13 @@ struct Stroke {
     bool operator==(const Stroke&) const = default;
 };
 
-/// What the window of a SUMO shows beside its own: replaced as a whole by the next one. It changes no result.
+/// What a SUMO window shows in addition to its own contents. The next drawing replaces it as a whole. It
+/// changes no result.
 struct Drawing {
-    /// Vehicles that are not named keep the colour that they have; those that are not on the road are
-    /// skipped.
+    /// Vehicles that are not named keep their colour; those that are not on the road are skipped.
     std::vector<std::pair<core::VehicleKey, Colour>> vehicles;
     std::vector<Stroke> strokes;
-    std::optional<core::VehicleKey> followed;  ///< The view goes with it. Without effect without a window.
+    std::optional<core::VehicleKey> followed;  ///< The view follows it, if there is a window.
 };
 
 }  // namespace clearway::sumo

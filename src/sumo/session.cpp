@@ -36,7 +36,7 @@ using detail::Painter;
 using detail::Vehicle;
 
 /// libsumo keeps its simulation in global variables: one session at a time, and none after a fault, because
-/// what is left of the simulation cannot be trusted, not even to close.
+/// the rest of the simulation cannot be trusted, not even to close.
 enum class ProcessState : std::uint8_t { free, occupied, spoilt };
 ProcessState process_state = ProcessState::free;
 
@@ -55,8 +55,8 @@ bool is_complete(const std::filesystem::path& trips) {
     return last != std::string::npos && std::string_view(text).substr(0, last + 1).ends_with(end);
 }
 
-/// SUMO says nothing when the disk is full; a whole table has its end. A remote SUMO writes its last lines
-/// after the connection has ended.
+/// SUMO says nothing when the disk is full, but only a complete table has its end tag. A remote SUMO writes
+/// its last lines after the connection has ended.
 void require_complete(const std::filesystem::path& trips, core::Seconds patience) {
     constexpr auto pause = std::chrono::milliseconds(20);
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience.value);
@@ -80,12 +80,12 @@ struct Session::State {
 
     void load();
     void take_over();
-    /// What both have in common, SUMO's simulation being loaded.
+    /// Start of both kinds of session, once SUMO's simulation is loaded.
     void begin();
     void close();
     std::string fault_message(const char* doing, const std::string& what) const;
 
-    /// Runs `work` with SUMO's messages in the log; its faults get time and log, and end the session.
+    /// Runs `work` with SUMO's messages going to the log. Its faults get time and log, and end the session.
     template <class Work>
     auto guarded(const char* doing, Work&& work) {
         if (!is_open) throw std::logic_error("the session is closed or has failed");
@@ -203,7 +203,7 @@ Session::~Session() {
     try {
         state_->close();
     } catch (const std::exception&) {
-        // A destructor has nobody to tell. Whoever wants to know calls close().
+        // A destructor cannot report errors. Callers that want to know call close().
     }
 }
 

@@ -23,7 +23,7 @@ namespace detail::gateway {
 class Sumo;
 }
 
-/// SUMO names by table row, so that the session can speak in indices of `roads::Network` without knowing it.
+/// SUMO names by table row, so that the session can use indices of `roads::Network` without knowing it.
 struct Names {
     std::vector<std::string> lanes;
     std::vector<std::string> edges;
@@ -37,22 +37,22 @@ struct SessionConfig {
     std::filesystem::path folder;  ///< Receives tripinfo.xml and sumo.log.
     core::Seconds begin{0.0};
     core::Seconds step_length{0.25};           ///< [0.01, 1].
-    std::uint64_t seed = 1;                    ///< SUMO's own generator; reduced to 31 bits.
+    std::uint64_t seed = 1;                    ///< For SUMO's own generator; reduced to 31 bits.
     core::Seconds time_to_teleport{300.0};     ///< Negative: never.
     std::vector<std::string> extra_arguments;  ///< As on SUMO's command line.
     Names names;
 };
 
-/// What SUMO is started with for a session, without the name of the program: `--net-file`, `...`. A session
-/// in this process does it itself. Throws core::InputError for what cannot work.
+/// SUMO's arguments for a session, without the name of the program: `--net-file`, `...`. A session in this
+/// process uses them itself. Throws core::InputError for settings that cannot work.
 std::vector<std::string> command_line(const SessionConfig& config);
 
-/// A SUMO that was started elsewhere with `--remote-port`, has its simulation loaded and waits for orders; in
-/// sumo-gui, for its start button. It ends with the connection. One at a time in a process.
+/// A SUMO that was started elsewhere with `--remote-port`, has its simulation loaded and waits for a client
+/// (sumo-gui waits for its start button). It ends with the connection. One at a time per process.
 class RemoteSumo {
   public:
-    /// Connects, and waits so long for its answer. Throws core::EnvironmentError when nobody listens there,
-    /// what listens speaks no TraCI, or it is a SUMO of another version than the one that this program is
+    /// Connects, and waits for an answer up to `patience`. Throws core::EnvironmentError when nothing listens
+    /// there, what listens does not speak TraCI, or its SUMO version is not the one that this program is
     /// built with.
     RemoteSumo(const std::string& host, int port, core::Seconds patience = core::Seconds(10.0));
     ~RemoteSumo();
@@ -61,8 +61,8 @@ class RemoteSumo {
 
     /// Value of an option of SUMO (`net-file`); empty when it is not set. Throws core::SimulatorError.
     std::string option(const std::string& name) const;
-    /// Vehicles of a type count as such from now on. Other types have the class of their parameter
-    /// (traffic::class_parameter); without one those of SUMO's vClass emergency are emergency vehicles and
+    /// Vehicles of this type have this class from now on. Other types have the class of their parameter
+    /// (traffic::class_parameter); without one, those of SUMO's vClass emergency are emergency vehicles and
     /// the rest human. Throws core::InputError for a type that SUMO does not know.
     void declare(const std::string& type, traffic::VehicleClass vehicle_class);
 
@@ -72,22 +72,22 @@ class RemoteSumo {
 };
 
 /// SUMO in this process or at a port: at most one session at a time, used by one thread. Every fault of SUMO
-/// leaves as core::SimulatorError with the end of SUMO's own log; after one the session can only be
+/// is thrown as core::SimulatorError with the end of SUMO's log; after one, the session can only be
 /// destroyed.
 class Session : public truth::SelfKnowledge {
   public:
     /// Loads the scenario into a SUMO in this process. Throws core::SimulatorError when it does not load,
     /// core::EnvironmentError when SUMO or the folder is unusable.
     explicit Session(SessionConfig config);
-    /// Takes over a simulation as it stands, with the vehicles that are in it. `folder` receives a log. Such
-    /// a session cannot be continued by a forked child.
+    /// Takes over a running simulation with the vehicles that are in it. `folder` receives a log. A forked
+    /// child cannot continue such a session.
     Session(RemoteSumo remote, const std::filesystem::path& folder, Names names);
     ~Session() override;
 
     /// Advances by one step, then reads the state and the events of that step.
     void step();
     core::Seconds time() const;
-    /// Wall time that SUMO itself took for the last step, reading excluded.
+    /// Wall time of SUMO itself for the last step, without reading.
     core::Seconds step_wall_time() const;
     const truth::Snapshot& snapshot() const;
     const truth::Events& events() const;
@@ -98,26 +98,26 @@ class Session : public truth::SelfKnowledge {
 
     /// Adds an emergency vehicle that departs at `departure.depart` or later.
     void add(const traffic::EmergencyDeparture& departure);
-    /// Carries out commands. Throws std::invalid_argument for what SUMO would swallow silently (a lane that
+    /// Carries out commands. Throws std::invalid_argument for what SUMO would ignore silently (a lane that
     /// does not exist, NaN, a state of wrong length or letters); commands for vehicles that have left are
     /// skipped and counted.
     void apply(std::span<const traffic::Command> commands);
     std::uint64_t skipped_commands() const;
-    /// Stops that were commanded where the vehicle could no longer brake in time on its lane.
+    /// Number of stops that were commanded when the vehicle could no longer brake in time on its lane.
     std::uint64_t refused_commands() const;
-    /// Has a SUMO with a window show this beside its own; without a window nobody sees it.
+    /// Lets a SUMO with a window show a drawing; without a window it has no effect.
     void draw(const Drawing& drawing);
 
-    /// In a forked child, before anything else: moves SUMO's open outputs to files of its own in `folder`,
-    /// with what was written before the fork copied, so that each child's outputs equal those of an unforked
-    /// run.
+    /// In a forked child, before anything else: moves SUMO's open outputs to the child's own files in
+    /// `folder`, including what was written before the fork, so that each child's outputs equal those of an
+    /// unforked run.
     void continue_in(const std::filesystem::path& folder);
 
     /// Ends the simulation so that all output files are complete. The destructor does it too, without
     /// throwing.
     void close();
-    /// SUMO's table of trips, complete after `close`; empty when a remote SUMO writes none. A remote SUMO's
-    /// path is as it was given there.
+    /// SUMO's table of trips, complete after `close`; an empty path when a remote SUMO writes none. A remote
+    /// SUMO's path is as given there.
     const std::filesystem::path& trip_file() const;
 
     std::optional<bool> could_change_lane(core::VehicleKey vehicle,

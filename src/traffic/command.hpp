@@ -11,8 +11,8 @@
 
 namespace clearway::traffic {
 
-// What actuation asks of the simulator. Every command is legal when it gets there: the simulator gateway
-// checks ranges again and throws on a breach, because SUMO would swallow it.
+// Commands from actuation to the simulator. The sender only issues legal commands; the simulator gateway
+// checks them again and throws on a violation, because SUMO would ignore it silently.
 
 /// Drive at most this fast, until ReleaseSpeed.
 struct SetSpeed {
@@ -50,11 +50,11 @@ struct SetLaneChangeFreedom {
     core::VehicleKey vehicle;
     LaneChangeFreedom freedom = LaneChangeFreedom::normal;
 };
-/// Whether vehicles have a place within their lane (SUMO's sublane model); without it lateral alignment has
-/// no effect.
+/// Whether vehicles have a lateral position within their lane (SUMO's sublane model). Lateral alignment needs
+/// it.
 enum class LateralModel : std::uint8_t { lane, sublane };
 /// Which of SUMO's safety checks hold (speedMode, laneChangeMode). `off` is for the experiment that shows
-/// what it does.
+/// their effect.
 enum class SafetyChecks : std::uint8_t { on, off };
 constexpr core::Spellings<SafetyChecks, 2> spellings(SafetyChecks) {
     return {{{SafetyChecks::off, "off"}, {SafetyChecks::on, "on"}}};
@@ -63,8 +63,8 @@ struct SetSafetyChecks {
     core::VehicleKey vehicle;
     SafetyChecks checks = SafetyChecks::on;
 };
-/// Stand still at `position` of the present lane or, where the usual deceleration does not suffice for that,
-/// as soon after it as it does. Without effect, and counted, when that is beyond the end of the lane.
+/// Stop at `position` on the present lane, or as soon after it as the usual deceleration allows. Has no
+/// effect, and is counted, if that is beyond the end of the lane.
 struct StopOnLane {
     core::VehicleKey vehicle;
     core::Metres position;
@@ -78,8 +78,8 @@ struct SetSignalState {
     core::SignalIndex signal;
     std::string state;
 };
-/// Back to the signal's background plan: where it would be now, or at the start of phase `phase`, which then
-/// lasts `lasting`, or as long as the program says.
+/// Return to the signal's background plan: to where it would be now, or to the start of `phase`, which then
+/// lasts `lasting` or, without it, as long as the plan says.
 struct RestoreProgram {
     core::SignalIndex signal;
     std::optional<std::uint32_t> phase = std::nullopt;

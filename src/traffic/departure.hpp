@@ -10,7 +10,8 @@
 
 namespace clearway::traffic {
 
-/// SUMO's `device.bluelight` of an emergency vehicle: it passes red, and others form a rescue lane before it.
+/// SUMO's `device.bluelight` of an emergency vehicle: it passes red, and others form a rescue lane ahead of
+/// it.
 enum class BlueLight : std::uint8_t { off, on };
 constexpr core::Spellings<BlueLight, 2> spellings(BlueLight) {
     return {{{BlueLight::off, "off"}, {BlueLight::on, "on"}}};
@@ -28,8 +29,8 @@ struct EmergencyDeparture {
     BlueLight bluelight = BlueLight::off;
 };
 
-/// Parameters that a scenario writes on a SUMO vehicle type, and that the gateway reads back: `<param key=
-/// value=/>`. A type without them is human and of kind other.
+/// Parameters of a SUMO vehicle type (`<param key= value=/>`) that a scenario writes and the gateway reads
+/// back. A type without them is human and of kind other.
 inline constexpr const char* class_parameter = "clearway.class";
 inline constexpr const char* kind_parameter = "clearway.kind";
 

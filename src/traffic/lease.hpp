@@ -32,12 +32,12 @@ struct StopAtLine {};
 /// Show green for these links of a signal and red for those that conflict, with yellow and all-red between.
 struct HoldGreen {
     std::vector<std::uint16_t> links;  ///< Link numbers of the signal, ascending.
-    /// Those of them that the beneficiary itself may take, ascending; empty: all. Beside the hold of another
-    /// the rest may yield.
+    /// Those that the beneficiary itself may take, ascending; empty means all. The others may yield when
+    /// another hold is served at the same time.
     std::vector<std::uint16_t> own_links = {};
 };
-/// Lengthen or shorten what a signal's background plan shows, to give time back to the approaches that
-/// waited.
+/// Lead a signal's background plan to these links sooner, by ending greens that serve none of them: this
+/// gives time back to the approaches that waited.
 struct AdjustGreen {
     std::vector<std::uint16_t> links;
 };
@@ -47,17 +47,17 @@ struct PassRed {};
 using Action =
     std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen, PassRed>;
 
-/// Who a lease is for.
+/// What a lease controls.
 using Target = std::variant<core::VehicleKey, core::SignalIndex>;
 
-/// One action of a policy: it ends by itself at `expiry`; a policy renews it or lets it lapse, and never
-/// releases.
+/// One action of a policy. It ends by itself at `expiry`: a policy renews it or lets it lapse, but never
+/// releases it.
 struct Lease {
     Target target;
     Action action;
     core::Seconds expiry;  ///< Simulation time; later than now.
-    /// Of two leases for one target that cannot both be carried out the higher wins; then, of holds, the one
-    /// that is carried out; then the earlier.
+    /// When two leases for one target conflict, the higher priority wins; at equal priority, a hold that is
+    /// already being served; then the earlier lease.
     int priority = 0;
     const char* policy = "";       ///< Name of the policy that issued it (static storage).
     const char* reason = "";       ///< Why, in a few words (static storage).

@@ -18,8 +18,8 @@ struct MotionState {
     float speed_mps = 0.0F;
     core::LaneIndex lane;          ///< May be an internal lane of a junction.
     float lane_position_m = 0.0F;  ///< Of the front bumper from the start of the lane.
-    std::uint32_t route_edge =
-        0;  ///< Position in the route of the last edge outside junctions that was entered.
+    /// Position in the route of the last edge outside junctions that was entered.
+    std::uint32_t route_edge = 0;
 };
 
 /// Whether the newest report of a vehicle arrived.
@@ -28,13 +28,13 @@ enum class Freshness : std::uint8_t {
     stale,  ///< Its latest report was lost; `age_s` > 0.
 };
 
-/// The last that is known of one vehicle.
+/// What is known of one vehicle from its latest report.
 struct ObservedVehicle {
     core::VehicleKey key;
     VehicleClass vehicle_class = VehicleClass::human;
     Freshness freshness = Freshness::fresh;
     float age_s = 0.0F;             ///< Time since the state below was measured, s.
-    float position_sigma_m = 0.0F;  ///< Stated error of the sensor, m; 0 for perfect.
+    float position_sigma_m = 0.0F;  ///< Standard error that the sensor states, m; 0 if perfect.
     MotionState state;
 };
 

@@ -18,7 +18,7 @@ enum class VehicleClass : std::uint8_t { human, automated, emergency };
 inline constexpr std::array vehicle_classes = {VehicleClass::human, VehicleClass::automated,
                                                VehicleClass::emergency};
 
-/// What a vehicle is, hence its size and dynamics.
+/// The kind of vehicle, which determines its size and dynamics.
 enum class VehicleKind : std::uint8_t { car, van, truck, bus, ambulance, fire_engine, police_car, other };
 
 constexpr core::Spellings<VehicleClass, 3> spellings(VehicleClass) {
@@ -38,7 +38,7 @@ constexpr core::Spellings<VehicleKind, 8> spellings(VehicleKind) {
 }
 using core::name;
 
-/// What is constant about a vehicle during a run, as its registration would tell.
+/// The constant properties of a vehicle during a run, as in its registration.
 struct VehicleInfo {
     core::VehicleKey key;
     std::string id;  ///< SUMO's id; text from a file, so printers escape it.
@@ -50,18 +50,18 @@ struct VehicleInfo {
     float maximum_speed_mps = 55.6F;
     float acceleration_mps2 = 2.6F;  ///< Greatest usual acceleration.
     float deceleration_mps2 = 4.5F;  ///< Greatest usual (comfortable) deceleration, > 0.
-    float speed_factor = 1.0F;       ///< Desired speed over the limit.
+    float speed_factor = 1.0F;       ///< Desired speed divided by the speed limit.
     core::RouteIndex route;
 };
 
 /// Append-only table of vehicles and routes. A row's number never changes; vehicles that left stay listed.
 class Roster {
   public:
-    /// Adds a vehicle, or replaces what is known of it. Throws std::logic_error when two ids share one key.
+    /// Adds a vehicle, or replaces its entry. Throws std::logic_error when two ids share one key.
     void add(VehicleInfo vehicle);
     /// Interns a route: the edges in driving order, without internal edges. Equal routes get one index.
     core::RouteIndex add_route(const std::vector<core::EdgeIndex>& edges);
-    /// The vehicle took another route.
+    /// Records that the vehicle took another route.
     void set_route(core::VehicleKey key, core::RouteIndex route);
 
     /// Nothing when no such vehicle was ever added. The pointer is valid until the next `add`.

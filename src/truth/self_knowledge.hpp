@@ -20,8 +20,9 @@ struct LaneOutlook {
     int best_offset = 0;      ///< Lane changes needed for the route, 0 when it is a best lane.
 };
 
-/// Questions that a vehicle can answer about itself, for `actuation` alone: what it could do now. Answers are
-/// nothing when the vehicle is not on the road. And what a signal knows of itself and its crossings.
+/// What a vehicle knows about itself and could do now, and what a signal knows about itself and its
+/// crossings. Only for `actuation` and `drivers`. Answers about a vehicle are nothing when it is not on the
+/// road.
 class SelfKnowledge {
   public:
     SelfKnowledge() = default;

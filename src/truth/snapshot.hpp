@@ -13,8 +13,8 @@
 namespace clearway::truth {
 
 /// The true state of all vehicles on the road at one step, as a structure of arrays. Rows are ordered by key;
-/// a row number
-/// (`core::VehicleIndex`) is valid for this snapshot alone. Buffers keep their capacity between steps.
+/// a row number (`core::VehicleIndex`) is valid for this snapshot alone. Buffers keep their capacity between
+/// steps.
 struct Snapshot {
     core::Seconds time;
     std::vector<core::VehicleKey> key;

@@ -309,12 +309,12 @@ TEST_F(NetworkTest, NamesFileAndLineOfWhatIsWrong) {
     EXPECT_THAT(complaint(altered(R"(linkIndex="3")", R"(linkIndex="4")")),
                 HasSubstr("linkIndex=\"4\" of signal \"J\" (allowed: 0 to 3"));
     EXPECT_THAT(complaint(altered(R"(to="north" fromLane)", R"(to="moon" fromLane)")),
-                HasSubstr("to=\"moon\" is no edge above this line"));
+                HasSubstr("to=\"moon\" is not an edge defined above this line"));
     EXPECT_THAT(complaint(altered(R"(toLane="1")", R"(toLane="7")")),
                 HasSubstr("toLane=\"7\" of edge \"east\" (allowed: 0 to 1)"));
     EXPECT_THAT(complaint(altered(R"(via=":J_3_0")", R"(via=":J_9_0")")), HasSubstr("via=\":J_9_0\""));
     EXPECT_THAT(complaint(altered(R"(<edge id="south")", R"(<edge id="west")")),
-                HasSubstr("edge \"west\" is there twice"));
+                HasSubstr("edge \"west\" occurs twice"));
     EXPECT_THAT(complaint(altered(R"(state="rrGG")", R"(state="rrG")")), HasSubstr("4 letters"));
     EXPECT_THAT(complaint(altered(R"(tl="J")", R"(tl="Q")")), HasSubstr("tl=\"Q\" is no signal"));
     EXPECT_THAT(complaint(altered(R"(shape="0.00,-4.80 100.00,-4.80")", R"(shape="0.00,-4.80")")),

@@ -278,7 +278,7 @@ TEST_F(Config, bad_road_conditions_say_where_and_what) {
     EXPECT_THAT(only_problem("[road.stretch.ice]\nedges = [\"first\"]\n"
                              "[road.stretch.works]\nedges = [\"second\", \"first\"]\n"),
                 AllOf(Field(&core::Problem::where, HasSubstr("road.stretch.works.edges")),
-                      Field(&core::Problem::what, HasSubstr("stands in 'ice' already"))));
+                      Field(&core::Problem::what, HasSubstr("is already in 'ice'"))));
     Options options;
     options.friction = 0.0;
     EXPECT_EQ(only_problem("", options).where, "--friction");

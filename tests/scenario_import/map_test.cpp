@@ -67,7 +67,7 @@ TEST_F(MapImport, pedestrians_bring_sidewalks_and_crossings_and_walk_at_the_sign
     const Findings findings = run(asked);
     EXPECT_EQ(findings.car_edges, town_edges);
     EXPECT_THAT(findings.changes,
-                testing::Contains(HasSubstr("60 pedestrians an hour at each of 4 crossings")));
+                testing::Contains(HasSubstr("60 pedestrians per hour at each of 4 crossings")));
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.pedestrians.per_hour, 60.0);
     const scenario::BuiltNetwork network = scenario::build_network(config, folder() / "built");
@@ -135,7 +135,7 @@ TEST_F(MapImport, roads_with_a_side_of_their_own_do_not_turn_the_map_and_that_is
 
 TEST_F(MapImport, main_roads_without_a_limit_get_that_of_towns_and_that_is_said) {
     const Findings findings = run(request({write("town.osm", town_map(13.0, 51.0, "primary"))}));
-    EXPECT_THAT(findings.changes, testing::Contains(HasSubstr("km of road is not on it")));
+    EXPECT_THAT(findings.changes, testing::Contains(HasSubstr("km of road have no speed limit")));
     const roads::Network network = roads::Network::read(out() / "town" / "network.net.xml");
     for (const roads::Edge& edge : network.edges()) {
         if (edge.internal) continue;

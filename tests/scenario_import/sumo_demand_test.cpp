@@ -315,7 +315,7 @@ TEST_F(SumoDemand, edges_closed_to_a_class_and_unknown_stops_are_faults_of_a_veh
     EXPECT_THAT(refused, Not(HasSubstr("f.1")));
     EXPECT_THAT(
         refusal(with("<vehicle id='v' depart='1'><route edges='first'/><stop busStop='x'/></vehicle>")),
-        HasSubstr("\"v\": stops at busStop \"x\", which nobody defines"));
+        HasSubstr("\"v\": stops at busStop \"x\", which is not defined"));
     ImportRequest lenient = with(trucks);
     lenient.bad_vehicles = BadVehicles::leave_out;
     EXPECT_EQ(run(lenient).vehicles.count("truck"), 0U);
@@ -371,7 +371,7 @@ TEST_F(SumoDemand, detectors_that_a_signal_program_names_are_kept_without_their_
                    program + "</additional>")}));
     EXPECT_THAT(additional_file(), AllOf(HasSubstr("id=\"mine\""), HasSubstr("file=\"NUL\""),
                                          Not(HasSubstr("other")), Not(HasSubstr("x.xml"))));
-    EXPECT_THAT(findings.left_out, Contains(HasSubstr("<calibrator>, which shapes the traffic")));
+    EXPECT_THAT(findings.left_out, Contains(HasSubstr("<calibrator>, which affects the traffic")));
 }
 
 TEST_F(SumoDemand, trips_between_zones_get_their_way) {
@@ -384,7 +384,7 @@ TEST_F(SumoDemand, trips_between_zones_get_their_way) {
 TEST_F(SumoDemand, a_demand_of_which_nothing_can_be_used_is_no_synthetic_one) {
     EXPECT_THAT(refusal(line_with("<flow id='f' begin='0' end='100' number='9' toTaz='east'/>")),
                 AllOf(HasSubstr("no vehicle of its demand can be used"), HasSubstr("duarouter"),
-                      HasSubstr("9 vehicles without a way")));
+                      HasSubstr("9 vehicles without a route")));
 }
 
 TEST_F(SumoDemand, what_sumo_says_of_additional_files_names_the_files_of_the_user) {

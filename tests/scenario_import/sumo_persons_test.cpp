@@ -141,8 +141,8 @@ TEST_F(SumoPersons, who_do_not_only_walk_are_left_out_by_what_they_are) {
           "1 persons who walk between zones, junctions or coordinates (zones)",
           "1 persons of a class that does not walk (driver)", "1 persons who do not walk (still)",
           "1 persons who stop without a stated end (endless)",
-          "1 <container>, which Clearway has no place for (box)",
-          "1 <containerFlow>, which Clearway has no place for (boxes)"})
+          "1 <container>, which Clearway does not support (box)",
+          "1 <containerFlow>, which Clearway does not support (boxes)"})
         EXPECT_THAT(findings.left_out, Contains(line));
 }
 
@@ -184,8 +184,8 @@ TEST_F(SumoPersons, what_sumo_cannot_walk_is_refused_together_or_left_out) {
     made.bad_vehicles = BadVehicles::leave_out;
     const Findings findings = run(made);
     EXPECT_EQ(findings.persons, 3U);
-    EXPECT_THAT(findings.left_out, Contains(AllOf(HasSubstr("13 persons who cannot walk as they are to"),
-                                                  HasSubstr("nowhere"))));
+    EXPECT_THAT(findings.left_out,
+                Contains(AllOf(HasSubstr("13 persons who cannot walk as planned"), HasSubstr("nowhere"))));
     EXPECT_THAT(persons(), AllOf(HasSubstr("\"p13\""), HasSubstr("\"p14\""), HasSubstr("\"p15\"")));
 }
 
@@ -202,7 +202,7 @@ TEST_F(SumoPersons, edges_closed_to_pedestrians_and_walks_without_a_way_are_bad)
     made.bad_vehicles = BadVehicles::leave_out;
     const Findings findings = run(made);
     EXPECT_EQ(findings.persons, 1U);
-    EXPECT_THAT(findings.left_out, Contains("1 persons without any way on foot between their ends (cut)"));
+    EXPECT_THAT(findings.left_out, Contains("1 persons without a walking route between their ends (cut)"));
 }
 
 TEST_F(SumoPersons, ids_may_be_those_of_vehicles_but_not_of_each_other) {
@@ -236,7 +236,7 @@ TEST_F(SumoPersons, plans_end_with_the_last_walk_of_a_run) {
         person("worker", "<walk edges='A0A1'/><stop edge='A0A1' duration='8:00:00'/><walk edges='A0A1'/>") +
         person("sleeper", "<stop edge='A0A1' until='7:00:00'/><walk edges='A0A1'/>")));
     EXPECT_EQ(findings.persons, 1U);
-    EXPECT_THAT(findings.left_out, Contains("1 persons who set out after a run (sleeper)"));
+    EXPECT_THAT(findings.left_out, Contains("1 persons who depart after the end of a run (sleeper)"));
     EXPECT_THAT(findings.changes, Contains(HasSubstr("the plans of 2 persons end with")));
     EXPECT_THAT(persons(), AllOf(HasSubstr("worker"), Not(HasSubstr("<stop"))));
 }
@@ -245,8 +245,8 @@ TEST_F(SumoPersons, alone_they_are_no_traffic) {
     const Findings findings =
         run(request({grid(), write("town.rou.xml",
                                    "<routes>" + person("walker", "<walk edges='A0A1'/>") + "</routes>")}));
-    EXPECT_THAT(findings.changes, Contains(HasSubstr("no vehicle for the road: demand is synthetic")));
-    EXPECT_THAT(findings.left_out, Contains(HasSubstr("1 persons, for no vehicle goes with them (walker)")));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("no road vehicles: the demand is synthetic")));
+    EXPECT_THAT(findings.left_out, Contains(HasSubstr("1 persons, because no vehicle is left (walker)")));
     EXPECT_FALSE(scenario::load((out() / "town").string()).measured);
 }
 

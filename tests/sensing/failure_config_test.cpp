@@ -82,8 +82,8 @@ TEST(FailureText, IsRefusedWithAllThatIsWrong) {
     EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: 'half'"));
     EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
     EXPECT_THAT(refusal("B10,exits=maybe"), HasSubstr("known, unknown"));
-    EXPECT_THAT(refusal("B10,dark_share=0.1,dark_share=0.2"), HasSubstr("stands there twice"));
-    EXPECT_THAT(refusal("dark_share=0.1,B10"), HasSubstr("one preset, in front"));
+    EXPECT_THAT(refusal("B10,dark_share=0.1,dark_share=0.2"), HasSubstr("occurs twice"));
+    EXPECT_THAT(refusal("dark_share=0.1,B10"), HasSubstr("one preset, at the front"));
     EXPECT_THAT(refusal("B10,"), HasSubstr("'' is not a failure preset"));
     EXPECT_THAT(refusal(""), HasSubstr("'' is not a failure preset"));
     EXPECT_THAT(refusal("B10,dark_share=1.5"), HasSubstr("1.5 is out of range"));

@@ -169,7 +169,7 @@ TEST_F(Factors, ThatAreUnknownNameTheNearest) {
     EXPECT_THAT(problems("[factors]\nloop.policy_perod_s = [1]\n"), HasSubstr("'policy_period_s'"));
     EXPECT_THAT(problems("[factors]\nscenario.demand.humn = [1]\n"),
                 testing::AllOf(HasSubstr("demand.humn"), HasSubstr("'human'")));
-    EXPECT_THAT(problems("[factors]\nscenario.name.x = [1]\n"), HasSubstr("name is no table"));
+    EXPECT_THAT(problems("[factors]\nscenario.name.x = [1]\n"), HasSubstr("name is not a table"));
 }
 
 TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {

@@ -9,14 +9,14 @@
 namespace clearway::actuation::detail {
 namespace {
 
-/// A green is prolonged by at most this share of itself on the way back into step: others wait for it.
+/// A green is extended by at most this share to get back into step, because others wait for it.
 constexpr double most_stretch = 0.5;
-/// A program that is not back after so many cycles has no green that could be told from its others.
+/// A program that is not back in step after so many cycles has no green that is unique among its phases.
 constexpr double most_cycles = 5.0;
-/// Nearer than this is in step, s: a state is seen a simulated step after it began.
+/// A smaller offset counts as in step, s: a state is seen one simulated step after it began.
 constexpr double in_step_s = 1.0;
 
-/// Farther apart, signals are not coordinated, m.
+/// Signals farther apart than this are not coordinated, m.
 constexpr double neighbour_m = 800.0;
 
 /// Where the first lane that a signal controls ends.
@@ -45,7 +45,7 @@ BackgroundPlan::BackgroundPlan(const roads::Signal& signal, bool keeps_step)
 
 void BackgroundPlan::watch(const std::string& state, core::Seconds now) {
     const bool is_new = state != state_;
-    just_changed_ = is_new && !state_.empty();  // of what is shown at first sight nobody knows since when
+    just_changed_ = is_new && !state_.empty();  // at first sight it is unknown since when the state is shown
     if (!is_new) return;
     state_ = state;
     since_ = now;

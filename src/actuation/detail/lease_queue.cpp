@@ -42,7 +42,7 @@ void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
         ++counts.issued;
         held_.push_back({lease, core::EdgeIndex::none(), core::EdgeIndex::none(), {}});
     }
-    // Stable: of equal priority the earlier stays first.
+    // Stable: at equal priority the earlier lease stays first.
     held_.sort([](const HeldLease& left, const HeldLease& right) {
         return left.lease.priority > right.lease.priority;
     });

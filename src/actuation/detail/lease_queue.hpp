@@ -26,26 +26,25 @@ class Ledger {
 /// A lease in force.
 struct HeldLease {
     traffic::Lease lease;
-    /// Edge on which a lease about a lane or its line was first judged since the last renewal: it means
-    /// nothing on another.
+    /// Edge on which a lease about a lane or a stop line was first judged since its last renewal. It has no
+    /// meaning on other edges.
     core::EdgeIndex edge;
-    core::EdgeIndex granted_on;                 ///< A stop that was found feasible stays so on that edge.
-    std::vector<const char*> counted_refusals;  ///< Each reason is counted once a lease.
+    core::EdgeIndex granted_on;  ///< Edge on which a stop was found feasible; it stays so there.
+    std::vector<const char*> counted_refusals;  ///< Each reason is counted once per lease.
     bool counted_act = false;
-    bool served = false;  ///< A hold that is being carried out, or on the way there.
+    bool served = false;  ///< A hold that is carried out or in transition.
 };
 
-/// Leases in force for one target, of which only one kind of thing can be done at a time, best first: by
-/// priority, then by age. A lease of the same policy for the same beneficiary is a renewal and keeps its
-/// place.
+/// Leases in force for one target, competing for the same thing; best first: by priority, then by age. A
+/// lease of the same policy for the same beneficiary is a renewal and keeps its place.
 class LeaseQueue {
   public:
     void offer(const traffic::Lease& lease, Ledger& ledger);
-    /// Ends the leases whose expiry has come.
+    /// Ends the leases that have expired.
     void expire(core::Seconds now, Ledger& ledger);
-    /// Counts a refusal, once for each lease and reason. The lease stays and is judged again.
+    /// Counts a refusal, once per lease and reason. The lease stays and is judged again.
     static void refuse(HeldLease& held, const char* reason, Ledger& ledger);
-    /// Counts that a lease is carried out, once for each lease.
+    /// Counts that a lease is carried out, once per lease.
     static void act(HeldLease& held, Ledger& ledger);
     /// Counts a refusal and ends all leases.
     void drop_all(const char* reason, Ledger& ledger);

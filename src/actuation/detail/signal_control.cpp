@@ -9,10 +9,10 @@
 namespace clearway::actuation::detail {
 namespace {
 
-/// No cycle counts as longer than this, s: a program that never changes has none.
+/// Upper bound on a cycle, s: a program that never changes has none.
 constexpr double longest_cycle_s = 180.0;
 
-/// Ascending, without repetition, whatever the order of what a policy asked for.
+/// Ascending and without duplicates, whatever the order of a policy's links.
 Links united(Links links, const Links& others) {
     links.insert(links.end(), others.begin(), others.end());
     std::ranges::sort(links);
@@ -53,8 +53,8 @@ bool SignalControl::is_idle(core::Seconds now) const {
     return active() == 0 && stage_ == Stage::background_plan && now >= lockout_until_ && own_.is_in_step(now);
 }
 
-/// Links of the best lease and of all others that go with it. Who is served already comes before who waits:
-/// a change costs both of them time.
+/// Links of the best lease and of all that are compatible with it. Leases that are already served come before
+/// waiting ones, because a change costs both of them time.
 Links SignalControl::requested(Ledger& ledger) {
     std::vector<HeldLease*> order;
     for (HeldLease& held : holds_.all())
@@ -118,7 +118,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
         if (in_green && waits_for_gap(way.target, around)) return;
-        // Another that joins or leaves does not make a stuck one's hold begin anew.
+        // A lease that joins or leaves does not restart the hold of one that is stuck.
         if (in_program || (!overlap(links, last_held_) && conflict(signal_, links, last_held_)))
             taken_since_ = around.now;
         begin(std::move(way), around, commands);
@@ -126,8 +126,8 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
     proceed(around, commands);
 }
 
-/// Whether a green that is shown should not end just now, for the sake of one who could just stop. Never for
-/// longer than the timing allows.
+/// Whether a green should go on for a vehicle that could only just stop. Never for longer than the timing
+/// allows.
 bool SignalControl::waits_for_gap(const std::string& target, const SignalContext& around) {
     const bool is_pressed = std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
         return link < signal_.links.size() &&
@@ -141,7 +141,7 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalContext
     return asked_for_gap_;
 }
 
-/// Another program may have been switched on, or one may run that stands in no file we have seen.
+/// Another program may have been switched on, or one that is in no file that was read.
 bool SignalControl::knows_program(const SignalContext& around) const {
     return around.self.running_program(index_) == signal_.program_id;
 }
@@ -215,8 +215,8 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
     shown_ = state;
 }
 
-/// Whether no way that has lost green, or has to yield from now on, is busy where those of `gaining` will
-/// cross.
+/// Whether all ways that have lost green, or must yield from now on, are free where those of `gaining` cross
+/// them.
 template <class IsBusy>
 bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
     const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
@@ -246,8 +246,8 @@ bool SignalControl::is_left_by_pedestrians(const SignalContext& around) const {
            });
 }
 
-/// Whether those who get green meet nobody, or have waited for it as long as they may. Pedestrians wait
-/// longer for vehicles than vehicles do.
+/// Whether the junction is clear for the links that get green, or they have waited long enough. Pedestrians
+/// wait longer for vehicles than vehicles do.
 bool SignalControl::may_open(const SignalContext& around) const {
     const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
     if (red_s < 0.0) return false;

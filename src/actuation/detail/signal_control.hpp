@@ -30,37 +30,36 @@ struct SignalTiming {
 /// Lanes, ascending.
 using Lanes = std::vector<core::LaneIndex>;
 
-/// What a signal meets in one step.
+/// The situation of a signal in one step.
 struct SignalContext {
     core::Seconds now;
-    const std::string& state;  ///< What it shows now; empty when there is no such signal any more.
+    const std::string& state;  ///< What it shows now; empty when the signal no longer exists.
     const SignalTiming& timing;
     const Lanes& occupied;  ///< Internal lanes with a vehicle on them.
-    /// Lanes with a vehicle that could stop before their end, but not comfortably. Looked for when the first
-    /// signal of a step asks: few end a green.
+    /// Lanes with a vehicle that could stop before their end, but not comfortably. Computed on demand,
+    /// because few signals end a green in a step.
     const std::function<const Lanes&()>& pressed;
-    /// Asked for pedestrians when somebody is to get green, and for the program before one of its phases
-    /// starts.
+    /// Tells whether pedestrians are on crossings, and which program runs.
     const truth::SelfKnowledge& self;
 };
 
-/// The leases of one signal and where it is on the way between its background plan and what they hold.
+/// The leases of one signal, and its transitions between the background plan and their holds.
 ///
 /// background plan -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> background plan. Yellow is
-/// shown where a link loses green, all red wherever a link gains it, for longer while the junction is not
-/// clear; links that keep green keep it all the way. Crossings turn red when others turn yellow, and nobody
-/// may walk any more on one that gets crossed, whether by new green or by green that no longer yields. The
-/// way back leads to the phase that a lease asks for; without one all links are cleared, because where the
-/// program is by then is not known. A request that changes on the way starts the way again from what is shown
-/// now. Simulated steps decide when a stage ends: it never is shorter than asked. A green ends when nobody on
-/// it is so near that he could just stop, or a little later all the same.
+/// shown if a link loses green, all red if a link gains it, and longer while the junction is not clear; links
+/// that keep green keep it throughout. Crossings turn red when other links turn yellow, and a crossing is
+/// closed if it conflicts with a new green or with a green that no longer yields. The return leads to the
+/// phase that a lease asks for; without one, all links are cleared, because the position of the program by
+/// then is unknown. If the request changes during a transition, the transition starts again from what is
+/// shown now. A stage ends at a simulated step, so it is never shorter than configured. A green ends when no
+/// vehicle on it could only just stop, or after a short wait.
 ///
-/// In the background plan such a lease ends a green that serves none of its links, once that has lasted its
-/// least time: the program goes on with its next phase, so with its own yellow. Afterwards a program of fixed
-/// times is brought back into step, green by green: its neighbours count on it.
+/// While the background plan runs, an AdjustGreen lease ends a green that serves none of its links once that
+/// has lasted its least time: the program goes on to its next phase, through its own yellow. Afterwards a
+/// fixed-time program is brought back into step, green by green, because its neighbours depend on it.
 ///
-/// A hold that had to end at its cap comes again after a whole cycle of the background plan, so that nobody
-/// is left without green for an emergency vehicle that is stuck.
+/// A hold that ended at its cap may return after a whole cycle of the background plan, so that an emergency
+/// vehicle that is stuck does not keep everybody else waiting.
 class SignalControl {
   public:
     /// The network outlives the object.
@@ -71,17 +70,18 @@ class SignalControl {
     void restore(std::vector<traffic::Command>& commands);
 
     std::size_t active() const { return holds_.size() + adjustments_.size(); }
-    /// Nothing is held, and a new hold would be accepted at once.
+    /// Whether nothing is held and a new hold would be accepted at once.
     bool is_idle(core::Seconds now) const;
 
   private:
     enum class Stage : std::uint8_t { background_plan, yellow, all_red, hold };
-    /// From what is shown to what shall be.
+    /// A transition from what is shown to a target.
     struct Way {
-        Links links;                                ///< What is to be held; empty on the way back.
-        std::string target;                         ///< What is shown at its end.
-        Links gaining;                              ///< Whose ways must be clear before: all that it serves.
-        std::optional<std::uint32_t> return_phase;  ///< Where the program starts after the way back.
+        Links links;         ///< Links to hold; empty on the way back.
+        std::string target;  ///< State shown at its end.
+        Links gaining;       ///< All links that are green in `target`; their ways must be clear first.
+        /// Phase at which the program restarts after the way back.
+        std::optional<std::uint32_t> return_phase;
     };
 
     Links requested(Ledger& ledger);
@@ -106,21 +106,21 @@ class SignalControl {
 
     core::SignalIndex index_;
     const roads::Signal& signal_;
-    std::vector<std::vector<core::LaneIndex>> inner_lanes_;  ///< By link: its ways through the junction.
+    std::vector<std::vector<core::LaneIndex>> inner_lanes_;  ///< By link: internal lanes of its ways.
     LeaseQueue holds_;
     LeaseQueue adjustments_;
     Stage stage_ = Stage::background_plan;
     core::Seconds stage_since_;
-    /// When the signal last left its background plan, or was last handed over to links that conflict.
+    /// When the signal last left its background plan, or its hold last passed to conflicting links.
     core::Seconds taken_since_;
     core::Seconds lockout_until_{-1e9};
-    bool capped_ = false;  ///< Held for the cap: on the way back whatever is asked.
+    bool capped_ = false;  ///< The hold reached its cap: it goes back, whatever leases ask for.
     std::string shown_;
     Way way_;
-    Links last_held_;                           ///< Links of the last way that was none back.
-    std::optional<core::Seconds> gap_awaited_;  ///< Since when a green is kept for want of a gap.
+    Links last_held_;                           ///< Links of the last hold.
+    std::optional<core::Seconds> gap_awaited_;  ///< Since when a green waits for a gap.
     bool asked_for_gap_ = false;                ///< In this step.
-    bool program_known_ = false;                ///< Of the program that was left.
+    bool program_known_ = false;                ///< Whether the program that was left is the known one.
     BackgroundPlan own_;
 };
 

@@ -8,26 +8,25 @@
 namespace clearway::actuation::detail {
 namespace {
 
-/// A lease may ask for this much more than is allowed, m/s: rounding, not speeding. The command stays below.
+/// A lease may exceed the allowed speed by this much, m/s, because of rounding. The command does not.
 constexpr double speed_tolerance_mps = 0.01;
-/// Speeds nearer to each other than this are not sent again, m/s.
+/// Smaller changes of speed are not sent, m/s.
 constexpr double speed_resolution_mps = 1e-3;
 /// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
 constexpr double stop_line_gap_m = 1.0;
-/// Longest single lane request: a request that outlives its lease by a fault binds the vehicle no longer
-/// (3 s: measured on the prototype).
+/// Longest single lane request, s: if a request outlives its lease by a fault, it does not bind the vehicle
+/// longer (3 s: measured on the prototype).
 constexpr double longest_lane_request_s = 3.0;
-/// A lane request is prolonged when it has less than this left: longer than the longest step (1 s).
+/// A lane request is renewed when it has less than this left, s: longer than the longest step (1 s).
 constexpr double prolong_lane_request_s = 1.5;
-/// A vehicle off the road for longer than this does not come back (SUMO teleports for 300 s of jam at most).
+/// A vehicle off the road for longer than this does not come back, s.
 constexpr double longest_absence_s = 600.0;
 
 bool is_best_or_long(const truth::LaneOutlook& outlook) {
     return outlook.best_offset == 0 || outlook.drivable_m > roads::worth_following.value;
 }
 
-/// Greatest speed of the next step after which the vehicle can still stop within `distance` with
-/// `deceleration`.
+/// Highest speed for the next step after which the vehicle can still stop within `distance_m`.
 double braking_speed(double distance_m, double deceleration_mps2, double step_s) {
     const double lost = deceleration_mps2 * step_s;
     return std::max(0.0,
@@ -136,14 +135,15 @@ void VehicleControl::judge_speed(const VehicleContext& around, const Place& plac
     if (settings.speed) LeaseQueue::act(*held, ledger);
 }
 
-/// Whether the edge that the lease meant lies behind. The first call ties the lease to the present edge.
+/// Whether the vehicle has left the edge that the lease is about. The first call ties the lease to the
+/// present edge.
 bool VehicleControl::has_left_edge(const VehicleContext& around, const Place& place, HeldLease& held) {
     const core::EdgeIndex edge = around.network.lane(around.snapshot.lane[place.row]).edge;
     if (!held.edge.exists()) held.edge = edge;
     return held.edge != edge;
 }
 
-/// Speed on the way to a stop at the line. A stop that needs more than the usual deceleration is refused.
+/// Speed for a stop at the line. A stop that needs more than the usual deceleration is refused.
 std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleContext& around,
                                                                 const Place& place, HeldLease& held,
                                                                 Ledger& ledger) const {

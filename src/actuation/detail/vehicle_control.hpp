@@ -14,7 +14,7 @@
 
 namespace clearway::actuation::detail {
 
-/// What judging a vehicle's leases needs to know.
+/// What is needed to judge a vehicle's leases.
 struct VehicleContext {
     const roads::Network& network;
     const truth::Snapshot& snapshot;
@@ -31,7 +31,7 @@ struct LaneRequest {
     core::Seconds until;
 };
 
-/// How a vehicle differs from one that nobody controls. The default is such a vehicle.
+/// Differences from an uncontrolled vehicle. The default has none.
 struct VehicleSettings {
     std::optional<core::MetresPerSecond> speed;
     std::optional<LaneRequest> lane;
@@ -43,19 +43,19 @@ struct VehicleSettings {
     bool is_default() const;
 };
 
-/// The leases of one vehicle and what they made of it. Each step compares how the vehicle should be set with
-/// how it is set and sends the difference, so whatever was set is given back exactly once.
+/// The leases of one vehicle and the settings that they caused. Each step compares wanted and applied
+/// settings and sends the difference, so every setting is restored exactly once.
 class VehicleControl {
   public:
     explicit VehicleControl(core::VehicleKey vehicle) : vehicle_(vehicle) {}
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
     void step(const VehicleContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
-    /// Gives everything back, when the vehicle was on the road at the last step.
+    /// Restores everything, if the vehicle was on the road at the last step.
     void restore(std::vector<traffic::Command>& commands);
 
     std::size_t active() const;
-    /// Nothing is held and nothing is owed to a vehicle that may come back.
+    /// Whether there are no leases, and no settings to restore on a vehicle that may come back.
     bool is_idle(core::Seconds now) const;
 
   private:
@@ -84,7 +84,8 @@ class VehicleControl {
     core::VehicleKey vehicle_;
     std::array<LeaseQueue, channel_count> queues_;
     VehicleSettings applied_;
-    std::optional<core::Seconds> away_since_;  ///< Off the road, with settings that it may come back with.
+    /// Since when it is off the road; it may come back with its settings.
+    std::optional<core::Seconds> away_since_;
 };
 
 }  // namespace clearway::actuation::detail

@@ -29,7 +29,7 @@ std::size_t scan_scalar(const ScanColumns& columns, std::size_t first, std::size
 #if defined(__x86_64__)
 namespace {
 
-/// For each 8-bit mask the order that moves the chosen lanes to the front.
+/// For each 8-bit mask, the order that moves the chosen lanes to the front.
 constexpr auto packing_orders = [] {
     std::array<std::array<std::int32_t, 8>, 256> orders{};
     for (unsigned mask = 0; mask < 256; ++mask) {

@@ -5,10 +5,10 @@
 
 namespace clearway::graph::detail {
 
-/// Loads of the vector kernel may read this many elements past the end of a range.
+/// The vector kernel may read this many elements past the end of a range.
 inline constexpr std::size_t scan_margin = 8;
 
-/// Vehicles side by side in memory. `class_bit` holds one bit per class.
+/// Vehicles as columns. `class_bit` has one bit per class.
 struct ScanColumns {
     const float* x_m;
     const float* y_m;
@@ -16,7 +16,7 @@ struct ScanColumns {
     const std::uint32_t* vehicle;
 };
 
-/// What is looked for: vehicles of a class in `allowed` whose squared distance is below `limit_m2`.
+/// What a scan looks for: vehicles of a class in `allowed` whose squared distance is below `limit_m2`.
 struct ScanTarget {
     float x_m;
     float y_m;
@@ -24,8 +24,8 @@ struct ScanTarget {
     std::uint32_t allowed;
 };
 
-/// Writes the vehicles found in [first, last) and their squared distances, in order, and answers how many.
-/// Both outputs have room for last - first + scan_margin elements.
+/// Writes the vehicles found in [first, last) and their squared distances, in order, and returns their
+/// number. Both outputs have room for last - first + scan_margin elements.
 using NearScan = std::size_t (*)(const ScanColumns& columns, std::size_t first, std::size_t last,
                                  const ScanTarget& target, std::uint32_t* vehicles, float* squared_m2);
 

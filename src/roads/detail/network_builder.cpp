@@ -40,7 +40,7 @@ void NetworkBuilder::begin_additional(const std::filesystem::path& file) {
     in_additional_ = true;
 }
 
-/// Signals of railways are not among the known ones.
+/// Railway signals do not count as known.
 bool NetworkBuilder::is_known_program(std::string_view element, const core::XmlAttributes& attributes) const {
     return element == "tlLogic" && network_.find_signal(attributes.find("id").value_or(""));
 }
@@ -165,7 +165,7 @@ void NetworkBuilder::read_edge(const core::XmlAttributes& attributes) {
     edge.first_lane = static_cast<std::uint32_t>(network_.lanes_.size());
     const auto row = static_cast<std::uint32_t>(network_.edges_.size());
     if (!network_.edge_rows_.try_emplace(edge.id, row).second) {
-        add_problem(fmt::format("edge \"{}\" is there twice", edge.id));
+        add_problem(fmt::format("edge \"{}\" occurs twice", edge.id));
     }
     network_.edges_.push_back(std::move(edge));
 }
@@ -191,7 +191,7 @@ void NetworkBuilder::read_lane(const core::XmlAttributes& attributes) {
     lane.shape_length_m = length_of(lane.shape);
     const auto row = static_cast<std::uint32_t>(network_.lanes_.size());
     if (!network_.lane_rows_.try_emplace(lane.id, row).second) {
-        add_problem(fmt::format("lane \"{}\" is there twice", lane.id));
+        add_problem(fmt::format("lane \"{}\" occurs twice", lane.id));
     }
     if (edge.lane_count == 0) edge.length_m = lane.length_m;
     ++edge.lane_count;
@@ -229,7 +229,8 @@ void NetworkBuilder::read_phase(const core::XmlAttributes& attributes) {
     }
 }
 
-/// Letters of a program beyond the last link that a connection names are idle; SUMO only warns of them.
+/// Letters of a program beyond the last link that a connection names have no effect; SUMO only warns about
+/// them.
 std::size_t NetworkBuilder::letters_in_use(const Signal& signal) const {
     std::size_t letters = 0;
     for (const Connection& connection : network_.connections_) {
@@ -242,7 +243,7 @@ std::size_t NetworkBuilder::letters_in_use(const Signal& signal) const {
 void NetworkBuilder::end_program() {
     in_program_ = false;
     Signal& signal = *program_signal_;
-    if (in_additional_ && phases_.empty()) {  // another offset for a program that is there
+    if (in_additional_ && phases_.empty()) {  // another offset for an existing program
         if (program_id_ == signal.program_id) signal.offset_s = program_offset_s_.value_or(signal.offset_s);
         return;
     }
@@ -290,7 +291,7 @@ core::LaneIndex NetworkBuilder::connection_end(const core::XmlAttributes& attrib
     const std::string id = text(attributes, edge_name);
     const auto edge = network_.find_edge(id);
     if (!edge) {
-        add_problem(fmt::format("{}=\"{}\" is no edge above this line", edge_name, id));
+        add_problem(fmt::format("{}=\"{}\" is not an edge defined above this line", edge_name, id));
         return core::LaneIndex::none();
     }
     const auto number_of_lane = static_cast<std::uint32_t>(number(attributes, lane_name, 0, 1000));
@@ -311,7 +312,7 @@ void NetworkBuilder::read_connection(const core::XmlAttributes& attributes) {
     if (const auto via = attributes.find("via")) {
         const auto lane = network_.find_lane(*via);
         if (!lane) {
-            add_problem(fmt::format("via=\"{}\" is no lane above this line", *via));
+            add_problem(fmt::format("via=\"{}\" is not a lane defined above this line", *via));
             return;
         }
         connection.via = *lane;
@@ -334,7 +335,7 @@ void NetworkBuilder::set_signal(const core::XmlAttributes& attributes, Connectio
     if (!id || railway_signals_.contains(std::string(*id))) return;
     const auto signal = network_.find_signal(*id);
     if (!signal) {
-        add_problem(fmt::format("tl=\"{}\" is no signal above this line", *id));
+        add_problem(fmt::format("tl=\"{}\" is not a signal defined above this line", *id));
         return;
     }
     const std::size_t letters = network_.signal(*signal).links.size();

@@ -21,11 +21,11 @@ class NetworkBuilder : public core::XmlHandler {
   public:
     explicit NetworkBuilder(const std::filesystem::path& file) : file_(file.string()) {}
 
-    /// What is read from now on comes from an additional file; only its programs of known signals count.
+    /// Everything read from now on comes from an additional file; only its programs for known signals count.
     void begin_additional(const std::filesystem::path& file);
     void start(std::string_view element, const core::XmlAttributes& attributes, unsigned long line) override;
     void end(std::string_view element) override;
-    /// Everything that needs the whole file. Throws core::InputError with all problems met.
+    /// Does what needs the whole file. Throws core::InputError with all problems found.
     Network finish();
 
   private:
@@ -43,7 +43,7 @@ class NetworkBuilder : public core::XmlHandler {
 
     bool is_known_program(std::string_view element, const core::XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
-    /// A required number; reports a missing, malformed or out-of-range one and answers 0.
+    /// A required number; reports a missing, malformed or out-of-range one and returns 0.
     double number(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum);
     double number_or(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum,
                      double missing);

@@ -1,4 +1,4 @@
-// The part of NetworkBuilder that needs the whole file: what belongs to what.
+// The part of NetworkBuilder that needs the whole file: it links the elements to each other.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -10,8 +10,7 @@
 namespace clearway::roads {
 namespace {
 
-/// Bound on the lanes of one way through a junction, against files that go in circles; netconvert writes 1 or
-/// 2.
+/// Limit on the lanes of one way through a junction, against cyclic files; netconvert writes 1 or 2.
 constexpr int most_inner_lanes = 16;
 
 }  // namespace
@@ -69,8 +68,8 @@ void NetworkBuilder::list_signal_links() {
     }
 }
 
-/// The lane that stands for a connection in its junction's `intLanes`: the last one inside the junction,
-/// which for a crossing of pedestrians is where it leads to.
+/// The lane that stands for a connection in its junction's `intLanes`: the last one inside the junction, or,
+/// for a pedestrian crossing, the lane that it leads to.
 core::LaneIndex NetworkBuilder::inner_lane_of(const Connection& connection) const {
     if (!connection.via.exists()) return connection.to;
     core::LaneIndex lane = connection.via;

@@ -7,7 +7,7 @@
 
 namespace clearway::roads::detail {
 
-/// The finite number that is the whole of `text`, whatever the locale.
+/// Parses all of `text` as a finite number, independent of the locale; nothing when it is not one.
 inline std::optional<double> parse_number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -16,7 +16,7 @@ inline std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
-/// Calls `visit` with each part of `text` between separators, empty parts left out.
+/// Calls `visit` with each non-empty part of `text` between separators.
 template <class Visitor>
 void for_each_word(std::string_view text, char separator, const Visitor& visit) {
     while (!text.empty()) {

@@ -19,7 +19,7 @@ core::EdgeIndex edge_at(Route route, std::size_t place) {
     return place < route.size() ? route[place] : core::EdgeIndex::none();
 }
 
-/// From the lane nearest to `lane` on its edge that leads to `next`.
+/// The connection to `next` from the nearest lane on the edge of `lane` that has one.
 const Connection* nearest_connection(const Network& network, core::LaneIndex lane, core::EdgeIndex next,
                                      core::EdgeIndex after_next) {
     const Edge& edge = network.edge(network.lane(lane).edge);

@@ -8,7 +8,8 @@
 namespace clearway::roads::detail {
 
 /// The lanes that a vehicle passes when it follows its route from its present place: it stays on its lane as
-/// long as that continues and takes the nearest lane that continues otherwise (the lower number of two).
+/// long as that continues, and otherwise takes the nearest lane that does (of two, the one with the lower
+/// number).
 class Walk {
   public:
     /// Throws std::invalid_argument when `state` has no lane or its `route_edge` is outside the route.
@@ -24,7 +25,7 @@ class Walk {
     double end_m() const { return start_m_ + network_.lane(lane_).length_m; }
     /// The connection that `next` takes; null at the end of the route.
     const Connection* onward() const;
-    /// Goes on to the next lane. False, and no move, at the end of the route.
+    /// Moves to the next lane. Returns false, without moving, at the end of the route.
     bool next();
 
   private:
@@ -35,15 +36,15 @@ class Walk {
     double start_m_;
 };
 
-/// The connection that leads from `lane` to `next`; of several the first that continues to `after_next`
-/// (which may be none). Null when there is none.
+/// The connection from `lane` to `next`; of several, the first that continues to `after_next` (which may be
+/// none). Null when there is no connection.
 const Connection* connection_to(const Network& network, core::LaneIndex lane, core::EdgeIndex next,
                                 core::EdgeIndex after_next);
 
 /// Calls `visit(lane)` with each lane of the way through the junction that `connection` takes, in order.
 template <class Visitor>
 void for_each_inner_lane(const Network& network, const Connection& connection, const Visitor& visit) {
-    constexpr int most_lanes = 16;  // Against files that go in circles; netconvert writes 1 or 2.
+    constexpr int most_lanes = 16;  // Against cyclic files; netconvert writes 1 or 2.
     core::LaneIndex lane = connection.via;
     for (int count = 0; lane.exists() && count < most_lanes; ++count) {
         visit(lane);

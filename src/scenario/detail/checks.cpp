@@ -62,7 +62,8 @@ std::string nearest_hint(const std::string& word, const std::vector<std::string>
     return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
 }
 
-/// Re-divides the human and automated vehicles of a generated demand; a measured one has the share itself.
+/// Divides the human and automated vehicles of a generated demand anew; measured demand has its own setting
+/// for the share.
 void apply_share(double share, ScenarioConfig& config, Problems& problems) {
     if (!(share >= 0.0 && share <= 1.0)) {
         problems.push_back(
@@ -106,8 +107,8 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     const bool has_plain = !network.nodes.empty() || !network.edges.empty() || !network.connections.empty() ||
                            !network.signals.empty();
     if (!network.file.empty() && has_plain)
-        problems.push_back({config.where("network.file"), "is given beside plain XML files", "either of them",
-                            "remove file, or nodes, edges, connections and signals"});
+        problems.push_back({config.where("network.file"), "is given together with plain XML files",
+                            "one of the two", "remove file, or nodes, edges, connections and signals"});
     if (network.file.empty() && (network.nodes.empty() || network.edges.empty()))
         problems.push_back(
             {config.where("network"), "names no network", "file, or nodes and edges", "add them"});
@@ -179,7 +180,8 @@ void check_flows(const ScenarioConfig& config, Problems& problems) {
 }
 
 void check_density(const ScenarioConfig& config, Problems& problems) {
-    constexpr double largest = 100.0;  // As in the field table; the dense variant and --density multiply.
+    // As in the field table; the factors of the dense variant and of --density multiply.
+    constexpr double largest = 100.0;
     if (config.demand.density > largest)
         problems.push_back({config.where("demand.density"),
                             fmt::format("all factors together are {}", number_text(config.demand.density)),
@@ -191,10 +193,10 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
     const Measured& measured = *config.measured;
     if (!config.flows.empty())
         problems.push_back(
-            {config.where("flow[0]"), "stands beside [measured]", "either of them", "remove one"});
+            {config.where("flow[0]"), "is given together with [measured]", "one of the two", "remove one"});
     if (config.demand.human + config.demand.automated > 0)
         problems.push_back(
-            {config.where("demand.human"), "counts vehicles beside [measured]", "0",
+            {config.where("demand.human"), "counts vehicles together with [measured]", "0",
              "measured demand brings its own vehicles; use density and measured.automated_share"});
     if (config.demand.density > 1.0)
         problems.push_back(
@@ -227,7 +229,8 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
 
 void check_sites(const ScenarioConfig& config, Problems& problems) {
     if (!config.emergency_sites.empty() && config.demand_kind() == DemandKind::flows)
-        problems.push_back({config.where("emergency_site[0]"), "stands beside [[flow]]", "trips or measured",
+        problems.push_back({config.where("emergency_site[0]"), "is given together with [[flow]]",
+                            "trips or measured",
                             "remove one; [[emergency_trip]] adds single emergency vehicles"});
     for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
         if (config.emergency_sites[row].edge.empty())
@@ -246,7 +249,7 @@ void check_road(const ScenarioConfig& config, Problems& problems) {
             if (!is_new)
                 problems.push_back(
                     {config.where(key + ".edges"),
-                     fmt::format("names edge '{}', which stands in '{}' already", edge, first->second),
+                     fmt::format("names edge '{}', which is already in '{}'", edge, first->second),
                      "each edge once", "remove one"});
         }
     }
@@ -292,7 +295,7 @@ void set_kinds(const char* option, const std::string& text, Kinds& target, Probl
         const double weight = std::strtod(digits.c_str(), &end);
         const bool is_known = std::find(known.begin(), known.end(), kind) != known.end();
         if (!is_known || digits.empty() || *end != '\0' || !(weight >= 0.0 && weight <= 1e6)) {
-            problems.push_back({option, fmt::format("\"{}\" is no weight of a kind", part),
+            problems.push_back({option, fmt::format("\"{}\" is not a weight of a kind", part),
                                 fmt::format("KIND=0 to 1000000, KIND one of {}", fmt::join(known, ", ")),
                                 is_known ? "" : nearest_hint(kind, known)});
             continue;

@@ -23,7 +23,7 @@ using core::Purpose;
 using traffic::VehicleClass;
 using traffic::VehicleKind;
 
-/// Counters of the draws of one vehicle; those of trip_routes.cpp follow. Never renumbered.
+/// Numbers of the random draws for one vehicle; those of trip_routes.cpp follow. Never renumber them.
 enum DemandDraw : std::uint64_t { depart = 0, flow = 1 };
 enum ClassDraw : std::uint64_t { automated = 0, kind = 1 };
 
@@ -31,7 +31,7 @@ double rounded(double value, double unit) {
     return std::round(value / unit) * unit;
 }
 
-/// Row drawn by weight, from a uniform number in [0, 1).
+/// A row drawn by weight with a uniform number in [0, 1).
 std::size_t pick(std::span<const double> weights, double uniform) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     double left = uniform * sum;
@@ -64,7 +64,7 @@ double departure_s(const DemandContext& context, Purpose purpose, const std::str
     return rounded(from_s + uniform * (to_s - from_s), 0.01);
 }
 
-/// The fastest way by car between two edges given by id, or nothing after adding problems to `problems`.
+/// The fastest route by car between two edges given by id; nothing after adding problems to `problems`.
 std::optional<RouteEdges> route_between(const DemandContext& context, const std::string& key,
                                         const std::string& from, const std::string& to,
                                         std::vector<core::Problem>& problems) {
@@ -177,7 +177,7 @@ double speed_factor(const DemandContext& context, const std::string& id, Vehicle
     const Drivers& drivers = context.config.drivers;
     if (vehicle_class != VehicleClass::human) return 1.0;
     if (drivers.speed_factor_deviation <= 0.0) return drivers.speed_factor_mean;
-    // By the inverse of the distribution: one draw for each driver, whatever the bounds.
+    // Inverse transform sampling: one draw per driver, whatever the bounds.
     const boost::math::normal normal(drivers.speed_factor_mean, drivers.speed_factor_deviation);
     const double low = boost::math::cdf(normal, drivers.speed_factor_minimum);
     const double high = boost::math::cdf(normal, drivers.speed_factor_maximum);

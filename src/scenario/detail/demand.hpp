@@ -11,7 +11,7 @@
 
 namespace clearway::scenario::detail {
 
-/// A human or automated vehicle that a route file will hold.
+/// A human or automated vehicle for a route file.
 struct PlannedVehicle {
     std::string id;
     traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
@@ -19,13 +19,13 @@ struct PlannedVehicle {
     std::string xml;  ///< The whole element, indented, with a line end.
 };
 
-/// Everything on the road of one replication.
+/// All vehicles of one replication.
 struct PlannedDemand {
     std::vector<PlannedVehicle> vehicles;                ///< By departure, then by id.
     std::vector<traffic::EmergencyDeparture> emergency;  ///< By departure, then by id.
 };
 
-/// What a demand generator works with.
+/// The inputs of a demand generator.
 struct DemandContext {
     const ScenarioConfig& config;
     const roads::Network& network;
@@ -36,8 +36,8 @@ struct DemandContext {
 /// Throws core::InputError with every unknown edge and unreachable destination.
 PlannedDemand generate(const DemandContext& context);
 
-/// Measured route files: departures and routes as measured, a share of the cars automated.
-/// Throws core::InputError for what is no route file, and for types that the configuration does not list.
+/// Measured route files: departures and routes as measured, a share of the cars automated. Throws
+/// core::InputError for files that are not route files, and for types that the configuration does not list.
 PlannedDemand read_measured(const DemandContext& context);
 
 /// Emergency vehicles of `[[emergency_trip]]`, appended to `demand`. Throws core::InputError as `generate`
@@ -50,7 +50,8 @@ double emergency_departure_s(const DemandContext& context, const std::string& id
 /// Kind of emergency vehicle `id`, by the weights of `[kinds.emergency]`.
 traffic::VehicleKind emergency_kind(const DemandContext& context, const std::string& id);
 
-/// Individual speed factor of a driver: automated 1, human by the truncated normal of `[drivers]`, to 0.0001.
+/// Individual speed factor of a driver: 1 if automated, else from the truncated normal distribution of
+/// `[drivers]`, to 0.0001.
 double speed_factor(const DemandContext& context, const std::string& id, traffic::VehicleClass vehicle_class);
 
 /// Edge ids of a route.

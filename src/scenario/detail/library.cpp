@@ -24,7 +24,8 @@ std::filesystem::path library_folder() {
     if (const char* home = std::getenv("CLEARWAY_HOME"); home != nullptr && *home != '\0') {
         const std::filesystem::path folder = std::filesystem::path(home) / "scenarios";
         if (is_library(folder)) return folder;
-        throw core::EnvironmentError(fmt::format("CLEARWAY_HOME is {}, which has no folder scenarios", home));
+        throw core::EnvironmentError(
+            fmt::format("CLEARWAY_HOME is {}, which has no folder 'scenarios'", home));
     }
     std::filesystem::path folder = core::program_folder();
     while (true) {
@@ -33,7 +34,7 @@ std::filesystem::path library_folder() {
         folder = folder.parent_path();
     }
     throw core::EnvironmentError(
-        "no folder scenarios above the program. Set CLEARWAY_HOME to the folder that holds Clearway's "
+        "no folder 'scenarios' above the program. Set CLEARWAY_HOME to the folder that holds Clearway's "
         "sources");
 }
 

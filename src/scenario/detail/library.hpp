@@ -6,7 +6,7 @@
 
 namespace clearway::scenario::detail {
 
-/// Folder of the scenarios that come with Clearway: `scenarios` beside one of the folders above the running
+/// Folder of the scenarios that come with Clearway: `scenarios` in one of the folders above the running
 /// program, or below CLEARWAY_HOME when that is set. Throws core::EnvironmentError when there is none.
 std::filesystem::path library_folder();
 

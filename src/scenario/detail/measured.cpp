@@ -25,7 +25,7 @@ namespace {
 using core::Purpose;
 using traffic::VehicleClass;
 
-/// Counters of the draws about a measured vehicle. Never renumbered.
+/// Numbers of the random draws for a measured vehicle. Never renumber them.
 enum MeasuredDraw : std::uint64_t { automated = 0, thinned = 2 };
 
 /// Reads the route files of one scenario into planned vehicles.
@@ -101,14 +101,14 @@ class MeasuredReader {
         vehicle.attribute("type").set_value(id.c_str());
     }
 
-    /// Whether the desired speed of such a driver stays that of the type.
+    /// Whether a driver of this class keeps the desired speed of the type.
     bool keeps_driver(VehicleClass vehicle_class) const {
         return measured_.own_types && measured_.own_types->car_following == CarFollowing::own &&
                vehicle_class == VehicleClass::human;
     }
 
-    /// SUMO ends at a vehicle that departs faster than its driver would drive, and this driver is another
-    /// than that of the file.
+    /// SUMO aborts at a vehicle that departs faster than its driver would drive, and this driver is not the
+    /// one of the file.
     void limit_depart_speed(pugi::xml_node vehicle, double factor) const {
         pugi::xml_attribute speed = vehicle.attribute("departSpeed");
         char* end = nullptr;
@@ -201,8 +201,8 @@ class MeasuredReader {
     std::set<std::string> unknown_types_;
     std::set<std::string> car_routes_;
     std::set<std::string> other_routes_;
-    std::vector<RouteEdges> long_routes_;        ///< For emergency vehicles: those of cars,
-    std::vector<RouteEdges> long_other_routes_;  ///< or, where no car has one, of any vehicle.
+    std::vector<RouteEdges> long_routes_;        ///< For emergency vehicles: routes of cars,
+    std::vector<RouteEdges> long_other_routes_;  ///< or, if no car has a long one, of any vehicle.
     std::vector<core::Problem> problems_;
     PlannedDemand demand_;
 };

@@ -127,7 +127,7 @@ class PersonsReader {
 
     const DemandContext& context_;
     roads::Walkways walkways_;
-    std::set<std::string> taken_;  ///< Ids of vehicles, and of persons as they are written.
+    std::set<std::string> taken_;  ///< Ids of vehicles, and of persons as written to the file.
     std::set<std::string> ids_;
     std::set<std::string> types_;
     std::string types_xml_;

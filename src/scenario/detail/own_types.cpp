@@ -37,7 +37,7 @@ void follow_by_idm(pugi::xml_node type, const IdmParameters& idm) {
     set(type, "speedDev", "0");
 }
 
-/// A car without a top speed of its own has that of its class; what is slower stays so.
+/// Limits the top speed to `limit_kmh`. A type without one of its own has that of its kind.
 void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_kmh) {
     const pugi::xml_attribute own = type.attribute("maxSpeed");
     if (!own && listed.kind == "other") return;
@@ -48,8 +48,8 @@ void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_k
     set(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
 }
 
-/// Multiplies an attribute of the type and of the car-following model nested in it; `standard` where the type
-/// has none.
+/// Multiplies an attribute of the type (`standard` if it has none) and of the car-following model nested in
+/// it.
 void scale(pugi::xml_node type, const char* name, double factor, double standard) {
     const auto multiply = [&](pugi::xml_node node, double value) {
         set(node, name, fmt::format("{:.6g}", value * factor));
@@ -59,7 +59,7 @@ void scale(pugi::xml_node type, const char* name, double factor, double standard
         if (nested.attribute(name)) multiply(nested, nested.attribute(name).as_double());
 }
 
-/// What is neither car, van, truck nor bus keeps its grip: SUMO's standards for it stand in no file.
+/// Types that are not car, van, truck or bus keep their grip: no file has SUMO's defaults for them.
 void feel_road(pugi::xml_node type, const MeasuredType& listed, const RoadCondition& road) {
     if (listed.kind == "other") return;
     const KindProperties& kind = properties(*core::value_from<traffic::VehicleKind>(listed.kind));

@@ -14,11 +14,11 @@ namespace clearway::scenario::detail {
 
 namespace {
 
-/// Counters of the draws of one pedestrian. Never renumbered.
+/// Numbers of the random draws for one pedestrian. Never renumber them.
 enum Draw : std::uint64_t { depart, crossing, direction, from, to, from_distance, to_distance, speed };
 
-/// Pedestrians set out and arrive this far from the junction, m, where the sidewalk is as long. Assumed: far
-/// enough to meet a signal at any of its phases, near enough to cost little.
+/// Range of distances from the junction at which pedestrians depart and arrive, m, if the sidewalk is long
+/// enough. Assumed: far enough to meet a signal in any phase, near enough to cost little time.
 constexpr double nearest_m = 5.0;
 constexpr double farthest_m = 30.0;
 constexpr double slowest_mps = 0.5;
@@ -83,7 +83,7 @@ class Walk {
     std::string edges(const roads::SidewalkEnd& start, const roads::SidewalkEnd& target) const {
         return edge_id(start) + " " + edge_id(target);
     }
-    /// Along the sidewalk's lane.
+    /// Position along the sidewalk's lane.
     double position_m(const roads::SidewalkEnd& sidewalk, Draw what) const {
         const double length_m = context_.network.lane(sidewalk.lane).length_m;
         const double off_m = std::min(nearest_m + draw(what) * (farthest_m - nearest_m), length_m / 2.0);

@@ -8,7 +8,8 @@ namespace {
 
 using Edges = std::vector<core::EdgeIndex>;
 
-/// Shares of the edges' length, and of the lanes of those that are an end of the network.
+/// Weight of each edge: its share of the total length, plus, at an end of the network, its share of the lanes
+/// there.
 std::vector<double> weights(const roads::Network& network, const roads::Reach& reach, const Edges& edges,
                             roads::Way way) {
     double length_m = 0.0;
@@ -25,7 +26,7 @@ std::vector<double> weights(const roads::Network& network, const roads::Reach& r
     return result;
 }
 
-/// An edge by weight, among those for which `may_be_drawn` holds; `none` where there is none.
+/// Draws an edge by weight among those for which `may_be_drawn` holds; `none` if there is none.
 template <class MayBeDrawn>
 core::EdgeIndex pick(const Edges& edges, const std::vector<double>& weight, double uniform,
                      const MayBeDrawn& may_be_drawn) {

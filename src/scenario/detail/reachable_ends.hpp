@@ -8,8 +8,8 @@
 namespace clearway::scenario::detail {
 
 /// Draws the ends of trips where not all edges reach each other. The weight of an edge is its share of the
-/// length of all, and, for an edge at which traffic can only enter (or leave) the network, its share of the
-/// lanes of all such edges.
+/// total length, plus, where traffic can only enter (or leave) the network, its share of the lanes of all
+/// such edges.
 class ReachableEnds {
   public:
     /// `edges`: those on which trips may start and end, ascending, not empty.
@@ -18,7 +18,7 @@ class ReachableEnds {
     /// Where a trip starts, by a uniform number in [0, 1).
     core::EdgeIndex origin(double uniform) const;
     /// The other end of a trip that starts at `end` (way onward) or ends there (way back), but not `end`
-    /// itself; `none` where there is none.
+    /// itself; `none` if there is none.
     core::EdgeIndex other_end(core::EdgeIndex end, roads::Way way, double uniform) const;
 
   private:

@@ -6,7 +6,7 @@
 
 namespace clearway::scenario::detail {
 
-/// A route file of SUMO. Throws core::InputError where it is no XML.
+/// Loads a SUMO route file. Throws core::InputError when it is not XML.
 pugi::xml_document load_route_file(const std::filesystem::path& file);
 
 }  // namespace clearway::scenario::detail

@@ -29,7 +29,7 @@ void TableReader::wrong_type(const toml::node& node, const std::string& key, con
             found = "a number";
             break;
         case toml::node_type::boolean:
-            found = "a truth value";
+            found = "true or false";
             break;
         case toml::node_type::array:
             found = "an array";

@@ -16,7 +16,7 @@
 
 namespace clearway::scenario::detail {
 
-/// What reading a file collects: problems, and where each key stood.
+/// What reading a file collects: problems, and where each key was.
 struct Reading {
     std::string file;
     std::vector<core::Problem> problems;
@@ -31,11 +31,10 @@ struct Reading {
     }
 };
 
-/// `12`, `0.5`; never in exponent form for the sizes met here.
+/// `12`, `0.5`; no exponent for the magnitudes used here.
 std::string number_text(double value);
 
-/// One table of a strict TOML file. Every key that is asked for becomes a valid one; `finish` reports the
-/// others.
+/// One table of a strict TOML file. Every key that is asked for counts as valid; `finish` reports the others.
 class TableReader {
   public:
     TableReader(const toml::table& table, std::string path, Reading& reading)

@@ -15,13 +15,13 @@ namespace {
 using core::Purpose;
 using roads::Way;
 
-/// Counters of the draws of one vehicle; origin and destination follow `first_trip` in pairs. Never
-/// renumbered.
+/// Numbers of the random draws for one vehicle; from `first_trip` on, origins and destinations alternate.
+/// Never renumber them.
 enum TripDraw : std::uint64_t { leg = 2, first_trip = 16 };
 
 constexpr std::uint64_t most_draws = 1000;
 
-/// Whether a route turns round somewhere, into the opposite direction of the road that it came on.
+/// Whether a route makes a U-turn somewhere.
 bool turns_round(const roads::Network& network, const RouteEdges& route) {
     for (std::size_t row = 0; row + 1 < route.size(); ++row) {
         const roads::Edge& edge = network.edge(route[row]);

@@ -13,7 +13,7 @@ namespace clearway::scenario::detail {
 
 using RouteEdges = std::vector<core::EdgeIndex>;
 
-/// Shortest route that a vehicle may get, and the key that says so.
+/// Shortest allowed length of a vehicle's route, and the key that sets it.
 struct LeastLength {
     const char* key = "";  ///< `trips.minimum_length_m`
     double metres = 0.0;
@@ -22,20 +22,20 @@ struct LeastLength {
 /// Whether class `emergency` may drive the whole route.
 bool open_to_emergency(const roads::Network& network, const RouteEdges& route);
 
-/// Trips over the whole network: ends drawn by length of edge until the fastest way is long enough and does
-/// not turn round, for nobody sets out in the wrong direction. With `trips.ends` = reachable, one end is
-/// drawn among the edges that the other leads to or comes from, and half of the weight lies on the edges at
-/// which traffic can only enter (or only leave) the network, by their lanes: so a ramp is used, however
-/// short.
+/// Trips over the whole network: the ends are drawn, weighted by edge length, until the fastest route is long
+/// enough and makes no U-turn, because nobody starts in the wrong direction. With `trips.ends` = reachable,
+/// one end is drawn among the edges that the other leads to or comes from, and half of the weight is on edges
+/// where traffic can only enter (or only leave) the network, by number of lanes, so that short ramps are used
+/// too.
 class TripRoutes {
   public:
-    /// Throws core::InputError when no edge is left for trips, and for sites at edges that are none.
+    /// Throws core::InputError when no edge is left for trips, and for sites at edges that do not exist.
     explicit TripRoutes(const DemandContext& context);
 
-    /// Of a human or automated vehicle. Throws core::InputError when the draws find none.
+    /// Route of a human or automated vehicle. Throws core::InputError when the draws find none.
     RouteEdges traffic(const std::string& id) const;
-    /// Of an emergency vehicle: from a station to a place, or from a place to a hospital, where the scenario
-    /// has sites (fire engines always from a station); else like traffic.
+    /// Route of an emergency vehicle. If the scenario has sites, it goes from a station to a place or from a
+    /// place to a hospital (fire engines always start at a station); otherwise it is drawn like traffic.
     RouteEdges emergency(const std::string& id, traffic::VehicleKind kind, const LeastLength& least) const;
 
   private:

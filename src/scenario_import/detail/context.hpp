@@ -8,15 +8,15 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What the steps of one import share.
+/// State shared by the steps of one import.
 struct Import {
     const ImportRequest& request;
     const OnProgress& on_progress;
-    std::filesystem::path scenario;  ///< The folder that becomes the scenario's.
-    std::filesystem::path work;      ///< For what is thrown away.
+    std::filesystem::path scenario;  ///< The folder that becomes the scenario.
+    std::filesystem::path work;      ///< For temporary files.
     Findings findings = {};
     LeftOut left_out = {};
-    Additional additional = {};  ///< What additional.add.xml holds.
+    Additional additional = {};  ///< Contents of additional.add.xml.
 };
 
 }  // namespace clearway::scenario_import::detail

@@ -10,14 +10,14 @@
 
 namespace clearway::scenario_import::detail {
 
-/// An XML element with what it holds.
+/// An XML element with its contents.
 struct Element {
     std::string name;
     std::vector<std::pair<std::string, std::string>> attributes;
     std::vector<Element> children;
-    std::string content;  ///< Text between its children, without blanks at its ends.
+    std::string content;  ///< Text between its children, without leading and trailing blanks.
     unsigned long line = 0;
-    std::string place = {};  ///< `stops.add.xml:12`, where somebody noted it.
+    std::string place = {};  ///< `stops.add.xml:12`; may be empty.
 
     /// Empty when there is no such attribute.
     const std::string& text(std::string_view attribute) const;
@@ -28,25 +28,25 @@ struct Element {
     std::string xml(int depth = 1) const;
 };
 
-/// Reads a file, packed with gzip or not, and calls `take` for each child of its root, one in memory at a
-/// time. Throws core::InputError as core::stream_xml does.
+/// Reads a file, gzipped or not, and calls `take` for each child of its root, with one in memory at a time.
+/// Throws core::InputError as core::stream_xml does.
 void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take);
 
-/// Takes `begin_s` from the times at which the `<stop>` of a vehicle or person end.
+/// Subtracts `begin_s` from the times at which the `<stop>`s of a vehicle or person end.
 void shift_stops(Element& user, double begin_s);
 
-/// A whole file of SUMO with `content` in its root.
+/// A complete SUMO file with `content` in its root element.
 std::string file_text(const char* root, const std::string& content);
 
-/// Seconds of SUMO's time texts: `12.5`, `1:00:00`, `1:01:00:00`. Nothing for other texts.
+/// A time in SUMO's notation (`12.5`, `1:00:00`, `1:01:00:00`) in seconds. Nothing for other texts.
 std::optional<double> time_s(std::string_view text);
-/// SUMO's words for a boolean, in any case: `1`, `yes`, `true`, `on`, `x`, `t`. Not for any other text.
+/// Whether `text` is one of SUMO's words for true, in any case: `1`, `yes`, `true`, `on`, `x`, `t`.
 bool is_true(std::string_view text);
-/// Likewise `0`, `no`, `false`, `off`, `-`, `f`.
+/// Likewise for false: `0`, `no`, `false`, `off`, `-`, `f`.
 bool is_false(std::string_view text);
-/// The whole of `text` as a finite number.
+/// All of `text` as a finite number.
 std::optional<double> number(std::string_view text);
-/// Parts of a list, between any of `separators`, without empty ones.
+/// The non-empty parts of a list, split at any of `separators`.
 std::vector<std::string> words(std::string_view text, std::string_view separators = " \t\r\n");
 
 }  // namespace clearway::scenario_import::detail

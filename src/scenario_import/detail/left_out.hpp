@@ -7,7 +7,7 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What cannot be used, counted by what it is, with examples by name.
+/// Counts what cannot be used, by kind, with examples by name.
 class LeftOut {
   public:
     static constexpr std::size_t few = 3;

@@ -9,7 +9,7 @@ namespace clearway::scenario_import::detail {
 
 enum class Packing : std::uint8_t { none, gzip, bzip2 };
 
-/// Reads a file piece by piece, unpacking it by its first bytes.
+/// Reads a file piece by piece and unpacks it; its first bytes tell how.
 class PackedFile {
   public:
     /// Throws core::InputError when it cannot be opened.
@@ -19,7 +19,8 @@ class PackedFile {
     PackedFile& operator=(const PackedFile&) = delete;
 
     Packing packing() const { return packing_; }
-    /// Fills `buffer`; answers how much, 0 at the end. Throws core::InputError when the file is damaged.
+    /// Fills `buffer` and returns the number of bytes, 0 at the end. Throws core::InputError when the file is
+    /// damaged.
     std::size_t read(std::span<char> buffer);
 
   private:

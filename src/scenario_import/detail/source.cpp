@@ -32,7 +32,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-/// The name of the first element, in lower case; `!doctype html` of a web page; empty where there is none.
+/// The name of the first element, in lower case; `!doctype html` for a web page; empty if there is none.
 std::string first_element(std::string_view text) {
     while (true) {
         const std::size_t open = text.find('<');
@@ -110,7 +110,7 @@ SourceKind kind_of(const std::filesystem::path& file) {
                "the download failed: open the file in a browser to see why, and download it again");
     if (element == "osm") return SourceKind::map;
     if (element == "net") return SourceKind::network;
-    // SUMO does not look at the root of these; what is in them says what it is.
+    // SUMO ignores the root element of these files; only its children matter.
     if (is_one_of(element, {"routes", "trips", "flows", "vehicles", "persons", "demand"}))
         return SourceKind::routes;
     if (is_one_of(element, {"additional", "additionals", "add", "a", "tllogics", "tls", "pois", "polys",
@@ -128,7 +128,7 @@ std::string map_format(const std::filesystem::path& map) {
     const Packing packing = stream.packing();
     if (is_pbf(head_of(stream))) {
         if (packing == Packing::none) return "osm.pbf";
-        refuse(map, "is a PBF packed once more", "unpack it");
+        refuse(map, "is a PBF file that is compressed again", "unpack it");
     }
     if (packing == Packing::none) return "osm";
     return packing == Packing::gzip ? "osm.gz" : "osm.bz2";
@@ -158,7 +158,7 @@ void refuse_bomb(const std::filesystem::path& file) {
         unpacked += count;
         if (unpacked > harmless && unpacked > largest_ratio * packed)
             refuse(file,
-                   fmt::format("unpacks to more than {} times its {} bytes, as no map does", largest_ratio,
+                   fmt::format("unpacks to more than {} times its {} bytes, which no map does", largest_ratio,
                                packed),
                    "do not trust its source");
     }

@@ -6,19 +6,19 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What a file is, by its content.
+/// The kind of a file, by its content.
 enum class SourceKind : std::uint8_t { map, network, configuration, routes, additional };
 
-/// Looks at the beginning of a file, whatever its name, unpacked where it is packed. Throws core::InputError
-/// for a file that is missing, empty, or none of these: a web page, an archive, JSON.
+/// Looks at the beginning of a file, unpacked if necessary; its name hardly matters. Throws core::InputError
+/// for a file that is missing, empty, or of no such kind: a web page, an archive, JSON.
 SourceKind kind_of(const std::filesystem::path& file);
 
-/// Of a map, the end of a name by which osmium knows it: `osm`, `osm.gz`, `osm.bz2` or `osm.pbf`, by content.
-/// Throws core::InputError for a PBF that is packed once more.
+/// The file name extension by which osmium recognises a map (`osm`, `osm.gz`, `osm.bz2` or `osm.pbf`), by
+/// content. Throws core::InputError for a PBF file that is compressed again.
 std::string map_format(const std::filesystem::path& map);
 
 /// What Overpass says at the end of a map that it could not finish, for example that the query timed out;
-/// empty where it says nothing.
+/// empty if there is no remark.
 std::string overpass_remark(const std::filesystem::path& map);
 
 /// Throws core::InputError for a .gz or .bz2 file that is damaged or unpacks to more than any real file does:

@@ -17,17 +17,17 @@ namespace clearway::scenario_import::detail {
 namespace {
 
 constexpr double window_s = 900.0;
-// The last minutes of the demand: a network that fills slowly jams late.
+// The last minutes of the demand, because a network that fills slowly jams late.
 constexpr double probe_begin_s = window_s - 180.0;
 
-/// How full a network is, means over the probe.
+/// How full a network is: means over the probe.
 struct Level {
     double running = 0.0;
-    double relative_speed = 0.0;  ///< Mean speed over limit.
+    double relative_speed = 0.0;  ///< Mean ratio of speed to limit.
     double halting = 0.0;
     double waiting = 0.0;
     double loaded = 0.0;
-    double teleports = 0.0;  ///< In all.
+    double teleports = 0.0;  ///< In total, not a mean.
 
     bool jammed() const {
         if (running < 1.0) return false;
@@ -36,8 +36,8 @@ struct Level {
     }
 };
 
-/// SUMO's summary says nothing of the speed (-1) where nobody is on the road: so speeds are weighted by who
-/// is.
+/// SUMO's summary gives no speed (-1) when no vehicle is on the road, so speeds are weighted by the number of
+/// vehicles.
 Level read_level(const std::filesystem::path& summary) {
     Level level;
     double rows = 0.0;
@@ -66,7 +66,7 @@ std::string joined(const std::vector<std::filesystem::path>& files) {
     return fmt::format("{}", fmt::join(names, ","));
 }
 
-/// Arguments for `sumo` to run what was prepared, beside its end and its outputs.
+/// Arguments for `sumo` to run what was prepared, without its end and its outputs.
 std::vector<std::string> arguments_of(const scenario::Prepared& prepared) {
     return {"--net-file",
             prepared.network_file.string(),
@@ -88,12 +88,12 @@ std::vector<std::string> arguments_of(const scenario::Prepared& prepared) {
             "warn"};
 }
 
-/// Tries shares of one demand, so that the ways are found once.
+/// Tries shares of one demand, so that the routes are computed only once.
 class Probe {
   public:
     Probe(Import& import, scenario::Prepared demand) : import_(import), demand_(std::move(demand)) {}
 
-    /// Nothing when SUMO itself gives up under this share of the demand.
+    /// Nothing when SUMO fails under this share of the demand.
     std::optional<Level> measure(double share) const {
         const std::filesystem::path summary = import_.work / "summary.xml";
         std::vector<std::string> arguments = arguments_of(demand_);
@@ -120,11 +120,11 @@ void set_cars(scenario::ScenarioConfig& config, double cars, double automated_sh
     config.demand.human = count - config.demand.automated;
 }
 
-/// More than this no network tried could take.
+/// No tested network could take more than this.
 double most_cars(const Findings& findings) {
     constexpr double per_lane_km_hour = 70.0;
     constexpr double fewest = 20.0;
-    constexpr double most = 3000.0;  // Their ways, and a probe of them, take seconds.
+    constexpr double most = 3000.0;  // Routing and probing them takes seconds.
     return std::clamp(per_lane_km_hour * findings.lane_km * window_s / 3600.0, fewest, most);
 }
 
@@ -133,7 +133,7 @@ struct FoundLevel {
     Level level;
 };
 
-/// Down the ladder from `most` to the first number of cars that does not jam the network, or its end.
+/// Goes down the ladder from `most` to the first number of cars that does not jam the network, or to its end.
 FoundLevel find_level(const Probe& probe, double most) {
     constexpr double step = 1.5;
     constexpr int most_steps = 8;
@@ -148,16 +148,15 @@ FoundLevel find_level(const Probe& probe, double most) {
 std::string describe(const scenario::ScenarioConfig& config, const Level& level, const Findings& findings) {
     const char* const places =
         config.trips.ends == scenario::TripEnds::reachable
-            ? "from where roads enter, or places drawn by length of road, to where they "
-              "lead"
-            : "between places drawn by length of road";
+            ? "from where roads enter, or places drawn by road length, to where they lead"
+            : "between places drawn by road length";
     const std::string speed =
         level.running > 0.0 ? fmt::format("mean speed {:.0f} % of the limits, {:.0f} % halting",
                                           100.0 * level.relative_speed, 100.0 * level.halting / level.running)
-                            : "no speed to tell";
+                            : "no speed known";
     return fmt::format(
-        "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} a km of lane, "
-        "{}, {:.0f} waiting to enter",
+        "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} per km of "
+        "lane, {}, {:.0f} waiting to enter",
         config.demand.human + config.demand.automated, window_s, places, level.running,
         level.running < 1.0 ? 1 : 0, level.running / std::max(0.001, findings.lane_km), speed, level.waiting);
 }
@@ -171,8 +170,7 @@ void choose_trips(Import& import, scenario::ScenarioConfig& config, const roads:
         config.trips.ends = scenario::TripEnds::reachable;
         import.findings.changes.push_back(
             fmt::format("only {:.1f} % of the car edges reach each other, so trips go from any edge to one "
-                        "that it leads to "
-                        "(trips.ends = \"reachable\")",
+                        "that it leads to (trips.ends = \"reachable\")",
                         100.0 * share));
     }
     if (!trip_edges(network, config.trips).empty()) return;
@@ -191,7 +189,7 @@ void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, cons
     config.demand.emergency = 6;
     config.trips.minimum_length_m = std::floor(std::min(500.0, 0.25 * diagonal));
     config.trips.emergency_minimum_length_m = std::floor(std::min(1000.0, 0.4 * diagonal));
-    // Trips in cities are mostly shorter; and longer ones take long to find.
+    // Most city trips are shorter, and longer ones take long to find.
     constexpr std::size_t large = 3000;
     if (import.findings.car_edges > large)
         config.trips.maximum_distance_m = std::floor(std::clamp(0.25 * diagonal, 3000.0, 6000.0));
@@ -230,8 +228,8 @@ scenario::Prepared try_out(Import& import, scenario::ScenarioConfig& config) {
     if (!succeeds(tool, import.on_progress))
         throw core::InputError(
             core::Problem{import.request.files.front().string(),
-                          fmt::format("SUMO does not load what was made of it:\n{}", complaint(tool.log)),
-                          "what SUMO 1.15 loads", "correct what it names"});
+                          fmt::format("SUMO does not load the imported scenario:\n{}", complaint(tool.log)),
+                          "files that SUMO 1.15 loads", "correct what it names"});
     return *std::move(prepared);
 }
 

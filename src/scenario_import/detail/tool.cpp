@@ -14,7 +14,7 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// Ends a child that is not waited for.
+/// Ends a child process that nobody waits for any more.
 class ChildGuard {
   public:
     explicit ChildGuard(const core::Child& child) : child_(child) {}
@@ -38,7 +38,7 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
     command.program = tool.program;
     command.arguments = tool.arguments;
     command.output = tool.log;
-    // Their files are the import's, by whole path; what they write without one belongs there too.
+    // They get absolute paths; whatever they write without a path must land in the work folder too.
     if (tool.program == "sumo" || tool.program == "duarouter") command.folder = tool.log.parent_path();
     const core::Child child = core::start(command);
     ChildGuard guard(child);
@@ -52,7 +52,7 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
     constexpr int not_found = 127;
     if (exit->code == not_found)
         throw core::EnvironmentError(
-            fmt::format("{} does not start. Install package {}", tool.program, tool.package));
+            fmt::format("{} does not start. Install the package {}", tool.program, tool.package));
     return exit->ok();
 }
 

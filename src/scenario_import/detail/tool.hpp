@@ -12,16 +12,16 @@ namespace clearway::scenario_import::detail {
 struct Tool {
     std::string program;  ///< Looked up in PATH.
     std::vector<std::string> arguments;
-    std::filesystem::path log;  ///< Both streams.
-    std::string stage;          ///< What it does, for progress: `building the network`.
-    std::string package;        ///< Debian package that has it.
+    std::filesystem::path log;  ///< Receives both streams.
+    std::string stage;          ///< What it does, for progress reports: `building the network`.
+    std::string package;        ///< Debian package that contains it.
 };
 
-/// Runs it to its end, with progress. False when it fails; its log says why. Ends the child when
-/// `on_progress` throws. Throws core::EnvironmentError when it cannot be started.
+/// Runs a tool to its end and reports progress. Returns false when it fails; its log says why. Ends the child
+/// when `on_progress` throws. Throws core::EnvironmentError when it cannot be started.
 bool succeeds(const Tool& tool, const OnProgress& on_progress);
 
-/// The lines of its log that name errors, or its last lines.
+/// The lines of a log that name errors, or its last lines.
 std::string complaint(const std::filesystem::path& log);
 
 }  // namespace clearway::scenario_import::detail

@@ -9,13 +9,14 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// Degrees, and the land there that drives on the left; empty where traffic drives on the right.
+/// An area in degrees, and its country if traffic drives on the left there; empty if on the right.
 struct Box {
     double west, south, east, north;
     const char* land;
 };
 
-// The first box that holds a place decides, so neighbours that drive on the right and small lands come first.
+// The first box that contains a place decides, so neighbours that drive on the right and small countries come
+// first.
 constexpr std::array boxes = {
     // Europe
     Box{-1.0, 49.0, 1.45, 50.3, ""},
@@ -70,7 +71,7 @@ constexpr std::array boxes = {
     Box{95.0, -11.0, 119.5, 7.5, "Indonesia, Malaysia or Brunei"},
     Box{118.5, -11.0, 141.0, 2.5, "Indonesia or East Timor"},
     Box{124.9, 2.5, 127.5, 4.8, "Indonesia or East Timor"},
-    // East Asia: Shenzhen, Zhuhai, Korea and Russia apart
+    // East Asia without Shenzhen, Zhuhai, Korea and Russia
     Box{113.8, 22.13, 113.96, 22.4, "Hong Kong"},
     Box{113.96, 22.13, 114.5, 22.505, "Hong Kong"},
     Box{113.527, 22.175, 113.6, 22.217, "Macau"},

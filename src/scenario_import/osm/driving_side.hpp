@@ -14,12 +14,13 @@ struct DrivingSideChoice {
     std::string reason;
 };
 
-/// `asked` decides unless it is by_country; then the boundaries of the map that say so, when they agree; then
-/// the roads, when most of all roads say so, for single ones lie crosswise in interchanges; then the country.
+/// In this order: `asked`, unless it is by_country; the tagged boundaries of the map, if they agree; the
+/// tagged roads, if they are more than half of all roads, because single roads cross over in interchanges;
+/// the country.
 DrivingSideChoice choose_driving_side(DrivingSide asked, const MapContents& map);
 
-/// The land at a place where traffic drives on the left, empty where it drives on the right. By boxes of
-/// about a tenth of a degree, so a place within some 10 km of a border may be told wrong.
+/// The country at a place if traffic drives on the left there; empty if it drives on the right. Boxes are
+/// accurate to about a tenth of a degree, so places within some 10 km of a border may be wrong.
 std::string left_driving_land(roads::Coordinates place);
 
 }  // namespace clearway::scenario_import::detail

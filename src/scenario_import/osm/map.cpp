@@ -17,7 +17,7 @@ namespace {
     throw core::InputError(core::Problem{map.string(), what, "an OpenStreetMap extract with roads", cure});
 }
 
-/// Runs osmium on maps. It goes by the ends of names, so it gets links whose names say what the files are.
+/// Runs osmium on maps. Osmium goes by file name extensions, so it gets symbolic links with the right ones.
 class Osmium {
   public:
     Osmium(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
@@ -32,7 +32,7 @@ class Osmium {
     const std::vector<std::filesystem::path>& links() const { return links_; }
     std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-    /// Whether it works out; `complaint` tells why not.
+    /// Returns whether osmium succeeds; `complaint` says why not.
     bool works(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin() + 1, {"--overwrite", "--no-progress"});
         return succeeds({"osmium", std::move(arguments), log(), "reading the map", "osmium-tool"},
@@ -40,7 +40,7 @@ class Osmium {
     }
     std::string complaint() const { return detail::complaint(log()); }
 
-    /// Throws core::InputError, with the map that osmium names, when it does not work out.
+    /// Throws core::InputError, naming the map to blame, when osmium fails.
     void run(std::vector<std::string> arguments) const {
         if (works(std::move(arguments))) return;
         const std::size_t row = blamed();
@@ -55,7 +55,7 @@ class Osmium {
   private:
     std::filesystem::path log() const { return folder_ / "osmium.log"; }
 
-    /// Of several maps, the first that osmium does not read: it says what is wrong, but not always where.
+    /// Of several maps, the first that osmium cannot read: osmium says what is wrong, but not always where.
     std::size_t blamed() const {
         if (maps_.size() == 1) return 0;
         for (std::size_t row = 0; row < maps_.size(); ++row)
@@ -82,7 +82,7 @@ std::filesystem::path merged(const Osmium& osmium) {
         osmium.run(merge_of(osmium.links()));
         return whole;
     }
-    // Overpass writes in the order of the query, often ways first.
+    // Overpass writes in the order of the query, often with the ways first.
     std::vector<std::filesystem::path> sorted;
     for (const std::filesystem::path& link : osmium.links()) {
         sorted.push_back(osmium.file(fmt::format("sorted-{}.osm.pbf", sorted.size())));
@@ -92,7 +92,7 @@ std::filesystem::path merged(const Osmium& osmium) {
     return whole;
 }
 
-/// SUMO's types of roads, then those of towns in place of its 100 km/h on main roads.
+/// SUMO's road types, then those for towns, which replace its 100 km/h on main roads.
 std::string type_files() {
     const char* const set = std::getenv("SUMO_HOME");
     const std::filesystem::path folder =
@@ -138,8 +138,8 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
     const std::filesystem::path log = folder / "netconvert.log";
     std::vector<std::string> arguments = {
         "--osm-files", extract.string(), "--output-file", network.string(), "--type-files", type_files(),
-        // Nodes that only bend a road, and pieces below 5 m that a change of
-        // name or limit cuts off: vehicles are longer than these edges.
+        // Removes nodes that only bend a road, and pieces below 5 m from a change of name or limit: vehicles
+        // are longer than these edges.
         "--geometry.remove", "--geometry.remove.min-length", "5", "--junctions.join", "--roundabouts.guess",
         "--ramps.guess", "--tls.guess-signals", "--tls.discard-simple", "--tls.join", "--tls.default-type",
         "static", "--no-turnarounds.except-deadend", "--keep-edges.by-vclass", "passenger,bus",
@@ -153,7 +153,8 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
     const std::string reason = complaint(log);
     if (reason.find("No edges loaded") != std::string::npos)
         refuse(map, "has no road for cars", "choose an extract with roads for cars");
-    refuse(map, fmt::format("netconvert makes no network of it:\n{}", reason), "choose another extract");
+    refuse(map, fmt::format("netconvert cannot build a network from it:\n{}", reason),
+           "choose another extract");
 }
 
 }  // namespace clearway::scenario_import::detail

@@ -9,13 +9,13 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What was left of maps, and what is in it.
+/// The extract of the maps, and its contents.
 struct Extract {
     std::filesystem::path file;
     MapContents contents;
 };
 
-/// Leaves of maps (several are merged) what an import needs, sorted, as a file in `folder`. Throws
+/// Extracts from maps (several are merged) what an import needs, sorted, into a file in `folder`. Throws
 /// core::InputError for damaged files and for maps without roads or without nodes.
 Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std::filesystem::path& folder,
                       const OnProgress& on_progress);
@@ -29,9 +29,9 @@ struct RoadPlan {
     Footways footways = Footways::none;
 };
 
-/// Builds `network.net.xml` in `folder` of the roads for cars in what was left of `map`, with netconvert.
-/// Roads whose limit the map does not say get that of towns, by SUMO's map of types. Throws core::InputError
-/// when there are none.
+/// Builds `network.net.xml` in `folder` with netconvert, from the roads for cars in the `extract` of `map`.
+/// Roads without a speed limit get the one for towns from SUMO's type map. Throws core::InputError when there
+/// are no such roads.
 std::filesystem::path build_roads(const std::filesystem::path& map, const std::filesystem::path& extract,
                                   RoadPlan plan, const std::filesystem::path& folder,
                                   const OnProgress& on_progress);

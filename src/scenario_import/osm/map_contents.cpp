@@ -42,7 +42,8 @@ bool is_for_cars(std::string_view highway) {
     return std::ranges::find(classes, highway) != classes.end();
 }
 
-/// As netconvert 1.15 reads it: a number, also with mph or km/h; few words; the rule of a land that it lists.
+/// Whether netconvert 1.15 understands a limit: a number, also with mph or km/h; a few words; the rule of a
+/// country that it lists.
 bool is_limit(const std::string& text) {
     constexpr std::array words = {"none", "no", "walk"};
     if (std::ranges::find(words, text) != words.end()) return true;
@@ -58,7 +59,7 @@ bool has_limit(const Element& way) {
                                [&](const char* key) { return is_limit(tag(way, key)); });
 }
 
-/// Along the ground, on a sphere.
+/// Approximate distance along the ground, on a sphere.
 double distance_km(const Coordinates& from, const Coordinates& to) {
     constexpr double earth_km = 6371.0;
     const double north = (to.latitude_deg - from.latitude_deg) * degree;
@@ -69,7 +70,7 @@ double distance_km(const Coordinates& from, const Coordinates& to) {
 
 struct PendingSite {
     std::size_t row;   ///< In MapContents::sites.
-    std::string node;  ///< That stands for it.
+    std::string node;  ///< Node that represents it.
 };
 
 class MapReader {
@@ -112,7 +113,7 @@ class MapReader {
         const auto latitude = number(element.text("lat"));
         if (!longitude || !latitude) return;
         const Coordinates place{*longitude, *latitude};
-        // A town at the antimeridian has its mean there, not at 0.
+        // Mean on the circle, so that a town at the antimeridian does not get a mean longitude of 0.
         east_sum_ += std::sin(place.longitude_deg * degree);
         north_sum_ += std::cos(place.longitude_deg * degree);
         latitude_sum_ += place.latitude_deg;
@@ -179,7 +180,7 @@ class MapReader {
 
     MapContents contents_;
     Rank last_ = Rank::node;
-    std::vector<bool> known_;  ///< By site: its place is known.
+    std::vector<bool> known_;  ///< By site: whether its place is known.
     std::vector<PendingSite> pending_;
     std::unordered_map<std::string, Coordinates> nodes_;       ///< By id.
     std::unordered_map<std::string, std::string> first_node_;  ///< By way.

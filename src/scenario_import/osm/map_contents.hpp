@@ -17,26 +17,26 @@ struct MapSite {
     roads::Coordinates place;
 };
 
-/// How many elements of a map say on which side traffic drives.
+/// Number of map elements that are tagged with a driving side.
 struct SideTags {
     std::size_t left = 0;
     std::size_t right = 0;
 };
 
-/// What an import wants to know of a map beside its roads.
+/// What an import needs from a map besides its roads.
 struct MapContents {
     std::size_t nodes = 0;
     std::size_t roads = 0;       ///< Ways with the tag highway.
-    bool is_sorted = true;       ///< Nodes stand before ways, ways before relations.
+    bool is_sorted = true;       ///< Nodes come before ways, ways before relations.
     roads::Coordinates centre;   ///< Mean of the nodes, the longitude on the circle.
     SideTags sides_of_roads;     ///< Roads with the tag driving_side.
     SideTags sides_of_lands;     ///< Boundaries with that tag.
     double car_roads_km = 0.0;   ///< Ways of the classes that cars drive on.
-    double unlimited_km = 0.0;   ///< Of them, those without a limit that netconvert understands.
+    double unlimited_km = 0.0;   ///< Of these, those without a limit that netconvert understands.
     std::vector<MapSite> sites;  ///< In the order of the file.
 };
 
-/// Reads what `extract_roads` made. Where it is not sorted, sites and lengths of roads are incomplete. Throws
+/// Reads the file of `extract_roads`. If it is not sorted, sites and road lengths are incomplete. Throws
 /// core::InputError as core::stream_xml does.
 MapContents read_map(const std::filesystem::path& extract);
 

@@ -36,8 +36,8 @@ Nearest nearest_edge(const roads::Network& network, const std::vector<core::Edge
     return nearest;
 }
 
-/// The edges at which sites may lie. In a network that is driven through, stations need a way onward and
-/// hospitals one that leads there; a kind that stands in for the other needs both.
+/// The edges at which sites may lie. If trip ends are only `reachable`, stations need an edge that leads on
+/// and hospitals one that can be reached; if the map has only one of the two, its sites need both.
 class SiteEdges {
   public:
     SiteEdges(const roads::Network& network, const scenario::Trips& trips, const std::vector<MapSite>& sites)

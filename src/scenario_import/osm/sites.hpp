@@ -9,8 +9,8 @@
 
 namespace clearway::scenario_import::detail {
 
-/// The sites of a map at the nearest edge on which such trips may start or end, within 300 m of its start,
-/// end or bends; others are left out and counted. One site for each edge and kind.
+/// Places the sites of a map at the nearest edge on which such trips may start or end, if its start, end or a
+/// bend is within 300 m; others are left out and counted. One site per edge and kind.
 std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
                                                  const roads::Network& network, const scenario::Trips& trips,
                                                  LeftOut& left_out);

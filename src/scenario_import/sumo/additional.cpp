@@ -42,7 +42,7 @@ void shift_intervals(Element& rerouter, double begin_s) {
     });
 }
 
-/// Of the steps before the begin only the last says something.
+/// Of the steps before the begin, only the last still matters.
 void shift_steps(Element& sign, double begin_s) {
     std::vector<Element>& steps = sign.children;
     for (Element& step : steps)
@@ -70,12 +70,12 @@ void shift_times(Element& element, double begin_s) {
     if (element.name == "rerouter") shift_intervals(element, begin_s);
     if (element.name == "variableSpeedSign") shift_steps(element, begin_s);
     if (element.name == "tlLogic") shift_program(element, begin_s);
-    // They count from refTime, which stays; the past ones say which program is on.
+    // Switches count from refTime, which stays; past ones decide which program runs.
     for (Element& child : element.children)
         if (child.name == "wautSwitch") shift(child, "time", begin_s);
 }
 
-/// A run has each type as a human one, and those of cars as an automated one.
+/// A run has each type as a human one, and car types also as automated ones.
 void rename_types(Element& element, const std::map<std::string, Element>& types) {
     std::string renamed;
     for (const std::string& id : words(element.text("vTypes"))) {
@@ -88,7 +88,7 @@ void rename_types(Element& element, const std::map<std::string, Element>& types)
     if (!renamed.empty()) element.set("vTypes", renamed);
 }
 
-/// Parameters of a program that have it write a file.
+/// Removes the parameters that make a program write files.
 void write_nothing(Element& program) {
     std::erase_if(program.children, [](const Element& child) {
         return child.name == "param" && (child.text("key") == "file" || child.text("key") == "freq");
@@ -106,9 +106,9 @@ std::set<std::string> named_detectors(const std::vector<Element>& elements) {
 }
 
 std::string reason_to_leave_out(const Element& element) {
-    if (shapes_traffic(element)) return fmt::format("<{}> with a file of its own", element.name);
+    if (shapes_traffic(element)) return fmt::format("<{}> that reads a file of its own", element.name);
     const bool shapes = element.name == "calibrator";
-    return fmt::format("<{}>, which {} the traffic", element.name, shapes ? "shapes" : "does not shape");
+    return fmt::format("<{}>, which {} the traffic", element.name, shapes ? "affects" : "does not affect");
 }
 
 }  // namespace

@@ -9,19 +9,19 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What additional.add.xml holds.
+/// Contents of additional.add.xml.
 struct Additional {
     std::string xml;  ///< Without root element; its first line is line 3 of the file.
-    std::map<unsigned long, std::string> places;  ///< Where it comes from, by line of additional.add.xml.
+    std::map<unsigned long, std::string> places;  ///< Original places, by line of additional.add.xml.
 };
 
-/// Keeps of the elements of additional files what shapes the traffic, and detectors that a signal program
-/// names; others watch it, write files or are drawn. Times count from `begin_s`, also the offsets of signal
-/// programs. Types that elements name are the `types` as a run calls them.
+/// Keeps the elements of additional files that affect the traffic, and detectors that a signal program names;
+/// the others observe it, write files or are drawn. Times count from `begin_s`, also the offsets of signal
+/// programs. Elements name the `types` as a run calls them.
 Additional keep_additional(const std::vector<Element>& elements, const std::map<std::string, Element>& types,
                            double begin_s, LeftOut& left_out);
 
-/// Whether such an element shapes the traffic.
+/// Whether such an element affects the traffic.
 bool shapes_traffic(const Element& element);
 
 }  // namespace clearway::scenario_import::detail

@@ -12,23 +12,23 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Which vehicle classes may use which lanes of a network file, for any class; roads::Network knows those of
+/// Which vehicle classes may use which lanes of a network file, for all classes; roads::Network only knows
 /// cars, emergency vehicles and pedestrians.
 class ClassAccess {
   public:
-    /// Reads the lanes of `file`, which is that of `network`.
+    /// Reads the lanes of `file`, the file of `network`.
     ClassAccess(const std::filesystem::path& file, const roads::Network& network);
 
     /// Whether a vehicle of a class (empty: passenger) may use any lane of an edge.
     bool opens(core::EdgeIndex edge, const std::string& vehicle_class) const;
-    /// Whether it gets from one edge straight to the next.
+    /// Whether it can drive from one edge directly to the next.
     bool joins(core::EdgeIndex from, core::EdgeIndex to, const std::string& vehicle_class) const;
 
   private:
     /// Attributes allow and disallow of a lane.
     using Lists = std::pair<std::string, std::string>;
     struct Rule {
-        bool allows = false;  ///< Whether `classes` are those that may use a lane, or those that may not.
+        bool allows = false;  ///< Whether `classes` may use a lane, or may not.
         std::set<std::string> classes;
     };
     bool opens_lane(core::LaneIndex lane, const std::string& vehicle_class) const;

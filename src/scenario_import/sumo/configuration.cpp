@@ -14,11 +14,11 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// What a set SUMO_HOME would say on Debian.
+/// The usual SUMO_HOME on Debian.
 constexpr const char* usual_sumo_home = "/usr/share/sumo";
 
-/// Options that only show, write or say something, or say how a run is computed: their loss changes no
-/// traffic. Exact names: `max-depart-delay` is not `delay`.
+/// Options that only show, write or print something, or control how a run is computed: dropping them changes
+/// no traffic. Exact names: `max-depart-delay` is not `delay`.
 bool is_harmless(const std::string& option) {
     constexpr std::array<std::string_view, 37> names = {"verbose",
                                                         "v",
@@ -64,7 +64,7 @@ bool is_harmless(const std::string& option) {
                                [&](std::string_view part) { return option.find(part) != std::string::npos; });
 }
 
-/// `${NAME}` replaced by the environment, as SUMO does.
+/// Replaces `${NAME}` from the environment, as SUMO does.
 std::string expanded(std::string text) {
     for (std::size_t open = text.find("${"); open != std::string::npos; open = text.find("${", open + 1)) {
         const std::size_t close = text.find('}', open);
@@ -77,7 +77,7 @@ std::string expanded(std::string text) {
     return text;
 }
 
-/// The name in `file`'s folder that is most like its own.
+/// The most similar file name in the folder of `file`.
 std::string nearest_file(const std::filesystem::path& file) {
     std::vector<std::string> names;
     std::error_code none;
@@ -145,7 +145,7 @@ class ConfigurationReader {
     }
 
     std::vector<std::filesystem::path> list(const std::string& value, const Element& element) {
-        // A name with blanks is one name where it is a file.
+        // A name with blanks is one name if such a file exists.
         std::vector<std::string> names = words(expanded(value), ",");
         std::vector<std::filesystem::path> files;
         for (std::string& name : names) {

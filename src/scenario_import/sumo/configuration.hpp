@@ -7,22 +7,21 @@
 
 namespace clearway::scenario_import::detail {
 
-/// What an import takes of a configuration of SUMO.
+/// What an import takes from a SUMO configuration.
 struct Configuration {
     std::filesystem::path network;
     std::vector<std::filesystem::path> routes;      ///< In order.
     std::vector<std::filesystem::path> additional;  ///< In order.
     std::optional<double> begin_s;
     std::optional<double> end_s;
-    double scale = 1.0;  ///< How many of each vehicle there are.
+    double scale = 1.0;  ///< Number of copies of each vehicle.
     bool ignores_route_errors = false;
-    std::vector<std::string> other_options;  ///< Set there, and not taken over: `time-to-teleport = 60`.
+    std::vector<std::string> other_options;  ///< Set there, but not taken over: `time-to-teleport = 60`.
 };
 
 /// Reads a .sumocfg: paths relative to it, lists with commas or blanks, `${VARIABLE}` as SUMO replaces it
-/// (SUMO_HOME is that of the installation where it is not set). Values stand in `value`, `v` or
-/// as text. Throws core::InputError with every file that is missing, naming the nearest there is, for several
-/// networks and for an end before the begin.
+/// (SUMO_HOME defaults to the usual one). Values are in `value`, in `v` or text. Throws core::InputError with
+/// every missing file and the most similar name, for several networks and for an end before the begin.
 Configuration read_configuration(const std::filesystem::path& file);
 
 }  // namespace clearway::scenario_import::detail

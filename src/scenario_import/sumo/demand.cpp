@@ -27,12 +27,12 @@ namespace {
 constexpr double usual_window_s = 1200.0;
 constexpr double long_demand_s = 7200.0;
 
-/// The end of a configuration; -1 says that it has none.
+/// The end of a configuration; SUMO's -1 means none.
 std::optional<double> end_of(const SumoFiles& files) {
     return files.end_s && *files.end_s > 0.0 ? files.end_s : std::nullopt;
 }
 
-/// What flows take for begin and end, and the departures that can come into the window.
+/// Default begin and end of flows, and the departures that can fall into the window.
 FlowTimes flow_times(const SumoFiles& files, const Import& import) {
     FlowTimes times;
     times.begin_s = files.begin_s.value_or(0.0);
@@ -43,7 +43,7 @@ FlowTimes flow_times(const SumoFiles& files, const Import& import) {
     return times;
 }
 
-/// The twenty minutes with the most departures, and ten minutes before them.
+/// The twenty minutes with the most departures, and the ten minutes before them.
 Window busiest(const std::vector<RoadUser>& vehicles, double begin_s) {
     constexpr double slot_s = 300.0;
     constexpr std::size_t slots = 4;
@@ -76,7 +76,7 @@ Window choose_window(const std::vector<RoadUser>& vehicles, const SumoFiles& fil
         last_s = std::max(last_s, vehicle.depart_s);
         first_s = std::min(first_s, vehicle.depart_s);
     }
-    // The end itself is outside.
+    // The end itself is not in the window.
     const double after_last_s = std::floor(last_s) + 1.0;
     const double end_s = std::min(end_of(files).value_or(after_last_s), after_last_s);
     const double begin_s = import.request.begin_s.value_or(files.begin_s.value_or(std::floor(first_s)));
@@ -117,8 +117,9 @@ bool opens_to_emergency(const std::vector<core::EdgeIndex>& route, const ClassAc
     return true;
 }
 
-/// Length that emergency vehicles may ask of the routes that they take: 1 km where five are so long, else the
-/// fifth longest. They take routes of cars, or of any vehicles where no car has one that is open to them.
+/// Minimum length of the routes that emergency vehicles take: 1 km if at least five are that long, else the
+/// length of the fifth longest. They take routes of cars, or of any vehicles if no car has one that is open
+/// to them.
 double emergency_length_m(const Demand& demand, const roads::Network& network, const ClassAccess& access) {
     constexpr double wanted_m = 1000.0;
     constexpr std::size_t enough = 5;
@@ -143,7 +144,7 @@ double emergency_length_m(const Demand& demand, const roads::Network& network, c
     return std::floor(std::min(wanted_m, lengths_m[std::min(enough, lengths_m.size()) - 1]));
 }
 
-/// Reads all files; what is no demand comes back for additional.add.xml.
+/// Reads all files; returns the elements that are not demand, for additional.add.xml.
 std::vector<Element> read_files(const SumoFiles& files, DemandReader& reader) {
     std::vector<Element> others;
     for (const auto* list : {&files.additional, &files.routes})
@@ -176,7 +177,8 @@ scenario::Measured describe_types(Import& import, const Demand& demand) {
     return measured;
 }
 
-/// Takes out who cannot drive or walk as the files say. Where they are to be refused, all are, together.
+/// Removes vehicles and persons that cannot drive or walk as the files say. If they are to be refused, throws
+/// with all of them.
 void take_out_bad(Import& import, Demand& demand, const roads::Network& network, const ClassAccess& access,
                   const std::vector<Element>& additional) {
     std::vector<core::Problem> problems =
@@ -196,19 +198,19 @@ void set_times(const Window& window, scenario::ScenarioConfig& config) {
     config.time.horizon_s = std::max(3600.0, 3.0 * window.length_s);
 }
 
-/// None of the vehicles that the files name can be used: a made-up demand in their place would mislead.
+/// None of the vehicles in the files can be used; a synthetic demand in their place would mislead.
 [[noreturn]] void refuse_without_vehicles(const Import& import) {
     const std::vector<std::string> lines = import.left_out.lines();
-    throw core::InputError(core::Problem{
-        import.request.files.front().string(),
-        fmt::format("no vehicle of its demand can be used{}{}",
-                    lines.empty() ? "" : "; left out: ", fmt::join(lines, "; ")),
-        "vehicles, trips or flows that depart in the time of the configuration",
-        "give them routes first, with od2trips, jtrrouter or duarouter; or import the network alone, for a "
-        "synthetic demand"});
+    throw core::InputError(
+        core::Problem{import.request.files.front().string(),
+                      fmt::format("no vehicle of its demand can be used{}{}",
+                                  lines.empty() ? "" : "; left out: ", fmt::join(lines, "; ")),
+                      "vehicles, trips or flows that depart in the time of the configuration",
+                      "give them routes first, with od2trips, jtrrouter or duarouter; or import the network "
+                      "alone, for a synthetic demand"});
 }
 
-/// Leaves the vehicles of the window, by departure.
+/// Keeps only the vehicles of the window, by departure.
 void keep_window(const Window& window, Demand& demand, Findings& findings, std::size_t all) {
     std::vector<RoadUser>& vehicles = demand.vehicles;
     std::ranges::stable_sort(vehicles, {}, &RoadUser::depart_s);
@@ -219,10 +221,10 @@ void keep_window(const Window& window, Demand& demand, Findings& findings, std::
             fmt::format("no vehicle departs in the {:.0f} s after {} s", window.length_s, window.begin_s),
             "a time with departures", "choose another begin"});
     if (vehicles.size() < all)
-        findings.changes.push_back(fmt::format(
-            "of {} vehicles the {} that depart from {:.0f} s to {:.0f} s are taken; --begin chooses "
-            "another time",
-            all, vehicles.size(), window.begin_s, window.end_s()));
+        findings.changes.push_back(
+            fmt::format("of {} vehicles the {} that depart from {:.0f} s to {:.0f} s are taken; --begin "
+                        "chooses another time",
+                        all, vehicles.size(), window.begin_s, window.end_s()));
 }
 
 void describe_vehicles(const Import& import, const Demand& demand, const Window& window, Findings& findings) {
@@ -233,17 +235,17 @@ void describe_vehicles(const Import& import, const Demand& demand, const Window&
         with_blue_lights += has_blue_lights(type) || has_blue_lights(vehicle.element) ? 1U : 0U;
     }
     if (with_blue_lights > 0)
-        findings.changes.push_back(fmt::format(
-            "{} emergency vehicles of the scenario drive as ordinary traffic; those that are measured are "
-            "Clearway's own",
-            with_blue_lights));
+        findings.changes.push_back(
+            fmt::format("{} emergency vehicles of the scenario drive as ordinary traffic; only Clearway's "
+                        "own are measured",
+                        with_blue_lights));
     findings.vehicles_per_hour = static_cast<double>(demand.vehicles.size()) * 3600.0 / window.length_s;
     findings.demand =
         fmt::format("as the route files say, {:.0f} s of it; {:.0f} % of the cars are automated",
                     window.length_s, 100.0 * import.request.automated_share);
 }
 
-/// The scenario's time 0 is `begin_s` of the network's signal programs.
+/// Shifts the signal programs so that the scenario's time 0 is their `begin_s`.
 void begin_programs_at(double begin_s, const std::filesystem::path& network_file) {
     if (begin_s == 0.0) return;
     scenario::NetworkDocument document(network_file);
@@ -260,13 +262,13 @@ void add_additional(Import& import, const std::vector<Element>& elements, const 
     config.measured->additional = {"additional.add.xml"};
 }
 
-/// Without vehicles to go with, nothing is kept.
+/// Without vehicles, nothing else is kept.
 void leave_out_all(Import& import, const Demand& demand, const std::vector<Element>& others) {
     for (const Element& element : others)
-        import.left_out.add(fmt::format("<{}>, for no vehicle goes with it", element.name),
+        import.left_out.add(fmt::format("<{}>, because no vehicle is left", element.name),
                             element.text("id"));
     for (const Person& person : demand.persons)
-        import.left_out.add("persons, for no vehicle goes with them", person.id);
+        import.left_out.add("persons, because no vehicle is left", person.id);
 }
 
 }  // namespace
@@ -298,7 +300,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     describe_vehicles(import, demand, window, findings);
     config.measured = describe_types(import, demand);
     config.measured->emergency_minimum_length_m = emergency_length_m(demand, network, access);
-    // The types are the scenario's own; this is the largest limit there is.
+    // The types are the scenario's own, so this is the largest allowed limit.
     constexpr double no_limit_kmh = 400.0;
     config.limits.human_kmh = config.limits.automated_kmh = no_limit_kmh;
     add_additional(import, others, demand, window.begin_s, config);

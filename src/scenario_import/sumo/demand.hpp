@@ -10,19 +10,19 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Files of SUMO with demand, and what goes with it.
+/// SUMO files with demand, and their settings.
 struct SumoFiles {
     std::vector<std::filesystem::path> routes;
     std::vector<std::filesystem::path> additional;
     std::optional<double> begin_s;
     std::optional<double> end_s;
-    double scale = 1.0;  ///< SUMO's option: how many of each vehicle and person there are.
+    double scale = 1.0;  ///< SUMO's option: number of copies of each vehicle and person.
 };
 
-/// Turns them into the measured demand of `config`: traffic.rou.xml (one vehicle each, sorted, times from the
+/// Turns them into the measured demand of `config`: traffic.rou.xml (single vehicles, sorted, times from the
 /// scenario's begin), types.add.xml, additional.add.xml and persons.rou.xml in the scenario's folder. The
-/// signal programs of `network_file` are shifted to that begin too. False, and nothing done, when the files
-/// name no vehicle. Throws core::InputError for demand that cannot be used, also when none of it can.
+/// signal programs of `network_file` are shifted to that begin too. Returns false, without writing anything,
+/// when the files name no vehicle. Throws core::InputError for demand that cannot be used.
 bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Network& network,
                      const std::filesystem::path& network_file, scenario::ScenarioConfig& config);
 

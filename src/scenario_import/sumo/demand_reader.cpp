@@ -20,7 +20,7 @@ namespace {
 constexpr const char* default_type = "DEFAULT_VEHTYPE";
 constexpr const char* default_person_type = "DEFAULT_PEDTYPE";
 
-/// What a vehicle keeps of its attributes; id, type, depart and route are set anew.
+/// Attributes that a vehicle keeps; id, type, depart and route are set anew.
 constexpr std::array kept_attributes = {"departLane",  "departPos",   "departSpeed",  "departPosLat",
                                         "arrivalLane", "arrivalPos",  "arrivalSpeed", "arrivalPosLat",
                                         "departEdge",  "arrivalEdge", "speedFactor",  "line"};
@@ -40,7 +40,7 @@ bool is_container(const std::string& name) {
 constexpr std::array ends_of_trips = {"from",  "to",           "via",        "fromTaz",
                                       "toTaz", "fromJunction", "toJunction", "viaJunctions"};
 
-/// Before the ids of vehicles that Clearway's own have too.
+/// Prefix for vehicle ids that collide with Clearway's own.
 constexpr const char* imported_prefix = "imported.";
 
 /// Whether an id is one that Clearway gives to an emergency vehicle: `emergency.3`.
@@ -50,12 +50,12 @@ bool is_own_id(std::string_view id) {
            id.find_first_not_of("0123456789", own.size()) == std::string_view::npos;
 }
 
-/// Drives a route, as often as it says, from `delay_s` on.
+/// Appends a route, as often as it says, to the vehicle's; its stops are delayed by `delay_s`.
 void drive(const Element& route, double delay_s, RoadUser& vehicle) {
     const std::vector<std::string> edges = words(route.text("edges"));
     const double repeats = number(route.text("repeat")).value_or(0.0);
     const double cycle_s = time_s(route.text("cycleTime")).value_or(0.0);
-    // More than a vehicle passes in a run.
+    // More than a vehicle can pass in a run.
     constexpr std::size_t most_edges = 10'000;
     for (double row = 0.0; row <= repeats && vehicle.edges.size() < most_edges; ++row) {
         vehicle.edges.insert(vehicle.edges.end(), edges.begin(), edges.end());
@@ -95,7 +95,7 @@ bool DemandReader::take(Element& element, const std::filesystem::path& file) {
     } else if (is_person(element.name)) {
         pending_persons_.push_back({std::move(element), file});
     } else if (is_container(element.name)) {
-        left_out_.add(fmt::format("<{}>, which Clearway has no place for", element.name), element.text("id"));
+        left_out_.add(fmt::format("<{}>, which Clearway does not support", element.name), element.text("id"));
     } else if (element.name == "vType") {
         take_type(element);
     } else if (element.name == "vTypeDistribution") {
@@ -145,9 +145,9 @@ Demand DemandReader::finish() {
     std::erase_if(demand_.types, [&](const auto& type) { return !used.contains(type.first); });
     demand_.names_vehicles = !pending_.empty();
     if (renamed_ > 0)
-        demand_.changes.push_back(fmt::format(
-            "{} vehicles with ids of Clearway's own emergency vehicles get \"{}\" before their id", renamed_,
-            imported_prefix));
+        demand_.changes.push_back(
+            fmt::format("{} vehicles with ids of Clearway's own emergency vehicles get the prefix \"{}\"",
+                        renamed_, imported_prefix));
     report_types();
     return std::move(demand_);
 }
@@ -195,7 +195,7 @@ void DemandReader::resolve_flow(const Pending& pending, const Take& take) {
     }
 }
 
-/// The type that an element names, or that `id` draws from the distribution that it names.
+/// The type that an element names, or the one that is drawn for `id` if it names a distribution.
 std::string DemandReader::type_of(const Element& source, const char* otherwise, const std::string& id) const {
     const std::string type = source.has("type") ? source.text("type") : otherwise;
     return type_choices_.holds(type) ? type_choices_.draw(type, id) : type;
@@ -278,7 +278,7 @@ bool DemandReader::set_type(const Element& source, Person& person) {
     type.set("id", person.type);
     if (own != demand_.types.end()) type = own->second;
     if (!type.has("vClass")) {
-        // SUMO takes such a type for a car's, warns, and people walk at 200 km/h.
+        // SUMO takes such a type for a car type, warns, and lets people walk at 200 km/h.
         if (own != demand_.types.end()) demand_.types_made_pedestrian.insert(person.type);
         type.set("vClass", "pedestrian");
     }
@@ -332,7 +332,7 @@ bool DemandReader::set_way(const Element& source, RoadUser& vehicle) {
     return false;
 }
 
-/// The route inside a vehicle, or the one of the distribution inside it that duarouter took last.
+/// The route inside a vehicle, or the one that duarouter last chose from the distribution inside it.
 std::optional<Element> DemandReader::inline_route(const Element& source, const RoadUser& vehicle) {
     for (const Element& child : source.children) {
         if (child.name == "route") return child;
@@ -360,7 +360,7 @@ bool DemandReader::set_trip(const Element& source, RoadUser& vehicle) {
         return true;
     }
     if (!has_any("from", "fromTaz", "fromJunction") || !has_any("to", "toTaz", "toJunction")) {
-        left_out_.add("vehicles without a way: they name no end", vehicle.id);
+        left_out_.add("vehicles without a route: origin or destination is missing", vehicle.id);
         return false;
     }
     vehicle.is_trip = true;

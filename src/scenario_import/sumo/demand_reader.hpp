@@ -17,7 +17,7 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Departures that a scenario takes, times of the route files.
+/// The departures that a scenario takes, in times of the route files.
 struct Window {
     double begin_s = 0.0;
     double length_s = 0.0;
@@ -26,25 +26,27 @@ struct Window {
     bool holds(double depart_s) const { return depart_s >= begin_s && depart_s < end_s(); }
 };
 
-/// A vehicle with the edges that it drives, or with the ends of a way that is still to be found.
+/// A vehicle with the edges that it drives, or with the ends of a route that is still to be found.
 struct RoadUser {
     std::string id;
     std::string type;  ///< Of `Demand::types`.
     double depart_s = 0.0;
     double later_s = 0.0;            ///< As `Departure::later_s`.
-    std::vector<std::string> edges;  ///< Of a trip, those of its ends and vias.
+    std::vector<std::string> edges;  ///< Of a trip: its ends and vias.
     bool is_trip = false;
-    Element trip;       ///< `<trip>` with the ends of the way, edges, zones or junctions, where it is one.
+    /// For a trip: `<trip>` with its ends, which are edges, zones or junctions.
+    Element trip;
     Element element;    ///< `<vehicle>` with its stops, without route, type and departure.
     std::string place;  ///< `city.rou.xml:12`
 };
 
-/// Somebody who walks.
+/// A person who walks.
 struct Person {
     std::string id;
     std::string type;  ///< Of `Demand::person_types`.
     double depart_s = 0.0;
-    Element element;    ///< As `walking_person` makes it; walks have edges, or ends to find a way between.
+    /// As `walking_person` makes it; walks have edges, or ends between which a route is to be found.
+    Element element;
     std::string place;  ///< `city.rou.xml:12`
 };
 
@@ -52,29 +54,29 @@ struct Person {
 struct Demand {
     std::vector<RoadUser> vehicles;               ///< In the order of the files; flows in order of departure.
     std::map<std::string, Element> types;         ///< `<vType>` by id; those of distributions too.
-    std::vector<Person> persons;                  ///< Likewise.
-    std::map<std::string, Element> person_types;  ///< By id, all of class pedestrian.
-    std::set<std::string> types_made_pedestrian;  ///< Of them, those that named no class.
-    std::vector<std::filesystem::path> unsorted;  ///< Files whose vehicles do not stand by departure.
-    std::set<std::string> types_made_older;       ///< Of `types`, those of classes that SUMO 1.15 has not.
-    bool names_vehicles = false;                  ///< Also such that are left out.
-    std::vector<std::string> changes;             ///< What the demand has other than the files, in words.
+    std::vector<Person> persons;                  ///< In the same order.
+    std::map<std::string, Element> person_types;  ///< By id; all of class pedestrian.
+    std::set<std::string> types_made_pedestrian;  ///< Of these, those that named no class.
+    std::vector<std::filesystem::path> unsorted;  ///< Files whose vehicles are not ordered by departure.
+    std::set<std::string> types_made_older;       ///< Of `types`, those with a class that SUMO 1.15 lacks.
+    bool names_vehicles = false;                  ///< Vehicles that are left out count too.
+    std::vector<std::string> changes;             ///< Differences between the demand and the files, in words.
 };
 
 /// Collects vehicles, trips, flows, persons who only walk, routes, types and their distributions from SUMO's
-/// files. What only SUMO could draw while it runs (the member of a distribution, the departures of a flow by
-/// probability, who comes twice by a scale) is drawn by the id of the vehicle or person. The rest is counted
-/// in `left_out`: persons who ride, containers, vehicles that wait for them.
+/// files. What SUMO would draw while it runs (members of distributions, departures of flows by probability,
+/// extra copies by scale) is drawn here, keyed by the id of the vehicle or person. The rest is counted in
+/// `left_out`: persons who ride, containers, vehicles that wait for them.
 class DemandReader {
   public:
-    /// `scale` is SUMO's option: how many of each vehicle and person there are.
+    /// `scale` is SUMO's option: number of copies of each vehicle and person.
     DemandReader(FlowTimes times, double scale, LeftOut& left_out)
         : times_(times), scale_(scale), left_out_(left_out) {}
 
-    /// Reads the elements of demand of a file; answers the others, for example stops and signal programs.
+    /// Reads the demand elements of a file; returns the others, for example stops and signal programs.
     std::vector<Element> read(const std::filesystem::path& file);
     /// After all files. Throws core::InputError with every problem: ids that occur twice, unknown types and
-    /// routes, departures that are no times.
+    /// routes, departures that are not times.
     Demand finish();
 
   private:
@@ -87,7 +89,7 @@ class DemandReader {
     bool take(Element& element, const std::filesystem::path& file);
     void take_type(const Element& element);
     void take_distribution(const Element& element, Distributions& distributions);
-    /// Takes the id and the departure of one vehicle or person of those that an element stands for.
+    /// Takes the id and departure of one of the vehicles or persons that an element stands for.
     using Take = std::function<void(const std::string&, const Departure&)>;
     void resolve(const Pending& pending, const Take& take);
     void resolve_flow(const Pending& pending, const Take& take);
@@ -115,18 +117,18 @@ class DemandReader {
     std::vector<Pending> pending_;
     std::vector<Pending> pending_persons_;
     std::map<std::string, Element> routes_;
-    std::map<std::string, double> type_scales_;         ///< Of types that state one.
-    std::map<std::string, std::string> newer_classes_;  ///< By type, where it had one.
+    std::map<std::string, double> type_scales_;         ///< For types that state one.
+    std::map<std::string, std::string> newer_classes_;  ///< By type, if it had one.
     Distributions type_choices_{"vTypes"};
     Distributions route_choices_{"routes"};
-    std::size_t renamed_ = 0;                           ///< Vehicles that had the ids of Clearway's own.
-    std::map<std::string, std::string> places_;         ///< By vehicle id.
+    std::size_t renamed_ = 0;                    ///< Number of vehicles that had ids of Clearway's own.
+    std::map<std::string, std::string> places_;  ///< By vehicle id.
     std::map<std::string, std::string> person_places_;  ///< By person id.
     std::vector<core::Problem> problems_;
     std::set<std::string> named_problems_;
 };
 
-/// `bus` of `bus.12`: vehicles of a flow have the same problem, which is said once.
+/// `bus` for `bus.12`: a problem that all vehicles of a flow share is reported once.
 std::string without_number(const std::string& id);
 
 }  // namespace clearway::scenario_import::detail

@@ -9,20 +9,20 @@
 
 namespace clearway::scenario_import::detail {
 
-/// The `<vTypeDistribution>` or `<routeDistribution>` of a scenario. SUMO draws their members while it runs;
-/// here the id of who has one draws.
+/// The `<vTypeDistribution>`s or `<routeDistribution>`s of a scenario. SUMO draws their members while it
+/// runs; here the draw is keyed by the id of the user.
 class Distributions {
   public:
     /// `list` is the attribute that names members, `vTypes` or `routes`.
     explicit Distributions(const char* list) : list_(list) {}
 
-    /// Takes a distribution. Answers the members that are defined in it, each with an id, one that is made
-    /// where it has none; `ids` gets the ids of all members, in their order.
+    /// Takes a distribution. Returns the members that are defined in it; those without an id get one. `ids`
+    /// receives the ids of all members, in order.
     std::vector<Element> add(const Element& distribution, std::vector<std::string>* ids = nullptr);
-    /// What a member counts where its distribution does not say: attribute `probability` of its own.
+    /// Notes a member's own attribute `probability`: its weight if the distribution states none.
     void note_probability(const Element& member);
     bool holds(const std::string& id) const { return choices_.contains(id); }
-    /// The member of distribution `id` that is `user`'s; empty when it has none.
+    /// The member of distribution `id` drawn for `user`; empty when it has none.
     std::string draw(const std::string& id, const std::string& user) const;
 
   private:

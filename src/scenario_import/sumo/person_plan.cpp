@@ -12,9 +12,9 @@ constexpr std::array person_attributes = {"departPos", "speedFactor"};
 constexpr std::array walk_attributes = {"edges",      "route",        "from",  "to",
                                         "arrivalPos", "departPosLat", "speed", "duration"};
 constexpr std::array stop_attributes = {"lane", "edge", "startPos", "endPos", "duration", "until", "actType"};
-/// With any of these a `<personTrip>` may become a ride.
+/// With any of these, a `<personTrip>` may become a ride.
 constexpr std::array riding_attributes = {"modes", "vTypes", "lines"};
-/// Ends of walks that are no edges, and not those of a stop.
+/// Ends of walks that are neither edges nor stops.
 constexpr std::array vague_ends = {"fromTaz", "toTaz",      "fromJunction", "toJunction", "viaJunctions",
                                    "fromXY",  "fromLonLat", "toXY",         "toLonLat"};
 
@@ -71,7 +71,7 @@ Element walking_person(const Element& person) {
     walker.name = "person";
     keep(person, person_attributes, walker);
     for (const Element& stage : person.children) {
-        if (stage.name == "param") continue;  // Of devices and outputs, of which there are none here.
+        if (stage.name == "param") continue;  // For devices and outputs, which do not exist here.
         Element kept;
         kept.name = is_walk(stage) ? "walk" : "stop";
         kept.line = stage.line;

@@ -16,9 +16,9 @@ bool is_stop(const Element& stage) {
     return stage.name == "stop";
 }
 
-/// Takes off the plan what nobody sees: all from a stop that lasts until after `end_s`, whatever the walks
-/// before it take, and stops with nothing behind them. Else a run would wait for people at work. Whether it
-/// took off any.
+/// Cuts the part of a plan that a run cannot show: everything from a stop that is sure to last beyond
+/// `end_s`, and stops at the end. Otherwise a run would wait for people at work. Returns whether anything was
+/// cut.
 bool trim(Person& person, double end_s) {
     std::vector<Element>& plan = person.element.children;
     const std::size_t before = plan.size();
@@ -51,9 +51,8 @@ void keep_window(const Window& window, std::vector<Person>& persons, Findings& f
     std::erase_if(persons, [&](const Person& person) { return !window.holds(person.depart_s); });
     if (persons.size() < all)
         findings.changes.push_back(
-            fmt::format("of {} persons the {} that depart from {:.0f} s to {:.0f} s are "
-                        "taken",
-                        all, persons.size(), window.begin_s, window.end_s()));
+            fmt::format("of {} persons the {} that depart from {:.0f} s to {:.0f} s are taken", all,
+                        persons.size(), window.begin_s, window.end_s()));
 }
 
 void trim_plans(std::vector<Person>& persons, double end_s, Import& import) {
@@ -63,12 +62,12 @@ void trim_plans(std::vector<Person>& persons, double end_s, Import& import) {
             fmt::format("the plans of {} persons end with the last walk that a run can see", trimmed));
     std::erase_if(persons, [&](const Person& person) {
         if (!person.element.children.empty()) return false;
-        import.left_out.add("persons who set out after a run", person.id);
+        import.left_out.add("persons who depart after the end of a run", person.id);
         return true;
     });
 }
 
-/// The types that somebody has.
+/// The types that are in use.
 std::string types_xml(const Demand& demand, Findings& findings) {
     std::set<std::string> used;
     for (const Person& person : demand.persons)

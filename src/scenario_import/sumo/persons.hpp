@@ -10,9 +10,8 @@
 namespace clearway::scenario_import::detail {
 
 /// Writes the persons of `demand` who depart in the window into persons.rou.xml of the scenario, by
-/// departure, with their types and times from its begin, and names it in `config`. Of a plan what comes after
-/// the horizon of `config` is cut. Does nothing where nobody walks. Needs the demand that
-/// `take_out_bad_persons` leaves.
+/// departure, with their types and with times from its begin, and names the file in `config`. Plans are cut
+/// at the horizon of `config`. Does nothing if nobody walks. Call `take_out_bad_persons` first.
 void add_persons(Import& import, Demand& demand, const roads::Network& network, const Window& window,
                  scenario::ScenarioConfig& config);
 

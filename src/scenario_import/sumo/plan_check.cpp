@@ -16,7 +16,7 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// What is wrong, in words; nothing where all is well.
+/// What is wrong, in words; nothing if all is well.
 using Fault = std::optional<std::string>;
 
 template <std::size_t count>
@@ -39,7 +39,7 @@ Fault fault_of_time(const Element& element, const char* name) {
     return fmt::format("{} is \"{}\"", name, text);
 }
 
-/// Numbers and words that SUMO refuses at once.
+/// Numbers and words that SUMO rejects when it loads a plan.
 Fault fault_of_values(const Element& stage) {
     constexpr std::array arrivals = {"random", "max"};
     constexpr std::array sides = {"random", "random_free", "free", "right", "center", "left"};
@@ -89,7 +89,7 @@ class PlanCheck {
     PlanCheck(const roads::Network& network, const roads::Walkways& walkways, const StopPlaces& stops)
         : network_(network), walkways_(walkways), stops_(stops) {}
 
-    /// Fills in what the plan leaves to be understood.
+    /// Fills in what the plan leaves implicit. Returns what is wrong with it.
     Fault settle(Element& person) {
         at_.reset();
         constexpr std::array departures = {"random", "random_free", "free", "base", "last"};
@@ -154,7 +154,7 @@ class PlanCheck {
             if (place == nullptr) return no_stop(stop, kind);
             edge = place->front();
         } else {
-            stop.set("friendlyPos", "true");  // SUMO ends at a position past the end of the lane.
+            stop.set("friendlyPos", "true");  // SUMO aborts at a position past the end of the lane.
             if (const auto lane = network_.find_lane(stop.text("lane")))
                 edge = network_.lane(*lane).edge;
             else if (!stop.has("lane"))
@@ -179,7 +179,7 @@ class PlanCheck {
         return edge ? walkways_.fault(std::array{*edge}) : no_edge(id);
     }
 
-    /// A walk goes on where the stage before it ended, or at the end of that edge.
+    /// A walk starts on the edge where the previous stage ended, or at that edge's end.
     Fault fault_of_start(core::EdgeIndex start) const {
         if (!at_ || *at_ == start) return std::nullopt;
         const roads::Edge& next = network_.edge(start);
@@ -211,7 +211,7 @@ std::vector<core::Problem> take_out_bad_persons(Demand& demand, const roads::Net
     std::erase_if(demand.persons, [&](Person& person) {
         const Fault fault = check.settle(person.element);
         if (!fault) return false;
-        left_out.add("persons who cannot walk as they are to", fmt::format("{}: {}", person.id, *fault));
+        left_out.add("persons who cannot walk as planned", fmt::format("{}: {}", person.id, *fault));
         if (problems.size() < named_problems)
             problems.push_back({fmt::format("{}: person \"{}\"", person.place, person.id), *fault,
                                 "edges open to pedestrians that meet at sidewalks or crossings",

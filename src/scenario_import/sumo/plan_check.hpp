@@ -9,9 +9,9 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Takes out the persons whose plan SUMO 1.15 would refuse, or whose walk it would end the run at, and counts
-/// them in `left_out`. Answers them as problems, up to `named_problems`. The walks of the others have edges,
-/// or `from` and `to`. `additional` has the stops that they name.
+/// Removes the persons whose plan SUMO 1.15 would reject, or whose walk would crash it, and counts them in
+/// `left_out`. Returns them as problems, up to `named_problems`. The walks of the others have edges, or
+/// `from` and `to`. `additional` has the stops that they name.
 std::vector<core::Problem> take_out_bad_persons(Demand& demand, const roads::Network& network,
                                                 const std::vector<Element>& additional, LeftOut& left_out);
 

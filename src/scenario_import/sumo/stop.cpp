@@ -39,7 +39,7 @@ void end_waiting(Element& vehicle, LeftOut& left_out) {
     std::erase_if(vehicle.children, [&](Element& stop) {
         if (stop.name != "stop" || !waits(stop)) return false;
         const bool ends = stop.has("duration") || stop.has("until");
-        left_out.add(ends ? "stops' waiting for passengers, goods or vehicles, which last their duration"
+        left_out.add(ends ? "waits for passengers, goods or vehicles at stops, which now last their duration"
                           : "stops that wait for passengers, goods or vehicles and have no duration",
                      vehicle.text("id"));
         for (const char* const name : {"triggered", "containerTriggered", "expected", "expectedContainers",

@@ -11,20 +11,21 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Adds `by_s` to the times at which a `<stop>` ends, where it states any.
+/// Adds `by_s` to the times that a `<stop>` states.
 void delay_stop(Element& stop, double by_s);
 
-/// Stops of a vehicle that wait for a passenger, goods or another vehicle last their duration or until, for
-/// whom they wait for may not be here; those with neither are taken out.
+/// Lets stops of a vehicle that wait for a passenger, goods or another vehicle end after `duration` or at
+/// `until`, because what they wait for may not exist here. Stops with neither are removed.
 void end_waiting(Element& vehicle, LeftOut& left_out);
 
 /// Edges of the stops that additional files define.
 class StopEdges {
   public:
     explicit StopEdges(const std::vector<Element>& additional);
-    /// The edge of a `<stop>`; empty when nothing says it, or when it names a place that is not there.
+    /// The edge of a `<stop>`; empty when it names none, or a place that does not exist.
     std::string edge_of(const Element& stop) const;
-    /// The place that a `<stop>` names and nobody defines, in words: `busStop "market"`. Else nothing.
+    /// The place that a `<stop>` names but that is not defined, in words: `busStop "market"`. Otherwise
+    /// nothing.
     std::optional<std::string> unknown_place(const Element& stop) const;
 
   private:

@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::pair<std::string_view, std::string_view>;
 
-/// Devices that only watch; `bluelight` and `toc` are told apart.
+/// Devices that only observe; `bluelight` and `toc` are reported separately.
 constexpr std::array<std::string_view, 8> watching_devices = {
     "ssm", "fcd", "emissions", "vehroute", "tripinfo", "btreceiver", "btsender", "example"};
 
@@ -30,12 +30,12 @@ std::string_view device_of(std::string_view key) {
     return key.substr(0, key.find('.'));
 }
 
-/// In words for many of them; empty for those that stay.
+/// The reason, as words in the plural; empty for devices that stay.
 std::string reason_to_take_out(std::string_view device) {
     if (std::ranges::find(watching_devices, device) != watching_devices.end())
         return "output devices of types and vehicles";
-    if (device == "toc") return "ToC devices of types and vehicles, which shape the traffic";
-    if (device == "bluelight") return "blue-light devices of types and vehicles, which shape the traffic";
+    if (device == "toc") return "ToC devices of types and vehicles, which affect the traffic";
+    if (device == "bluelight") return "blue-light devices of types and vehicles, which affect the traffic";
     return {};
 }
 
@@ -64,7 +64,7 @@ const char* kind_of_class(std::string_view vehicle_class) {
 }
 
 std::string_view older_class(std::string_view vehicle_class) {
-    // Class ship stands for what drives on no road.
+    // Class ship stands for vehicles that do not use roads.
     constexpr std::array<Names, 7> classes = {{{"subway", "rail_urban"},
                                                {"cable_car", "rail_urban"},
                                                {"scooter", "bicycle"},

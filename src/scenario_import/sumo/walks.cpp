@@ -14,7 +14,7 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// From, to, and the positions there as far as they are numbers. Walks that are alike share a way.
+/// From, to, and the positions there if they are numbers. Equal walks share a route.
 using WalkKey = std::tuple<std::string, std::string, std::string, std::string>;
 
 const std::string& number_text(const std::string& text) {
@@ -22,7 +22,7 @@ const std::string& number_text(const std::string& text) {
     return number(text) ? text : none;
 }
 
-/// The walks of a person that have only ends.
+/// Visits the walks of a person that have only ends, no edges.
 void for_each_open_walk(Element& person, const std::function<void(Element&, const WalkKey&)>& take) {
     std::string position = number_text(person.text("departPos"));
     for (Element& stage : person.children) {
@@ -65,7 +65,7 @@ void ask_duarouter(const Import& import, const std::filesystem::path& network_fi
         {"--net-file", network_file.string(), "--route-files", walks.string(), "--output-file",
          found.string(), "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
         log,
-        "finding ways on foot",
+        "finding walking routes",
         "sumo"};
     if (!succeeds(tool, import.on_progress))
         throw core::InputError(core::Problem{"the walks", fmt::format("duarouter says:\n{}", complaint(log)),
@@ -100,7 +100,7 @@ void find_walks(Import& import, std::vector<Person>& persons, const roads::Netwo
             walk.remove("from");
             walk.remove("to");
         });
-        if (!walks) import.left_out.add("persons without any way on foot between their ends", person.id);
+        if (!walks) import.left_out.add("persons without a walking route between their ends", person.id);
         return !walks;
     });
 }

@@ -15,10 +15,10 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// What is wrong, in words; nothing where all is well.
+/// What is wrong, in words; nothing if all is well.
 using Fault = std::optional<std::string>;
 
-/// Looks for what keeps a vehicle from driving as it says.
+/// Finds out why a vehicle cannot drive as the files say.
 class WayCheck {
   public:
     WayCheck(const roads::Network& network, const ClassAccess& access, const std::vector<Element>& additional)
@@ -29,7 +29,7 @@ class WayCheck {
         for (const Element& stop : vehicle.element.children) {
             if (stop.name != "stop") continue;
             if (const auto place = stops_.unknown_place(stop))
-                return fmt::format("stops at {}, which nobody defines", *place);
+                return fmt::format("stops at {}, which is not defined", *place);
             const std::string edge = stops_.edge_of(stop);
             if (!vehicle.is_trip && !edge.empty() &&
                 std::ranges::find(vehicle.edges, edge) == vehicle.edges.end())
@@ -65,7 +65,7 @@ class WayCheck {
     StopEdges stops_;
 };
 
-/// Trips with the same ends and type share a way.
+/// Trips with the same ends and type share a route.
 using TripKey = std::pair<std::string, std::string>;
 using Ways = std::map<TripKey, std::vector<std::string>>;
 
@@ -73,7 +73,7 @@ TripKey key_of(const RoadUser& vehicle) {
     return {vehicle.type, vehicle.trip.xml()};
 }
 
-/// The edges of a trip's stops become edges that its way must pass, in the order of the stops.
+/// Makes the route of a trip pass the edges of its stops, in their order.
 void pass_stops(RoadUser& vehicle, const StopEdges& stops) {
     const std::vector<std::string> vias = words(vehicle.trip.text("via"));
     std::vector<std::string> passed = vias;
@@ -89,7 +89,7 @@ void pass_stops(RoadUser& vehicle, const StopEdges& stops) {
     if (passed.size() > vias.size()) vehicle.trip.set("via", fmt::format("{}", fmt::join(passed, " ")));
 }
 
-/// Writes the zones that trips may name; answers the options that go with them.
+/// Writes the zones that trips may name and returns duarouter's options for them.
 std::vector<std::string> zone_options(const Import& import, const std::vector<Element>& additional) {
     std::string zones;
     for (const Element& element : additional) {
@@ -106,7 +106,7 @@ std::vector<std::string> zone_options(const Import& import, const std::vector<El
     return options;
 }
 
-/// The file for duarouter; `rows` gets the ways in the order of its trips.
+/// The input file for duarouter; `rows` receives the entries of `ways` in the order of its trips.
 std::string trips_text(const Demand& demand, const std::map<TripKey, Element>& trips, Ways& ways,
                        std::vector<std::vector<std::string>*>& rows) {
     std::string xml;
@@ -145,7 +145,7 @@ Ways ways_of_trips(const Import& import, const Demand& demand, const std::filesy
         {"--net-file", network_file.string(), "--route-files", file.string(), "--output-file", found.string(),
          "--ignore-errors", "--no-warnings", "--no-step-log", "--xml-validation", "never"},
         log,
-        "finding ways",
+        "finding routes",
         "sumo"};
     for (std::string& option : zone_options(import, additional))
         tool.arguments.push_back(std::move(option));
@@ -159,7 +159,7 @@ Ways ways_of_trips(const Import& import, const Demand& demand, const std::filesy
     return ways;
 }
 
-/// `town.rou.xml:3: bus` of the vehicle `bus.12` of a flow.
+/// `town.rou.xml:3: bus` for the vehicle `bus.12` of a flow.
 std::string flow_of(const RoadUser& vehicle) {
     return fmt::format("{}: {}", vehicle.place, without_number(vehicle.id));
 }
@@ -176,7 +176,7 @@ std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Ne
         const auto fault = check.fault_of(vehicle, demand.types.at(vehicle.type).text("vClass"));
         if (!fault) return false;
         left_out.add("vehicles that cannot drive their route", fmt::format("{}: {}", vehicle.id, *fault));
-        // Its ways may be lanes that were taken from its class: that cannot be corrected in the files.
+        // It may need lanes that were taken from its class, which cannot be corrected in the files.
         if (demand.types_made_older.contains(vehicle.type)) return true;
         if (problems.size() < named_problems && named.insert({flow_of(vehicle), *fault}).second)
             problems.push_back(
@@ -198,7 +198,7 @@ void find_ways(Import& import, Demand& demand, const std::filesystem::path& netw
         if (!vehicle.is_trip) return false;
         vehicle.edges = ways.at(key_of(vehicle));
         if (vehicle.edges.empty())
-            import.left_out.add("trips without any way between their ends", vehicle.id);
+            import.left_out.add("trips without a route between their ends", vehicle.id);
         return vehicle.edges.empty();
     });
 }

@@ -11,20 +11,19 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Problems that a message names of one kind; the others are like them.
+/// Most problems of one kind that a message names.
 constexpr std::size_t named_problems = 20;
 
-/// Takes out the vehicles that cannot drive as they say, over edges that the network has, that join and that
-/// their class may use, with stops on them that `additional`, the elements of additional files, know; counts
-/// them in `left_out`. Answers them as problems, up to `named_problems` and one
-/// of a flow, for who refuses them.
+/// Removes the vehicles that cannot drive as the files say and counts them in `left_out`: all edges must
+/// exist, join and be open to their class, and stops must lie on them and be defined in `additional`, the
+/// elements of additional files. Returns them as problems, up to `named_problems` and one per flow.
 std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
                                                  const ClassAccess& access,
                                                  const std::vector<Element>& additional, LeftOut& left_out);
 
-/// Finds a way for every trip, with duarouter: the fastest at free flow that the trip's type may use, over
+/// Finds a route for every trip with duarouter: the fastest at free flow that the trip's type may use, over
 /// the edges of its stops. `additional` are the elements of additional files, with the stops and zones that
-/// trips name. Trips without any way are left out, as SUMO does with option ignore-route-errors.
+/// trips name. Trips without a route are left out, as SUMO does with the option ignore-route-errors.
 void find_ways(Import& import, Demand& demand, const std::filesystem::path& network_file,
                const std::vector<Element>& additional);
 

@@ -33,7 +33,7 @@ void PerfectSensor::observe(const truth::Snapshot& snapshot, const traffic::Rost
     write_own_states(snapshot, observation.own_states);
     observation.detected_links.clear();
     observation.signals = snapshot.signals;
-    // Whoever is on the road has reported: the true roster is the one of those that reported.
+    // Every vehicle on the road has reported, so the true roster is that of the vehicles that reported.
     observation.roster = &roster;
 }
 

@@ -4,7 +4,7 @@
 
 namespace clearway::sensing::detail {
 
-/// Every vehicle reports exactly at every step.
+/// Every vehicle reports its exact state at every step.
 class PerfectSensor final : public SensorModel {
   public:
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -13,7 +13,7 @@ class PerfectSensor final : public SensorModel {
                       FailureLog& log) const override;
 };
 
-/// Row `row` as the vehicle itself knows it.
+/// The state of row `row` as the vehicle itself knows it.
 traffic::ObservedVehicle exact_report(const truth::Snapshot& snapshot, core::VehicleIndex row);
 /// The exact reports of all emergency vehicles of the snapshot, ordered by key.
 void write_own_states(const truth::Snapshot& snapshot, std::vector<traffic::ObservedVehicle>& own_states);

@@ -10,10 +10,11 @@
 namespace clearway::sensing::detail {
 namespace {
 
-/// Reaches from a front bumper beyond any vehicle's centre, m.
+/// No vehicle is longer than this, m. Widens the search for vehicles that may hide others.
 constexpr double longest_vehicle_m = 30.0;
 
-/// Who of two neighbours detects the other: emergency vehicles before automated ones before human drivers.
+/// Which of two neighbours detects the other: emergency vehicles before automated ones before human-driven
+/// ones.
 bool detects_first(traffic::VehicleClass one, traffic::VehicleClass other) {
     return static_cast<int>(one) >= static_cast<int>(other);
 }
@@ -47,7 +48,7 @@ bool ReportSensor::round_is_due(double time_s) {
     return true;
 }
 
-/// Whose reports arrive, who is seen by others, and who cannot be reached.
+/// Finds the vehicles whose reports arrive, that are seen by others, and that cannot be reached.
 void ReportSensor::find_reporting(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     reports_.resize(snapshot.size());
     unreachable_.clear();
@@ -153,7 +154,7 @@ void ReportSensor::merge(const std::vector<Report>& reports) {
 
 void ReportSensor::register_vehicle(const traffic::Roster& roster, core::VehicleKey key) {
     const traffic::VehicleInfo* info = roster.find(key);
-    assert(info != nullptr);  // A roster keeps whoever left.
+    assert(info != nullptr);  // A roster keeps vehicles that have left.
     const auto [known, is_new] = known_routes_.try_emplace(key);
     if (!is_new && known->second.true_route == info->route) return;
     const core::RouteIndex route =
@@ -171,7 +172,7 @@ void ReportSensor::register_vehicle(const traffic::Roster& roster, core::Vehicle
 void ReportSensor::register_seen(const traffic::Roster& roster, core::VehicleKey key) {
     if (roster_.find(key) != nullptr) return;
     const traffic::VehicleInfo* info = roster.find(key);
-    assert(info != nullptr);  // A roster keeps whoever left.
+    assert(info != nullptr);  // A roster keeps vehicles that have left.
     traffic::VehicleInfo seen;
     seen.key = info->key;
     seen.id = info->id;
@@ -214,7 +215,7 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
     for (const traffic::ObservedVehicle& own : observation.own_states) {
         register_vehicle(roster, own.key);
     }
-    // Of a vehicle that never reported nobody knows who it is that is detected.
+    // The identity of a vehicle that never reported is unknown, so its detections are dropped.
     observation.detected_links.clear();
     for (const traffic::DetectedLink& link : detected_links_) {
         if (last_report(link.from) != nullptr && last_report(link.to) != nullptr) {
@@ -231,7 +232,7 @@ const ReportSensor::Report* ReportSensor::last_report(core::VehicleKey key) cons
 }
 
 bool ReportSensor::was_detected(core::VehicleKey left, core::VehicleKey right) const {
-    // Rounds list detections by (lower key, higher key), as the rows of the snapshot were.
+    // Rounds list detections by (lower key, higher key), in the order of the snapshot's rows.
     return std::ranges::binary_search(
         detected_links_, std::pair(left, right), {}, [](const traffic::DetectedLink& link) {
             return std::pair(std::min(link.from, link.to), std::max(link.from, link.to));

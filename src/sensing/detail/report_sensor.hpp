@@ -13,9 +13,9 @@
 
 namespace clearway::sensing::detail {
 
-/// Vehicles report in rounds; reports get lost, delayed and wrong as the configuration says; the last one of
-/// each vehicle stays known. What others see of a vehicle that does not report counts as its report, with a
-/// stated error.
+/// Vehicles report in rounds. Reports are lost, delayed and wrong as configured; the last one of each vehicle
+/// stays known. If a vehicle does not report but others see it, that counts as its report, with a stated
+/// error.
 class ReportSensor final : public SensorModel {
   public:
     ReportSensor(const FailureConfig& config, const core::KeyedRandom& random, const SensorContext& context);
@@ -28,7 +28,7 @@ class ReportSensor final : public SensorModel {
 
   private:
     enum class Source : std::uint8_t {
-        itself,  ///< Tells its route as well.
+        itself,  ///< Reports its route as well.
         others,
     };
     struct Report {
@@ -39,7 +39,7 @@ class ReportSensor final : public SensorModel {
         Source source = Source::itself;
         traffic::MotionState state;
     };
-    /// The reports of one round that were not lost, on their way. Ordered by key.
+    /// The reports of one round that were not lost, while they are on their way. Ordered by key.
     struct Round {
         double measured_s = 0.0;
         std::vector<Report> reports;
@@ -52,9 +52,9 @@ class ReportSensor final : public SensorModel {
     void detect_links(const truth::Snapshot& snapshot, Round& round);
     bool deliver(const traffic::Roster& roster, double time_s);
     void merge(const std::vector<Report>& reports);
-    /// One that reports, or an emergency vehicle, which knows itself.
+    /// Registers a vehicle that reports, or an emergency vehicle, which knows itself.
     void register_vehicle(const traffic::Roster& roster, core::VehicleKey key);
-    /// One that others see: what can be seen of it, without a route.
+    /// Registers a vehicle that others see: what can be seen of it, without a route.
     void register_seen(const traffic::Roster& roster, core::VehicleKey key);
     void drop_gone_and_forgotten(const truth::Snapshot& snapshot);
     void write(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -74,15 +74,15 @@ class ReportSensor final : public SensorModel {
 
     std::optional<ReportNumber> report_;  ///< Number of the latest round.
     std::deque<Round> on_their_way_;
-    std::vector<Round> spare_rounds_;  ///< Their buffers are used again.
+    std::vector<Round> spare_rounds_;  ///< Kept for their buffers.
     std::vector<Report> last_reports_, merged_;
     std::vector<traffic::DetectedLink> detected_links_;
     double newest_measured_s_ = -1.0;    ///< When the newest round that arrived was measured.
-    std::vector<std::uint8_t> reports_;  ///< 1 where the report arrives. By row of the snapshot of a round.
-    std::vector<float> seen_sigma_m_;    ///< Likewise; negative where nothing arrives.
+    std::vector<std::uint8_t> reports_;  ///< By row of a round's snapshot: 1 if the report arrives.
+    std::vector<float> seen_sigma_m_;    ///< Likewise: error of the position; negative if nothing arrives.
     std::vector<core::VehicleKey> unreachable_;
 
-    traffic::Roster roster_;  ///< Of those that reported, and of all emergency vehicles.
+    traffic::Roster roster_;  ///< Of the vehicles that reported, and of all emergency vehicles.
     struct KnownRoute {
         core::RouteIndex true_route, own_route;
     };

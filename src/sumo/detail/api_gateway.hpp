@@ -13,14 +13,13 @@
 #include "sumo/detail/gateway.hpp"
 
 // The gateway over libsumo, or over libtraci in a file that includes <libsumo/libtraci.h> first: both declare
-// the same functions, each in a namespace of its own, which LIBSUMO_NAMESPACE names. They cannot meet in one
-// file.
+// the same functions, each in its own namespace, which LIBSUMO_NAMESPACE names. One file cannot include both.
 
 namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE {
 
 namespace api = ::LIBSUMO_NAMESPACE;
 
-/// Calls SUMO; everything it throws derives from std::exception, but not from one family.
+/// Calls SUMO. Its exceptions have no common base but std::exception.
 template <class Call>
 auto call(Call&& to_sumo) {
     try {
@@ -180,7 +179,8 @@ class ApiGateway : public Sumo {
         return call([&] {
             const auto [own, commanded] = api::Vehicle::getLaneChangeState(vehicle, direction);
             const int wanted = direction < 0 ? change_to_right : change_to_left;
-            // A vehicle that wanted to and could has just changed: its state is that of the former lane.
+            // A vehicle that wanted to change and could has just done so: its state is that of the former
+            // lane.
             const bool has_changed = (commanded & change_blocked) == 0 && (commanded & wanted) != 0;
             return own != change_unknown && !has_changed && (own & change_blocked) == 0;
         });

@@ -33,7 +33,7 @@ int lane_change_mode(traffic::LaneChangeFreedom freedom) {
         case traffic::LaneChangeFreedom::none:
             return lane_change_none;
     }
-    throw std::invalid_argument("unknown freedom of lane change");
+    throw std::invalid_argument("unknown lane change freedom");
 }
 
 void require_duration(const Vehicle& vehicle, core::Seconds duration) {
@@ -63,7 +63,7 @@ Vehicle* Commander::on_road(core::VehicleKey key) {
 
 void Commander::run(const traffic::SetSpeed& command) {
     require(std::isfinite(command.speed.value) && command.speed.value >= 0.0,
-            fmt::format("a speed of {} m/s is not a number from 0", command.speed.value));
+            fmt::format("a speed of {} m/s is not a finite number of at least 0", command.speed.value));
     if (const Vehicle* vehicle = present(command.vehicle)) sumo_.set_speed(vehicle->id, command.speed.value);
 }
 
@@ -85,7 +85,7 @@ void Commander::run(const traffic::RequestLane& command) {
 
 void Commander::run(const traffic::ReleaseLane& command) {
     const Vehicle* vehicle = on_road(command.vehicle);
-    // A request for the present lane that is over at once replaces the former one.
+    // A request for the present lane that ends at once replaces the former one.
     if (vehicle != nullptr) sumo_.change_lane(vehicle->id, sumo_.lane_number(vehicle->id), 0.0);
 }
 

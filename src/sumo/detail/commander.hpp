@@ -11,18 +11,15 @@
 
 namespace clearway::sumo::detail {
 
-/// Carries out commands and checks what SUMO would swallow.
+/// Carries out commands and checks what SUMO would ignore silently.
 ///
-/// Modes are those of SUMO: speedMode 31 and laneChangeMode 1621 are its defaults, with every safety check.
-/// - LaneChangeFreedom::strategic_only is 1537: no changes for speed, cooperation or the right lane, but
-/// those
-///   that the route demands; others' gaps are respected.
-/// - LaneChangeFreedom::none is 1536: no change of its own, gaps respected, and lateral alignment still
-/// works.
-///   SUMO's 512 would forbid that as well without saying so.
-/// - JunctionPrivilege::pass_red is speedMode 15: red does not hold the vehicle, right of way does. How
-/// slowly
-///   it passes is the type's jmDriveRedSpeed; SUMO 1.15 cannot change that of a vehicle on its way.
+/// SUMO's modes: speedMode 31 and laneChangeMode 1621 are its defaults, with every safety check.
+/// - LaneChangeFreedom::strategic_only is 1537: only changes that the route demands, none for speed,
+///   cooperation or the right lane; gaps of others are respected.
+/// - LaneChangeFreedom::none is 1536: no changes of its own; gaps are respected and lateral alignment works.
+///   SUMO's 512 would silently forbid lateral alignment too.
+/// - JunctionPrivilege::pass_red is speedMode 15: the vehicle ignores red but respects right of way. The
+///   type's jmDriveRedSpeed limits its speed; SUMO 1.15 cannot change that for a vehicle under way.
 /// - SafetyChecks::off is speedMode 0 and laneChangeMode 0, whatever else is set.
 class Commander {
   public:
@@ -30,7 +27,7 @@ class Commander {
     Commander(gateway::Sumo& sumo, Fleet& fleet, const NameTable& names, traffic::LateralModel lateral)
         : sumo_(sumo), fleet_(fleet), names_(names), lateral_(lateral), step_s_(sumo.step_length_s()) {}
 
-    /// Throws std::invalid_argument as Session::apply says.
+    /// Throws std::invalid_argument as Session::apply does.
     void carry_out(const traffic::Command& command);
     std::uint64_t skipped() const { return skipped_; }
     std::uint64_t refused() const { return refused_; }
@@ -49,9 +46,9 @@ class Commander {
     void run(const traffic::SetSignalState& command);
     void run(const traffic::RestoreProgram& command);
 
-    /// Nothing, and counted, when the vehicle has left.
+    /// Null, and counted, when the vehicle has left.
     Vehicle* present(core::VehicleKey key);
-    /// The same for a vehicle that is being teleported.
+    /// The same also for a vehicle that is teleported or parked.
     Vehicle* on_road(core::VehicleKey key);
     const std::string& signal_name(core::SignalIndex signal) const;
     void set_modes(const Vehicle& vehicle) const;
@@ -61,7 +58,8 @@ class Commander {
     const NameTable& names_;
     traffic::LateralModel lateral_;
     double step_s_;
-    std::unordered_map<std::string, std::string> background_programs_;  ///< Of signals that show a set state.
+    /// For signals that show a commanded state.
+    std::unordered_map<std::string, std::string> background_programs_;
     std::uint64_t skipped_ = 0;
     std::uint64_t refused_ = 0;
 };

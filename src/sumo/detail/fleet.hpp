@@ -14,7 +14,7 @@
 
 namespace clearway::sumo::detail {
 
-/// What commands have changed about a vehicle, so that it can be given back.
+/// What commands have changed about a vehicle, so that it can be restored.
 struct Controls {
     traffic::LaneChangeFreedom freedom = traffic::LaneChangeFreedom::normal;
     traffic::SafetyChecks checks = traffic::SafetyChecks::on;
@@ -30,7 +30,7 @@ struct Vehicle {
     traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
     float deceleration_mps2 = 4.5F;
     float emergency_deceleration_mps2 = 9.0F;
-    bool on_road = false;   ///< False during a teleport.
+    bool on_road = false;   ///< False while teleported or parked.
     std::uint32_t row = 0;  ///< In the snapshot, while on the road.
     std::string route_id;
     Controls controls;
@@ -44,12 +44,12 @@ struct Vehicle {
     bool braking_hard = false;
 };
 
-/// The vehicles in the network, kept up to date from SUMO's lists of departures and arrivals, which costs a
-/// fiftieth of asking for all ids. Two orders: by SUMO id for reading (SUMO finds neighbours in its map
-/// faster), by key for the rows of the snapshot. Pointers stay valid until `erase`.
+/// The vehicles in the network, kept up to date from SUMO's lists of departures and arrivals, which is 50
+/// times cheaper than asking for all ids. Kept in two orders: by SUMO id for reading, which is faster in
+/// SUMO's map, and by key for the rows of the snapshot. Pointers stay valid until `erase`.
 class Fleet {
   public:
-    /// Adds a vehicle, off the road. Returns the present one when the id is known.
+    /// Adds a vehicle, off the road. Returns the existing one when the id is known.
     Vehicle& insert(const std::string& id);
     void erase(const std::string& id);
     void put_on_road(Vehicle& vehicle);
@@ -59,7 +59,7 @@ class Fleet {
     Vehicle* find(core::VehicleKey key);
     /// Vehicles on the road, ordered by SUMO id.
     const std::vector<Vehicle*>& on_road() const { return by_id_; }
-    /// Gives every vehicle on the road its row: its rank by key. O(n) after a change, else nothing.
+    /// Gives every vehicle on the road its row: its rank by key. O(n) after a change, otherwise free.
     void number_rows();
     /// Vehicles on the road, ordered by key.
     const std::vector<Vehicle*>& rows() const { return by_key_; }

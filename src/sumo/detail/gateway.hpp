@@ -12,10 +12,11 @@
 
 // Every call to SUMO, in plain types. Each function turns whatever SUMO throws (TraCIException,
 // FatalTraCIError, or an undeclared ProcessError) into core::SimulatorError with SUMO's text; the caller adds
-// time and log. Nothing here checks what SUMO would swallow: that is for the callers.
+// time and log. Callers must check what SUMO would ignore silently.
 //
-// api_gateway.hpp and remote_gateway.cpp alone include SUMO's own headers. libsumo and libtraci declare the
-// same functions in two namespaces, so it is compiled once for each (docs/decisions/0004-two-gateways.md).
+// Only api_gateway.hpp and remote_gateway.cpp include SUMO's own headers. libsumo and libtraci declare the
+// same functions in two namespaces, so api_gateway.hpp is compiled once for each
+// (docs/decisions/0004-two-gateways.md).
 
 namespace clearway::sumo::detail::gateway {
 
@@ -34,7 +35,7 @@ struct VehicleReading {
     double lane_position_m = 0.0;
     std::string lane;
 };
-/// Where a vehicle of the simulation is. A parked one stands beside its lane and comes back.
+/// Where a vehicle of the simulation is. A parked one is beside its lane and comes back.
 enum class Presence : std::uint8_t { on_road, parked, off_road };
 
 struct BestLane {
@@ -69,7 +70,7 @@ struct Stop {
     double duration_s = 0.0;
 };
 
-/// SUMO, wherever it runs. One simulation; one thread.
+/// SUMO, wherever it runs. One simulation; single-threaded.
 class Sumo {
   public:
     Sumo() = default;
@@ -96,7 +97,7 @@ class Sumo {
     virtual std::vector<CollisionReport> collisions() = 0;
 
     // --- Vehicles ---
-    /// All vehicles of the simulation, those that are being teleported included.
+    /// All vehicles of the simulation, including teleported ones.
     virtual std::vector<std::string> vehicle_ids() = 0;
     /// Fills `reading` of a vehicle on the road.
     virtual Presence read(const std::string& vehicle, VehicleReading& reading) = 0;
@@ -110,7 +111,7 @@ class Sumo {
     virtual double lane_position_m(const std::string& vehicle) = 0;
     virtual double speed_mps(const std::string& vehicle) = 0;
     virtual double allowed_speed_mps(const std::string& vehicle) = 0;
-    /// Direction -1 or 1. SUMO's judgement of its last lane-change decision.
+    /// Direction is -1 or 1. The answer is SUMO's, from its last lane-change decision.
     virtual bool could_change_lane(const std::string& vehicle, int direction) = 0;
     virtual std::vector<BestLane> best_lanes(const std::string& vehicle) = 0;
 
@@ -154,27 +155,27 @@ class Sumo {
     virtual void set_signal_state(const std::string& signal, const std::string& state) = 0;
     virtual void set_signal_program(const std::string& signal, const std::string& program) = 0;
     virtual void set_signal_phase(const std::string& signal, std::uint32_t phase) = 0;
-    /// From now on, of the phase that runs.
+    /// Remaining duration of the running phase.
     virtual void set_signal_phase_duration(const std::string& signal, double duration_s) = 0;
 
-    // --- Pictures, which change no result ---
+    // --- Drawing, which changes no result ---
     virtual void colour_vehicle(const std::string& vehicle, const Colour& colour) = 0;
     virtual void add_stroke(const std::string& name, const Stroke& stroke) = 0;
     virtual void move_stroke(const std::string& name, const std::vector<Spot>& points) = 0;
     virtual void remove_stroke(const std::string& name) = 0;
     // A SUMO in this process has no window.
     virtual bool has_view() { return false; }
-    /// Shows at least so many metres to each side of a vehicle on the road.
+    /// Shows at least this many metres to each side of a vehicle on the road.
     virtual void show_around(const std::string& /*vehicle*/, double /*metres*/) {}
-    /// The view goes with a vehicle; with an empty id it stays where it is.
+    /// The view follows a vehicle; with an empty id it stays where it is.
     virtual void track(const std::string& /*vehicle*/) {}
 };
 
-/// libsumo: SUMO in this process, to be loaded.
+/// libsumo: SUMO in this process, not loaded yet.
 std::unique_ptr<Sumo> in_this_process();
-/// libtraci: a SUMO that waits for orders at a port, with its simulation loaded. Reads by subscription, for
-/// a request costs about 200 us. Throws core::EnvironmentError when nobody listens there, something else than
-/// SUMO 1.15 does, or it does not answer for `patience`.
+/// libtraci: a SUMO that waits for a client at a port, with its simulation loaded. Reads by subscription,
+/// because a request costs about 200 us. Throws core::EnvironmentError when nothing listens there, something
+/// other than SUMO 1.15 does, or it does not answer within `patience`.
 std::unique_ptr<Sumo> at(const std::string& host, int port, core::Seconds patience);
 
 }  // namespace clearway::sumo::detail::gateway

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kept_lines = 12;
 
-/// Writes as much as the system takes. A full disk does not stop a simulation because of its log; it is
-/// noticed where the trip table is checked.
+/// Writes as much as possible. A full disk must not stop a simulation because of its log; the check of the
+/// trip table notices it.
 void write_all(int descriptor, const char* text, std::size_t count) {
     while (count > 0) {
         const ssize_t written = ::write(descriptor, text, count);

@@ -8,11 +8,11 @@
 
 namespace clearway::sumo::detail {
 
-/// Receives what SUMO prints: every message goes to a file at once, so that the file is whole even when SUMO
-/// aborts, and the last lines are kept for error messages.
+/// Receives what SUMO prints: every message goes to a file at once, so that the file is complete even when
+/// SUMO aborts; the last lines are kept for error messages.
 ///
-/// SUMO's own `--log` lost: it is buffered, so its end is missing just when it is needed, and it holds wall
-/// times, so two equal runs would differ.
+/// SUMO's own `--log` was rejected: it is buffered, so its end is missing just when it is needed, and it
+/// contains wall times, so equal runs would differ.
 class MessageLog : public std::streambuf {
   public:
     /// Creates or truncates `file`. Throws core::EnvironmentError when that fails.
@@ -34,8 +34,8 @@ class MessageLog : public std::streambuf {
     std::deque<std::string> last_lines_;
 };
 
-/// While it lives, what is written to std::cerr (SUMO's channel for warnings and errors, in this very
-/// process) goes to the log.
+/// During its lifetime, everything that is written to std::cerr (SUMO's channel for warnings and errors in
+/// this process) goes to the log.
 class MessageCapture {
   public:
     explicit MessageCapture(MessageLog& log);

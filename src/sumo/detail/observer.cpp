@@ -10,7 +10,7 @@ namespace clearway::sumo::detail {
 namespace {
 
 constexpr double route_check_period_s = 1.0;
-/// No road vehicle accelerates harder; bounds how far one gets in a step.
+/// No road vehicle accelerates harder; limits how far one gets in a step.
 constexpr double acceleration_bound_mps2 = 10.0;
 /// SUMO's tolerance in its criterion for emergency braking.
 constexpr float braking_tolerance_mps2 = 0.001F;
@@ -127,7 +127,7 @@ void Observer::take_collisions(truth::Events& events) {
 }
 
 bool Observer::stands(const std::string& id) {
-    constexpr float standing_mps = 0.1F;  // SUMO's own bound for halting
+    constexpr float standing_mps = 0.1F;  // SUMO's own limit for halting
     const Vehicle* vehicle = fleet_.find(id);
     return vehicle != nullptr && vehicle->speed_mps < standing_mps;
 }
@@ -185,7 +185,8 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
             store(*vehicle, snapshot);
             note_braking(*vehicle, events);
         }
-        // SUMO tells of a removal after a collision a step late: the rows are read again without the vehicle.
+        // SUMO reports a removal after a collision one step late: the rows are read again without the
+        // vehicle.
     } while (!gone.empty());
 }
 

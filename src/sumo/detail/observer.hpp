@@ -17,31 +17,30 @@ namespace clearway::sumo::detail {
 
 /// Reads state and events after each step.
 ///
-/// - A vehicle is on the road from departure to arrival, except while it is being teleported. Parked
-///   vehicles count as on the road.
-/// - It arrived when it could have driven to its destination edge since the last reading; a vehicle that SUMO
-///   takes out before, or during a teleport, was removed.
-/// - An emergency braking begins in the step in which the deceleration d first satisfies SUMO's criterion for
-///   its own warning, (d - usual) / (emergency - usual) >= 1, with the type's usual and emergency
+/// - A vehicle is on the road from departure to arrival, except while it is teleported or parked.
+/// - It arrived if it could have driven to its destination edge since the last reading; a vehicle that SUMO
+///   takes out earlier, or during a teleport, was removed.
+/// - An emergency braking begins in the step in which the deceleration d first satisfies the criterion of
+///   SUMO's own warning, (d - usual) / (emergency - usual) >= 1, with the type's usual and emergency
 ///   deceleration.
-/// - Two vehicles in contact are one collision while SUMO reports the contact in consecutive steps, whoever
-///   is named first. Pedestrians who walk into a standing vehicle collide with nobody: in SUMO they do not
-///   see those that stand on a crossing.
-/// - A route that changes under way is noticed within a second of simulated time: asking each step would add
-///   a seventh to the cost of reading, for demand that hardly ever reroutes.
+/// - Two vehicles in contact are one collision while SUMO reports the contact in consecutive steps, in
+///   either order. A pedestrian who walks into a standing vehicle is not a collision: in SUMO, pedestrians
+///   do not see vehicles that stand on a crossing.
+/// - A change of route is noticed within a second of simulated time: asking in each step would add a seventh
+///   to the cost of reading, for demand that hardly ever reroutes.
 class Observer {
   public:
     /// `sumo` and `names` outlive the observer.
     Observer(gateway::Sumo& sumo, const NameTable& names) : sumo_(sumo), names_(names), types_(sumo) {}
 
-    /// A vehicle of this id is an emergency vehicle of this kind, whatever its type says.
+    /// Makes the vehicle with this id an emergency vehicle of this kind, whatever its type says.
     void declare_emergency(const std::string& id, traffic::VehicleKind kind) { declared_.emplace(id, kind); }
 
-    /// Vehicles that are in the simulation already count as known, with no departure.
+    /// Takes vehicles that are already in the simulation as known, without a departure.
     void take_present();
     /// Reads what the last step did.
     void observe(truth::Snapshot& snapshot, truth::Events& events);
-    /// Signals and time alone, before the first step.
+    /// Reads only signals and time, before the first step.
     void observe_signals(truth::Snapshot& snapshot);
 
     Fleet& fleet() { return fleet_; }

@@ -17,8 +17,8 @@ namespace {
 
 using Option = std::pair<std::string, std::string>;
 
-/// What the session decides itself: an extra argument must not change it behind its back. The last one drops
-/// vehicles without a trace, even from the trip table.
+/// Options that the session sets itself, so extra arguments must not change them. The last one drops vehicles
+/// without a trace, even from the trip table.
 constexpr std::array<std::string_view, 15> reserved = {"--net-file",
                                                        "--route-files",
                                                        "--additional-files",
@@ -59,10 +59,10 @@ std::vector<Option> fault_options() {
         // The default teleports colliding vehicles away, which hides the collision and clears the road.
         {"--collision.action", "warn"},
         {"--collision.check-junctions", "true"},
-        // A collision is physical contact. By default it is a gap below half of minGap (IDM): a matter of
-        // taste in following, which would drown the contacts.
+        // A collision is physical contact. By default it is a gap below half of minGap (IDM), which depends
+        // on the car-following style and would hide the real contacts.
         {"--collision.mingap-factor", "0"},
-        // A vehicle that never arrives or never departs must not drop out of the means.
+        // Vehicles that never arrive or never depart must not drop out of the means.
         {"--tripinfo-output.write-unfinished", "true"},
         {"--tripinfo-output.write-undeparted", "true"},
         // Messages come through std::cerr (see MessageLog); wall times would differ between equal runs.
@@ -74,7 +74,7 @@ std::vector<Option> fault_options() {
 std::vector<Option> scenario_options(const SessionConfig& config) {
     std::vector<Option> options = {
         {"--net-file", config.network.string()},
-        // Everything at once: forked children would share the offset of a route file that is still being
+        // Load everything at once: forked children would share the offset of a route file that is still being
         // read.
         {"--route-steps", "0"},
         {"--begin", fmt::format("{}", config.begin.value)},

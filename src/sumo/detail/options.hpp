@@ -14,14 +14,15 @@ inline constexpr const char* log_file = "sumo.log";
 /// Throws core::InputError with every range or extra argument of `config` that cannot work.
 void check(const SessionConfig& config);
 
-/// Makes `folder`, gives its canonical path and proves that the trip table can be written there: SUMO, loaded
-/// on an unwritable output, steps into a segmentation fault. Throws core::EnvironmentError.
+/// Makes `folder`, returns its canonical path and checks that the trip table can be written there, because
+/// with an unwritable output SUMO crashes (segmentation fault). Throws core::EnvironmentError.
 std::filesystem::path prepare_folder(const std::filesystem::path& folder);
 
-/// SUMO's arguments, without the name of the program. An extra argument replaces the default of its name.
+/// SUMO's arguments, without the name of the program. An extra argument replaces the default of the same
+/// name.
 std::vector<std::string> arguments(const SessionConfig& config);
 
-/// Points SUMO_HOME at the installation that was found at build time, unless the user has set it.
+/// Sets SUMO_HOME to the installation that was found at build time, unless the user has set it.
 void set_sumo_home();
 
 }  // namespace clearway::sumo::detail

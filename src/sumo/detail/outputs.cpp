@@ -51,7 +51,7 @@ std::set<int> Outputs::open_descriptors() {
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
         descriptors.insert(std::stoi(entry.path().filename().string()));
     }
-    // The listing's own descriptor is among them, and closed by now.
+    // The descriptor of the listing itself is among them, but closed by now.
     std::erase_if(descriptors, [](int descriptor) { return ::fcntl(descriptor, F_GETFD) < 0; });
     return descriptors;
 }

@@ -5,8 +5,8 @@
 namespace clearway::sumo::detail {
 namespace {
 
-/// Half the side of what the view shows around the first vehicle that it follows: some hundred metres of road
-/// and the next junction. Later the user's own zoom stays.
+/// Distance that the view shows to each side of the first vehicle that it follows, m: enough road and the
+/// next junction. Later the user's own zoom stays.
 constexpr double shown_m = 100.0;
 
 std::string name_of(std::size_t stroke) {

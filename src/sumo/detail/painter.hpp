@@ -10,8 +10,8 @@
 
 namespace clearway::sumo::detail {
 
-/// Brings SUMO from one drawing to the next with few calls, for each is a request over a connection: what
-/// stays is not sent again, and strokes move as long as their style does.
+/// Updates SUMO from one drawing to the next with few calls, because each is a request over a connection:
+/// what stays is not sent again, and strokes are moved while their style stays the same.
 class Painter {
   public:
     /// Both outlive the painter.

@@ -16,7 +16,7 @@ namespace {
 namespace api = ::libtraci;
 namespace key = ::libsumo;
 
-constexpr const char* view = "View #0";  // sumo-gui's first
+constexpr const char* view = "View #0";  // sumo-gui's first view
 
 using Results = ::libsumo::TraCIResults;
 
@@ -33,7 +33,7 @@ const Result& result(const Results& results, int variable) {
     const auto* const typed =
         found == results.end() ? nullptr : dynamic_cast<const Result*>(found->second.get());
     if (typed == nullptr)
-        throw core::SimulatorError(fmt::format("SUMO does not tell the variable 0x{:02x}", variable));
+        throw core::SimulatorError(fmt::format("SUMO does not report the variable 0x{:02x}", variable));
     return *typed;
 }
 
@@ -45,7 +45,7 @@ const std::string& text(const Results& results, int variable) {
     return result<::libsumo::TraCIString>(results, variable).value;
 }
 
-/// What is read in every step comes with the answer to the step: SUMO sends it unasked once it is subscribed.
+/// Variables that are read in every step are subscribed to: SUMO sends them with its answer to the step.
 class RemoteGateway : public libtraci::ApiGateway {
   public:
     RemoteGateway() = default;
@@ -55,7 +55,7 @@ class RemoteGateway : public libtraci::ApiGateway {
         try {
             close();
         } catch (const core::SimulatorError&) {
-            // Whoever wants to know how it ended has closed it before.
+            // Callers that want to know about errors call close().
         }
     }
 
@@ -141,12 +141,12 @@ class RemoteGateway : public libtraci::ApiGateway {
         libtraci::call([&] { api::Vehicle::subscribe(vehicle, read_variables()); });
     }
 
-    bool is_open_ = true;                      ///< libtraci crashes on what is asked after the end.
+    bool is_open_ = true;                      ///< libtraci crashes on requests after the end.
     std::unordered_set<std::string> signals_;  ///< Subscribed.
 };
 
-/// The version that a SUMO at the place tells. libtraci waits for ever for an answer, so it does that in a
-/// thread of its own, which is left behind when the patience is over: the process ends then, too.
+/// The version that the SUMO at this address reports. libtraci waits for ever for an answer, so this runs in
+/// its own thread, which is abandoned when `patience` is over; the process ends then, too.
 std::string greet(const std::string& host, int port, core::Seconds patience) {
     auto promise = std::make_shared<std::promise<std::string>>();
     std::future<std::string> answer = promise->get_future();
@@ -158,10 +158,10 @@ std::string greet(const std::string& host, int port, core::Seconds patience) {
         }
     }).detach();
     if (answer.wait_for(std::chrono::duration<double>(patience.value)) != std::future_status::ready)
-        throw core::EnvironmentError(fmt::format(
-            "{}:{} does not answer as SUMO does within {} s. Start SUMO with --remote-port {}, and give "
-            "the port of SUMO",
-            host, port, patience.value, port));
+        throw core::EnvironmentError(
+            fmt::format("{}:{} does not answer like SUMO within {} s. Start SUMO with --remote-port {}, "
+                        "and give the port of SUMO",
+                        host, port, patience.value, port));
     try {
         return answer.get();
     } catch (const std::exception& fault) {
@@ -171,7 +171,7 @@ std::string greet(const std::string& host, int port, core::Seconds patience) {
     }
 }
 
-/// `1.15` of `SUMO 1.15.0`.
+/// `1.15` from `SUMO 1.15.0`.
 std::string release(const std::string& version) {
     const std::size_t from = version.find_first_of("0123456789");
     if (from == std::string::npos) return version;
@@ -181,15 +181,15 @@ std::string release(const std::string& version) {
 }  // namespace
 
 std::unique_ptr<Sumo> at(const std::string& host, int port, core::Seconds patience) {
-    // A connection that breaks is an error of the call, not the end of the process.
+    // A broken connection must be an error of the call, not the end of the process.
     std::signal(SIGPIPE, SIG_IGN);
     const std::string there = greet(host, port, patience);
     auto sumo = std::make_unique<RemoteGateway>();
     const std::string here = in_this_process()->version();
     if (release(there) != release(here))
         throw core::EnvironmentError(fmt::format(
-            "{}:{} is {}, and this Clearway is built with {}: variables differ. Start a SUMO {} there", host,
-            port, there, here, release(here)));
+            "{}:{} is {}, but this Clearway is built with {}, whose variables differ. Start a SUMO {} there",
+            host, port, there, here, release(here)));
     return sumo;
 }
 
