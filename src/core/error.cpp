@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace clearway::core {
 namespace {
@@ -48,6 +49,10 @@ std::string format_problem(const Problem& problem) {
     if (!problem.allowed.empty()) text += fmt::format(" (allowed: {})", problem.allowed);
     if (!problem.cure.empty()) text += fmt::format(". {}", problem.cure);
     return text;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {

@@ -77,6 +77,9 @@ class ConflictError : public Error {
 /// One line per problem: `where: what (allowed: ...). cure`.
 std::string format_problem(const Problem& problem);
 
+/// `a, b, c`.
+std::string listed(const std::vector<std::string>& words);
+
 /// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near (more than a
 /// third differs).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);

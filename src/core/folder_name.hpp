@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace clearway::core {
@@ -8,6 +9,10 @@ namespace clearway::core {
 /// SUMO, which takes commas and blanks for separators. ASCII letters, digits and `_-.+=`, not starting with
 /// `.`, at most 100 bytes, for names of files are longer than it and must stay below 255.
 bool is_folder_name(std::string_view name);
+
+/// `text` with `_` in place of each character that a folder name cannot have, and of `=` and `+`, which
+/// separate fields in names.
+std::string as_folder_name(std::string text);
 
 /// The rule in words, for messages.
 constexpr const char* folder_name_rule = "1 to 100 letters, digits and _ - . + =, not starting with '.'";

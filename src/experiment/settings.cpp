@@ -85,10 +85,6 @@ std::string question(const std::string& near) {
     return near.empty() ? "`clearway list settings` shows them all" : fmt::format("Did you mean '{}'?", near);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 void check_model(const ConditionSpec& condition, const std::string& where,
                  std::vector<core::Problem>& problems) {
     if (condition.model_file.empty()) return;
@@ -101,14 +97,6 @@ void check_model(const ConditionSpec& condition, const std::string& where,
             problems.push_back(std::move(problem));
         }
     }
-}
-
-/// Replaces characters that a folder name cannot have, and the separator of fields, with `_`.
-std::string folder_text(std::string text) {
-    for (char& letter : text) {
-        if (letter == '=' || !core::is_folder_name(std::string("x") + letter)) letter = '_';
-    }
-    return text;
 }
 
 /// `lead_s_12`; with the component if several settings share the last name.
@@ -186,7 +174,7 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     const Component* const known = component_named(component);
     if (known == nullptr)
         return {{where + name, "is unknown",
-                 "COMPONENT.NAME, the component being one of " + joined(component_names()),
+                 "COMPONENT.NAME, the component being one of " + core::listed(component_names()),
                  question(meant(name, component_names()))}};
     return known->table.check({{field, value}}, where + component + ".");
 }
@@ -202,7 +190,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
                 {where + name,
                  fmt::format("is a setting of {}, which the condition does not have", component),
                  present.empty() ? "none: each emergency vehicle is alone on the road"
-                                 : "settings of " + joined(present),
+                                 : "settings of " + core::listed(present),
                  question(meant(name, present))});
             continue;
         }
@@ -235,7 +223,7 @@ std::string described_name(const ConditionSpec& condition) {
     if (condition.safety_checks != usual.safety_checks) words.emplace_back("unchecked");
     for (const auto& [name, value] : condition.settings)
         words.push_back(setting_word(name, value, condition.settings));
-    std::string text = folder_text(fmt::format("{}", fmt::join(words, "_")));
+    std::string text = core::as_folder_name(fmt::format("{}", fmt::join(words, "_")));
     if (text.size() > longest_name) {
         constexpr std::size_t digits = 8;
         text = text.substr(0, longest_name - digits - 1) + "_" + core::content_hash(text).substr(0, digits);

@@ -1,9 +1,7 @@
 #include "study/detail/factors.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -44,17 +42,10 @@ std::string last_part(const std::string& key) {
     return key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);
 }
 
-std::string list_of(const std::vector<std::string>& words) {
-    std::string list;
-    for (const std::string& word : words)
-        list += (list.empty() ? "" : ", ") + word;
-    return list;
-}
-
 void add_unknown(const std::string& where, const std::string& word, const std::vector<std::string>& known,
                  Problems& problems) {
     const std::string near = core::nearest(word, known);
-    problems.push_back({where, fmt::format("'{}' is unknown", word), list_of(known),
+    problems.push_back({where, fmt::format("'{}' is unknown", word), core::listed(known),
                         near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
 }
 
@@ -178,16 +169,6 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
         set_word(factor, value, core::value_from<traffic::SafetyChecks>, condition.safety_checks, problems);
 }
 
-/// Names become folders; replaces characters that a folder name cannot have with `_`.
-std::string folder_text(std::string text) {
-    for (char& letter : text) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-                           std::string_view("_-.").find(letter) != std::string_view::npos;
-        if (!plain) letter = '_';
-    }
-    return text;
-}
-
 }  // namespace
 
 /// Reads `"preempt_signals.lead_s" = [4, 8]`, a setting with its full name in quotes. Returns whether `name`
@@ -218,7 +199,7 @@ Factors read_factors(const toml::table& table, const std::string& file, Problems
             const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
             if (bare)
                 problems.push_back(
-                    {where, "is unknown", list_of(groups()), "Did you mean 'condition." + group + "'?"});
+                    {where, "is unknown", core::listed(groups()), "Did you mean 'condition." + group + "'?"});
             if (!bare) add_unknown(where, group, groups(), problems);
         } else if (const toml::table* below = node.as_table()) {
             read_group(*below, file, group, "", factors.list, problems);
@@ -259,7 +240,7 @@ std::string name_of(const Assignment& assignment, const Factors& factors) {
         const auto alike = std::ranges::count_if(
             factors.list, [&](const Factor& other) { return last_part(other.key) == key; });
         name += fmt::format("+{}={}", alike > 1 ? factor->group + "." + factor->key : key,
-                            folder_text(value->text));
+                            core::as_folder_name(value->text));
     }
     return name;
 }
