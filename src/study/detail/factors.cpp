@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/folder_name.hpp"
 #include "experiment/settings.hpp"
 #include "study/detail/read_settings.hpp"
 
