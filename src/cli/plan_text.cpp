@@ -119,12 +119,12 @@ std::string plan_text(const study::Plan& plan, const std::filesystem::path& fold
         condition_width = std::max(condition_width, cell.condition.name.size());
     }
     std::string text =
-        fmt::format("{:{}}  {:{}}  {:8} {:>6} {:>9}  {}\n", "scenario", scenario_width, "condition",
-                    condition_width, "traffic_model", "runs", "complete", "failure, predictor, policy");
+        fmt::format("{:{}}  {:{}}  {:9} {:>5} {:>9}  {}\n", "scenario", scenario_width, "condition",
+                    condition_width, "traffic", "runs", "complete", "failure, predictor, policy");
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
         text +=
-            fmt::format("{:{}}  {:{}}  {:8} {:6} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
+            fmt::format("{:{}}  {:{}}  {:9} {:5} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
                         condition.name, condition_width, experiment::name(condition.traffic_model), cell.runs,
                         cell.complete, condition.failure, condition.predictor, policy_of(condition));
     }

@@ -11,9 +11,8 @@
 namespace clearway::report {
 namespace {
 
-constexpr std::size_t page_width = 100;
-constexpr std::size_t label_width = 38;
-constexpr std::size_t published_label_width = 35;
+constexpr std::size_t page_width = 80;
+constexpr std::size_t label_width = 22;
 
 /// Names come from files: nothing in them may steer the terminal. For text of several lines.
 std::string safe_table(std::string text) {
@@ -29,6 +28,18 @@ std::string safe_table(std::string text) {
 
 std::string label(const ConditionFacts& condition) {
     return printable(condition.label());
+}
+
+/// The name of a row, padded to where its numbers start; a long name has a line of its own.
+std::string row_start(const ConditionFacts& condition) {
+    const std::string name = "  " + label(condition);
+    if (name.size() < label_width) return fmt::format("{:<{}}", name, label_width);
+    return fmt::format("{}\n{:<{}}", name, "", label_width);
+}
+
+void append_row(std::string line, std::string& text) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
 }
 
 std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
@@ -48,41 +59,48 @@ std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     return text + fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
 }
 
+/// Fits a column of TABLES II to IV.
+const char* short_title(Measure measure) {
+    switch (measure) {
+        case Measure::emergency_waiting_time:
+            return "EV waiting";
+        case Measure::emergency_depart_delay:
+            return "EV depart delay";
+        default:
+            return "average waiting";
+    }
+}
+
 void append_published_table(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
-    struct Column {
-        Measure measure;
-        int width;  ///< Of the mean; the published number takes eight more.
-    };
-    constexpr std::array columns = {Column{Measure::emergency_waiting_time, 15},
-                                    Column{Measure::emergency_depart_delay, 13},
-                                    Column{Measure::waiting_time, 13}};
-    constexpr int published_width = 8;
-    fmt::format_to(out, "{:<{}}", "", published_label_width);
-    for (const Column& column : columns)
-        fmt::format_to(out, "{:>{}}", info(column.measure).title, column.width + published_width);
-    fmt::format_to(out, "\n{:<{}}", "Condition", published_label_width);
-    for (const Column& column : columns)
-        fmt::format_to(out, "{:>{}}{:>{}}", "here, s", column.width - 2, "published", published_width + 2);
+    constexpr std::array columns = {Measure::emergency_waiting_time, Measure::emergency_depart_delay,
+                                    Measure::waiting_time};
+    constexpr int here_width = 13;
+    constexpr int published_width = 6;
+    fmt::format_to(out, "{:<{}}", "Condition", label_width);
+    for (const Measure measure : columns)
+        fmt::format_to(out, "{:>{}}", short_title(measure), here_width + published_width);
+    fmt::format_to(out, "\n{:<{}}", "", label_width);
+    for (std::size_t column = 0; column < columns.size(); ++column)
+        fmt::format_to(out, "{:>{}}{:>{}}", "here, s", here_width - 4, "published", published_width + 4);
     fmt::format_to(out, "\n{:-<{}}\n", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        fmt::format_to(out, "{:<{}}", label(condition), published_label_width);
-        for (const Column& column : columns) {
-            const NumberStyle style{.decimals = decimals_of(scenario, column.measure)};
-            fmt::format_to(out, "{:>{}}{:>{}}",
-                           mean_and_half_width(condition.outcome(column.measure).value, style), column.width,
-                           published_text(scenario, condition, column.measure), published_width);
+        std::string line = row_start(condition);
+        for (const Measure measure : columns) {
+            const NumberStyle style{.decimals = decimals_of(scenario, measure)};
+            line += fmt::format("{:>{}}{:>{}}", mean_and_half_width(condition.outcome(measure).value, style),
+                                here_width, published_text(scenario, condition, measure), published_width);
         }
-        text += '\n';
+        append_row(std::move(line), text);
     }
 }
 
 /// Mean right-aligned, then the interval.
 std::string split_cell(const Estimate& value, NumberStyle style, double factor) {
-    if (!value.mean) return fmt::format("{:>8}  {:<16}", missing(style.script), "");
+    if (!value.mean) return fmt::format("{:>7}  {:<15}", missing(style.script), "");
     const std::string whole = estimate(value, style, factor);
     const std::size_t space = whole.find(' ');
-    return fmt::format("{:>8}  {:<16}", whole.substr(0, space),
+    return fmt::format("{:>7}  {:<15}", whole.substr(0, space),
                        space != std::string::npos ? whole.substr(space + 1)
                        : value.too_few()          ? "too few seeds"
                                                   : "(no interval)");
@@ -120,15 +138,14 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
     const int decimals = decimals_of(scenario, measure.measure);
     for (const ConditionFacts& condition : scenario.conditions) {
         const Outcome& outcome = condition.outcome(measure.measure);
-        std::string line = fmt::format("  {:<{}}", label(condition), label_width - 2);
-        line += split_cell(outcome.value, {.decimals = decimals}, measure.printed_factor);
+        std::string line =
+            row_start(condition) + split_cell(outcome.value, {.decimals = decimals}, measure.printed_factor);
         if (condition.is_compared()) {
             line += split_cell(outcome.difference, {.decimals = decimals, .sign = Sign::always},
-                               measure.printed_factor);
-            line += effect_word(condition, measure.measure);
+                               measure.printed_factor) +
+                    effect_word(condition, measure.measure);
         }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + '\n';
+        append_row(std::move(line), text);
     }
 }
 
@@ -168,14 +185,12 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
 /// Median and 95th percentile over all EVs, those that did not arrive ranked last.
 void append_tails(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
-    fmt::format_to(out, "\n{:<{}}{:>8}  {:<16}{:>8}  {}\n{:-<{}}\n", "EV travel time over all EVs, s",
-                   label_width, "median", "95 % interval", "95th perc.", "95 % interval", "", page_width);
+    fmt::format_to(out, "\nEV travel time over all EVs, s\n{:<{}}{:>7}  {:<14}{:>8}  {}\n{:-<{}}\n", "",
+                   label_width, "median", "95 % interval", "95th pc.", "95 % interval", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        std::string line = fmt::format("  {:<{}}", label(condition), label_width - 2);
-        line += split_cell(condition.travel_time_median, {}, 1.0);
-        line += split_cell(condition.travel_time_percentile_95, {}, 1.0);
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + '\n';
+        append_row(row_start(condition) + split_cell(condition.travel_time_median, {}, 1.0) +
+                       split_cell(condition.travel_time_percentile_95, {}, 1.0),
+                   text);
     }
 }
 
@@ -240,8 +255,8 @@ void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
 
 void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     const bool has_emergency = emergency_vehicles(scenario) > 0;
-    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>8}  {:<16}{:>8}  {:<16}{}\n{:-<{}}\n",
-                   "Measure and condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
+    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<15}{:>7}  {:<15}{}\n{:-<{}}\n",
+                   "Measure, condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
                    "effect", "", page_width);
     for (const MeasureInfo& measure : measures()) {
         const bool wanted = tables == Tables::all || is_essential(measure.measure);
@@ -291,18 +306,16 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval; (<x): its upper end where it is lopsided, for "
-        "none "
-        "reaches below 0. EV travel time, all, of which verdicts speak: an EV that did not arrive counts "
-        "with "
-        "the horizon. lost EVs, hit EVs, unchecked: more EVs than at the baseline did not arrive or "
-        "collided, "
-        "or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of the paired "
-        "differences to the "
-        "baseline of the "
-        "same replication; better or worse when its interval excludes 0; negligible where an EV's time "
-        "changes by less than what counts ("
-        "--least-difference).",
+        "here: mean and half width of its 95 % interval; (<x): the upper end where the interval is lopsided, "
+        "because it cannot reach below 0. EV travel time, all: verdicts follow it, and an EV that did not "
+        "arrive "
+        "counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline did not arrive "
+        "or "
+        "collided, or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of "
+        "the "
+        "paired differences to the baseline of the same replication; better or worse when its interval "
+        "excludes "
+        "0; negligible where an EV's time changes by less than what counts (--least-difference).",
         text);
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(

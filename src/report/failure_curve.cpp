@@ -158,21 +158,21 @@ std::string failure_table(const std::vector<FailureCurve>& curves) {
     std::string text;
     auto out = std::back_inserter(text);
     for (const FailureCurve& curve : curves) {
-        fmt::format_to(out, "{:=<100}\nBenefit against failure: {}, policy {}{}{}\n\n", "", curve.scenario,
+        fmt::format_to(out, "{:=<80}\nBenefit against failure: {}, policy {}{}{}\n\n", "", curve.scenario,
                        curve.policy, curve.failure.empty() ? "" : "; failure ", curve.failure);
-        fmt::format_to(out, "{:<20}{:>10}  {:<24}{:<22}{}\n{:-<100}\n", "Repair", "dark",
-                       "EV travel time, diff., s", "link F1", "benefit", "");
+        fmt::format_to(out, "{:<22}{:>6}  {:<20}{:<20}{}\n{:-<80}\n", "Repair", "dark", "EV time, diff., s",
+                       "link F1", "benefit", "");
         for (const FailureLine& line : curve.lines) {
             for (std::size_t at = 0; at < line.points.size(); ++at) {
                 const FailurePoint& point = line.points[at];
-                fmt::format_to(out, "{:<20}{:>8.0f} %  {:<24}{:<22}{}{}\n", at == 0 ? line.repair : "",
+                fmt::format_to(out, "{:<22}{:>4.0f} %  {:<20}{:<20}{}{}\n", at == 0 ? line.repair : "",
                                100.0 * point.dark_share,
                                interval_text(point.travel_time, {.decimals = 1, .sign = Sign::always}),
                                interval_text(point.link_f1, {.decimals = 3}), benefit_word(point),
-                               line.break_even == at ? " (break-even)" : "");
+                               line.break_even == at ? "*" : "");
             }
         }
-        text += '\n';
+        text += "*: break-even, the first share at which no benefit is shown\n\n";
     }
     return text;
 }
