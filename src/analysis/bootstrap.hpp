@@ -15,8 +15,8 @@ namespace clearway::analysis {
 /// tails.
 enum class SmallSample : std::uint8_t {
     as_published,  ///< Efron 1987.
-    expanded,  ///< End points moved outwards to make up for both (expanded percentile interval, Hesterberg
-               ///< 2015).
+    /// End points moved outwards to make up for both (expanded percentile interval, Hesterberg 2015).
+    expanded,
 };
 
 struct BootstrapConfig {

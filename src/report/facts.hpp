@@ -90,8 +90,8 @@ struct PairedStatistics {
 /// One measure of one condition.
 struct Outcome {
     Estimate value;
-    Estimate
-        difference;  ///< Paired, to the baseline of the same replications; empty where nothing is compared.
+    /// Paired, to the baseline of the same replications; empty where nothing is compared.
+    Estimate difference;
     double least_relevant = 0.0;  ///< Smaller mean differences are no effect, in the measure's unit.
     std::optional<PairedStatistics> paired;
 };
