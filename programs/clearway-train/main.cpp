@@ -96,8 +96,9 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "torch.load),\n"
         "graphsage_*.weights (for `clearway links evaluate --model graphsage_corrected=FILE`), and\n"
         "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
-        "Examples:\n  clearway dataset city --out data/city\n  clearway train --as-published "
-        "--data data/city --out models/mine\n"
+        "Examples:\n"
+        "  clearway dataset city --out data/city\n"
+        "  clearway train --as-published --data data/city --out models/mine\n"
         "  clearway train --as-published --data data/city --pairs true-links --seed 1 --out models/true "
         "--json");
 }

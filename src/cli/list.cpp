@@ -149,7 +149,7 @@ core::ExitCode list_settings(const Arguments& arguments) {
     if (arguments.words.empty() || arguments.words.front() != settings)
         throw core::InputError({"list",
                                 arguments.words.empty()
-                                    ? "--markdown goes with settings"
+                                    ? "--markdown works only with settings"
                                     : fmt::format("`{}` cannot be listed alone", arguments.words.front()),
                                 settings, "Say `clearway list`, or `clearway list settings`"});
     const std::vector<experiment::Component> components =
@@ -169,8 +169,7 @@ core::ExitCode list_settings(const Arguments& arguments) {
 Action configure_list(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
-    app.add_option("what", arguments->words,
-                   "`settings`: every number that a condition may set, or those of NAME")
+    app.add_option("what", arguments->words, "`settings`: every setting of a condition, or those of NAME")
         ->expected(0, 2)
         ->option_text("settings [NAME] [the names alone]");
     add_json_option(app, arguments->printing, "the lists");

@@ -49,7 +49,7 @@ core::ExitCode write(const Arguments& arguments) {
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
     scenario::write_sumo_files(config, network, run, folder / "sumo");
-    fmt::print("{}: {} EVs and {} neighbours in {} places\n",
+    fmt::print("{}: {} EVs and {} neighbours at {} places\n",
                results::run_name(std::filesystem::proximate(run_folder), key), counts.emergency_vehicles,
                counts.neighbours, counts.places);
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
@@ -59,8 +59,8 @@ core::ExitCode write(const Arguments& arguments) {
                    : "its demand, traffic model and devices for any SUMO; what the policy did is not in it");
     if (!counts.has_coordinates)
         fmt::print(stderr,
-                   "clearway: this network has no map projection that is known, so no GeoJSON and no "
-                   "coordinates; x and y are there\n");
+                   "clearway: this network has no known map projection, so there is no GeoJSON and there "
+                   "are only x and y\n");
     return core::ExitCode::ok;
 }
 

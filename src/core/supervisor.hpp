@@ -44,7 +44,8 @@ class TaskList {
     TaskList(const TaskList&) = delete;
     TaskList& operator=(const TaskList&) = delete;
 
-    /// The next task to start; nothing when there is none at present. Called again on every tick.
+    /// The next task to start; nothing when there is none at present. Called again while a process slot is
+    /// free.
     virtual std::optional<Task> next() = 0;
     /// A process has ended, possibly through a limit or an interruption. `next` may return further tasks
     /// afterwards.

@@ -185,8 +185,8 @@ void append_censored(const ScenarioFacts& scenario, std::string& text) {
         const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;  // arrived only
         if (!paired || (paired->incomplete_pairs == 0 && paired->vehicles_left_out == 0)) continue;
         append_wrapped(fmt::format("Left out of differences of EV travel time, arrived only: {}: {} of {} "
-                                   "without an EV that arrived in "
-                                   "both conditions, and {} in the others that did not.",
+                                   "without an EV that arrived in both conditions, and {} in the others "
+                                   "that did not.",
                                    label(condition), counted(paired->incomplete_pairs, "pair"),
                                    paired->incomplete_pairs + paired->complete_pairs,
                                    counted(paired->vehicles_left_out, "EV")),
@@ -291,18 +291,12 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval; (<x): its upper end where it is lopsided, for "
-        "none "
+        "here: mean and half width of its 95 % interval; (<x): its upper end where it is lopsided, for none "
         "reaches below 0. EV travel time, all, of which verdicts speak: an EV that did not arrive counts "
-        "with "
-        "the horizon. lost EVs, hit EVs, unchecked: more EVs than at the baseline did not arrive or "
-        "collided, "
-        "or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of the paired "
-        "differences to the "
-        "baseline of the "
-        "same replication; better or worse when its interval excludes 0; negligible where an EV's time "
-        "changes by less than what counts ("
-        "--least-difference).",
+        "with the horizon. lost EVs, hit EVs, unchecked: more EVs than at the baseline did not arrive or "
+        "collided, or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of "
+        "the paired differences to the baseline of the same replication; better or worse when its interval "
+        "excludes 0; negligible where an EV's time changes by less than what counts (--least-difference).",
         text);
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(

@@ -211,14 +211,11 @@ std::string reproduction_section(const LinkFacts& facts) {
 
 const char* const definitions =
     "<p>Candidates are the pairs that may be linked, with at least one end not known, within reach of each "
-    "other by the "
-    "last reports or by dead reckoning; the rule is the same for every predictor. F1 is taken at a threshold "
-    "chosen on "
-    "other seeds. Hard pairs are those near the link radius by dead reckoning, or on which last reports and "
-    "dead "
-    "reckoning disagree. The policy\u2019s links join an emergency vehicle with one ahead on its route. "
-    "Brackets hold 95 % "
-    "percentile intervals of a bootstrap over runs within scenarios.</p>\n";
+    "other by the last reports or by dead reckoning; the rule is the same for every predictor. F1 is taken "
+    "at a threshold chosen on other seeds. Hard pairs are those near the link radius by dead reckoning, or "
+    "on which last reports and dead reckoning disagree. The policy\u2019s links join an emergency vehicle "
+    "with one ahead on its route. Brackets hold 95 % percentile intervals of a bootstrap over runs within "
+    "scenarios.</p>\n";
 
 struct Section {
     const char* id;

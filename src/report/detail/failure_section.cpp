@@ -126,13 +126,12 @@ DataTable break_even_table(const StudyFacts& study) {
 
 std::string failure_section(const StudyFacts& study) {
     std::string html =
-        "<p>What is left of a policy\u2019s benefit when vehicles are dark a share of the time, and how well "
-        "their "
-        "links were believed meanwhile (F1 end to end: links of vehicles never seen count as missed). Below "
-        "0 "
-        "EVs lose less time than without the policy. The bars are 95 % intervals of the paired differences; "
-        "lines stand a little beside each other so that none hides another. "
-        "Break-even is the first share at which the interval reaches 0.</p>\n<div class=\"figures\">\n";
+        "<p>What is left of a policy\u2019s benefit when vehicles are dark a share of the time, and how "
+        "well their links were believed meanwhile (F1 end to end: links of vehicles never seen count as "
+        "missed). Below 0 EVs lose less time than without the policy. The bars are 95 % intervals of the "
+        "paired differences; lines stand a little beside each other so that none hides another. Break-even "
+        "is the first share at which the interval reaches 0.</p>\n"
+        "<div class=\"figures\">\n";
     for (const FailureCurve& curve : study.failure_curves) {
         html += figure_of(curve);
     }

@@ -29,10 +29,9 @@ DataTable table_of(const ConditionFacts& condition) {
 std::string safety_section(const StudyFacts& study) {
     std::string html =
         "<p>What happens between vehicles, and how the traffic of the others flows. Time to collision and "
-        "the "
-        "deceleration to avoid a crash are those of vehicles that follow each other on one lane within 100 m "
-        "of an EV; like red passages, braking, jerk and queues they count from a minute before the first EV "
-        "on. Queues and passages of stop lines are taken while demand departs.</p>\n";
+        "the deceleration to avoid a crash are those of vehicles that follow each other on one lane within "
+        "100 m of an EV; like red passages, braking, jerk and queues they count from a minute before the "
+        "first EV on. Queues and passages of stop lines are taken while demand departs.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         html += fmt::format("<h3>{}</h3>\n", escaped(scenario.name));
         for (const ConditionFacts& condition : scenario.conditions) {

@@ -177,11 +177,11 @@ std::string verdict_section(const StudyFacts& study) {
                             escaped(scenario.name), counted(scenario.replications, "replication"), entries);
     }
     return html +
-           "</div>\n<p class=\"note\">Differences are paired: condition and baseline share seed, demand, "
-           "drivers and "
-           "sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
-           "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is the "
-           "restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
+           "</div>\n"
+           "<p class=\"note\">Differences are paired: condition and baseline share seed, demand, drivers "
+           "and sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
+           "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is "
+           "the restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
            "horizon. Whatever the means say, a condition that loses more EVs than its baseline, has them "
            "collide more often, or ran without safety checks is not called a help. Fewer than five "
            "replications give no interval and no effect: too few seeds.</p>\n";
@@ -189,8 +189,8 @@ std::string verdict_section(const StudyFacts& study) {
 
 std::string forest_section(const StudyFacts& study) {
     return "<p>Mean of the paired differences with its 95 % interval. Left of the line a condition takes "
-           "less time than "
-           "the baseline, right of it more. Gain of the EVs and cost to the others share one axis.</p>\n" +
+           "less time than the baseline, right of it more. Gain of the EVs and cost to the others share one "
+           "axis.</p>\n" +
            figures_of(study, forest_figure);
 }
 
@@ -206,21 +206,18 @@ std::string cost_section(const StudyFacts& study) {
             costs += approach_figure(scenario, condition);
     }
     const std::string recovery = figures_of(study, recovery_figure);
-    return "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a signal "
-           "(where a "
-           "network has none, on each edge), from a minute before the first EV on, against the baseline of "
-           "the same "
-           "replication. With many approaches, one interval in twenty excludes 0 by chance.</p>\n"
+    return "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a "
+           "signal (where a network has none, on each edge), from a minute before the first EV on, against "
+           "the baseline of the same replication. With many approaches, one interval in twenty excludes 0 "
+           "by chance.</p>\n"
            "<div class=\"figures\">\n" +
            costs + "</div>\n" + (recovery.empty() ? recovery : "<h3>Recovery after an EV</h3>\n" + recovery);
 }
 
 std::string journeys_section(const StudyFacts& study) {
-    return "<p>One EV of one replication on its way, under the baseline and the conditions that help most. A "
-           "slope is "
-           "a speed, a level piece of the vehicle\u2019s line a halt. One run shows how, not how much: for "
-           "that see "
-           "the tables.</p>\n" +
+    return "<p>One EV of one replication on its way, under the baseline and the conditions that help most. "
+           "A slope is a speed, a level piece of the vehicle\u2019s line a halt. One run shows how, not how "
+           "much: for that see the tables.</p>\n" +
            figures_of(study, journey_figures);
 }
 
@@ -239,10 +236,8 @@ std::string precision_section(const StudyFacts& study) {
 std::string calibration_section(const StudyFacts& study) {
     std::string html =
         "<p>Flows of the baseline, without EVs and while demand departs, against flows that were counted on "
-        "the road. "
-        "GEH = \u221a(2 (m \u2212 c)\u00b2 / (m + c)) of hourly flows; below 5 a flow counts as met, and the "
-        "usual "
-        "criterion asks that of 85 % of the places.</p>\n";
+        "the road. GEH = \u221a(2 (m \u2212 c)\u00b2 / (m + c)) of hourly flows; below 5 a flow counts as "
+        "met, and the usual criterion asks that of 85 % of the places.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         if (scenario.flows.empty()) continue;
         DataTable table{{"Place", "counted, veh/h", "modelled, veh/h", "GEH"}, {}};
@@ -271,11 +266,9 @@ std::string networks_section(const StudyFacts& study) {
 std::string training_section(const StudyFacts& study) {
     std::string html =
         "<p>Train and test loss over the epochs (the dissertation\u2019s Fig. 4). Its text does not say "
-        "whether the "
-        "list of pairs holds only true links, so the network as published is trained on both readings. A "
-        "list of true "
-        "links alone gives a low loss whatever the network learns: the constant answer 1 reaches it "
-        "too.</p>\n"
+        "whether the list of pairs holds only true links, so the network as published is trained on both "
+        "readings. A list of true links alone gives a low loss whatever the network learns: the constant "
+        "answer 1 reaches it too.</p>\n"
         "<div class=\"figures\">\n";
     for (const LossCurve& curve : study.curves) {
         html += loss_figure(curve);

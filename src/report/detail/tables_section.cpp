@@ -106,13 +106,10 @@ std::string statistics_of(const ScenarioFacts& scenario) {
     }
     if (html.empty()) return html;
     return "<details><summary>Statistics of the paired differences</summary>\n" + html +
-           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences over "
-           "their "
-           "standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted over the rows "
-           "of the "
-           "table; of counts that is Wilcoxon\u2019s p. Incomplete: replications without a value in both "
-           "conditions; "
-           "EVs left out: did not arrive in both.</p></details>\n";
+           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences "
+           "over their standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted "
+           "over the rows of the table; of counts that is Wilcoxon\u2019s p. Incomplete: replications "
+           "without a value in both conditions; EVs left out: did not arrive in both.</p></details>\n";
 }
 
 std::string definitions() {
@@ -134,10 +131,9 @@ std::string tables_section(const StudyFacts& study) {
     constexpr std::array event_columns = {Measure::depart_delay, Measure::collisions, Measure::teleports,
                                           Measure::unfinished};
     std::string html =
-        "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to the "
-        "baseline, in "
-        "colour where its interval excludes 0 and the difference is large enough to count (blue better, "
-        "orange worse).";
+        "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to "
+        "the baseline, in colour where its interval excludes 0 and the difference is large enough to count "
+        "(blue better, orange worse).";
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         html +=
             " The columns <em>published</em> repeat the dissertation: one unseeded run on networks of its "
