@@ -37,8 +37,8 @@ std::optional<Estimate> estimate_mean(std::span<const double> values, double lev
 inline constexpr std::size_t fewest_for_interval = 5;
 
 /// Mean of values that are never negative (durations, shares), with an interval that does not reach below 0:
-/// the t interval if it stays above 0, else that of the logarithm of the mean, whose standard error is s /
-/// (sqrt(n) mean) by the delta method: mean x exp(-+ t(n - 1) s / (sqrt(n) mean)). A t interval cut at 0
+/// the t interval if it stays above 0, else that of the logarithm of the mean, whose standard error is
+/// s / (sqrt(n) mean) by the delta method: mean x exp(-+ t(n - 1) s / (sqrt(n) mean)). A t interval cut at 0
 /// keeps its coverage, which is too low there because values near a bound are skewed. For 20 values of which
 /// four in five are 0, it contains the true mean in 80 % of samples and this interval in 91 %; for 10 values
 /// of which half are 0, 85 % against 93 % (tests/analysis/coverage_test.cpp). A BCa bootstrap of so few
@@ -109,9 +109,9 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
 /// Holm's step-down adjustment, in the order of `p_values`; each at most 1.
 std::vector<double> holm(std::span<const double> p_values);
 
-/// GEH statistic of a modelled against a counted flow, both in vehicles per hour and >= 0: sqrt(2 (m - c)^2 /
-/// (m + c)), 0 when both are 0 (DMRB volume 12, section 2, part 1, 4.4.42). Below 5 a flow counts as matched;
-/// the usual criterion requires this at 85 % of the places.
+/// GEH statistic of a modelled against a counted flow, both in vehicles per hour and >= 0:
+/// sqrt(2 (m - c)^2 / (m + c)), 0 when both are 0 (DMRB volume 12, section 2, part 1, 4.4.42). Below 5 a flow
+/// counts as matched; the usual criterion requires this at 85 % of the places.
 double geh(double modelled_per_hour, double counted_per_hour);
 inline constexpr double geh_limit = 5.0;
 

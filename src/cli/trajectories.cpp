@@ -74,7 +74,7 @@ Action configure_trajectories(CLI::App& app) {
         ->option_text("RUN (required)");
     app.add_option("--out", arguments->folder, "Folder to write into")
         ->option_text("DIR [trajectories-SCENARIO-CONDITION-N]");
-    app.add_option("--every", arguments->every_s, "Time between two places of a vehicle, s")
+    app.add_option("--every", arguments->every_s, "Time between two positions of a vehicle, s")
         ->check(core::NumberRange{0.01, 3600.0})
         ->option_text("SECONDS, 0.01 to 3600 [1]");
     app.add_option("--reach", arguments->reach_m, "Vehicles nearer than this to an EV are its neighbours, m")

@@ -21,8 +21,8 @@ struct Shortfall {
     std::string why;     ///< `its interval reaches to +2.3 s`, `there is no interval`.
 };
 
-/// Whether higher values of a metric are better, as of arrivals and correct links. Of most metrics lower ones
-/// are.
+/// Whether higher values of a metric are better, as for arrivals and correct links. For most metrics lower
+/// values are.
 bool more_is_better(const std::string& metric);
 
 /// If there is any tolerance: first every objection against a condition, because no tolerance of a mean

@@ -32,13 +32,13 @@ const std::array<MeasureInfo, measure_count>& measures() {
          Relevance::any, 1.0},
         {M::depart_delay, "depart_delay_s", "Depart delay, all", "s",
          "Depart delay, mean over all vehicles that entered.", Better::lower, Relevance::any, 1.0},
-        {M::collisions, "collisions", "Collisions", "per run", "Collisions of a run, junctions included.",
+        {M::collisions, "collisions", "Collisions", "per run", "Collisions per run, junctions included.",
          Better::lower, Relevance::any, 1.0},
         {M::teleports, "teleports", "Teleports", "per run",
-         "Vehicles of a run that SUMO took off the road and put down elsewhere.", Better::lower,
+         "Vehicles per run that SUMO took off the road and put down elsewhere.", Better::lower,
          Relevance::any, 1.0},
         {M::unfinished, "not_arrived", "Unfinished", "per run",
-         "Vehicles of a run that did not arrive: running at its end, not inserted or removed.", Better::lower,
+         "Vehicles per run that did not arrive: running at its end, not inserted or removed.", Better::lower,
          Relevance::any, 1.0},
     }};
     return table;

@@ -145,7 +145,7 @@ struct Precision {
     double deviation_s = 0.0;            ///< Of the paired differences.
     std::uint64_t needed = 0;            ///< For a half width of the least relevant difference (FHWA's rule).
 };
-/// Larger numbers of replications are not suggested: the user should rather accept a larger difference.
+/// Larger numbers of replications are not suggested: the user should accept a larger difference.
 inline constexpr std::uint64_t most_replications_asked = 200;
 inline constexpr std::size_t precision_points = 200;
 

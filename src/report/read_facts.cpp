@@ -327,7 +327,7 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const fs::path& file) {
     } catch (const nlohmann::json::exception& error) {
         throw core::InputError(core::Problem{file.string(), error.what(),
                                              "a list of objects with edge, street and car_lanes",
-                                             "Remove the file, or make the run folder again"});
+                                             "Remove the file, or create the run folder again"});
     }
 }
 

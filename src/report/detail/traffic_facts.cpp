@@ -132,7 +132,7 @@ std::map<std::string, std::string> streets_in(const std::filesystem::path& file)
     } catch (const nlohmann::json::exception& error) {
         throw core::InputError(core::Problem{file.string(), error.what(),
                                              "an object of edges and their street names",
-                                             "Remove the file, or make the run folder again"});
+                                             "Remove the file, or create the run folder again"});
     }
 }
 

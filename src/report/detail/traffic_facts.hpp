@@ -14,7 +14,7 @@ namespace clearway::report::detail {
 /// conditions that help most: the vehicle with the most signals on its route. Empty if no journeys were kept.
 std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario);
 
-/// Counted flows from the file with the mean flows of a condition's runs; empty if the file is missing.
+/// Counted flows from the file, each with the mean flow of a condition's runs; empty if the file is missing.
 /// Throws core::InputError for a damaged one.
 std::vector<FlowFacts> flows_in(const std::filesystem::path& file, const results::Results& results,
                                 const std::string& scenario, const std::string& condition);
