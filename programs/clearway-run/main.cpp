@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* usage =
     "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
-    "  clearway-run JOB.json    do the job of a file: runs, a data set, links to evaluate, or a simulation\n"
+    "  clearway-run JOB.json    do the job in a file: runs, a data set, links to evaluate, or a simulation\n"
     "                           that runs elsewhere\n"
     "  clearway-run --version\n";
 

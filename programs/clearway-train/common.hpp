@@ -20,11 +20,11 @@
 
 namespace clearway::training {
 
-// What the ways of training share on the command line.
+// What all trainings share on the command line.
 
 enum class Printing { epochs, closing_only, json };
 
-/// Whether SIGINT or SIGTERM came: the training ends after the present epoch, with what it has.
+/// Whether SIGINT or SIGTERM was received. Training then ends after the current epoch and keeps what it has.
 bool stop_requested();
 
 /// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
@@ -69,16 +69,16 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
 std::string figure(const std::optional<double>& value);
 void print_quality(const std::string& label, const metrics::LinkQuality& quality);
 
-/// Hooks that print a line about each of `epochs`, counted from 1, where `printing` says so.
+/// Hooks that print a line for each of `epochs`, counted from 1, if `printing` is `Printing::epochs`.
 TrainingHooks hooks_with_lines(Printing printing, std::uint32_t epochs);
 
 void print_json(const nlohmann::ordered_json& summary);
 
-/// The exit code of a training, after saying on standard error how it ended before its time. `epochs`: how
-/// many it ran, with the one that diverged.
+/// The exit code of a training. If it ended early, this is reported on standard error. `epochs` is the number
+/// of epochs it ran, including one that diverged.
 core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t epochs, bool has_model);
 
-/// Parses the command line and trains; the program's exit code. Throws core::Error.
+/// Parses the command line and trains. Returns the program's exit code. Throws core::Error.
 int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
                     const std::function<core::ExitCode()>& train);
 

@@ -31,7 +31,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out,
-                   "Folder for the results and the checkpoint; a training found there goes on")
+                   "Folder for the results and the checkpoint; a training found there is continued")
         ->required()
         ->option_text("DIR (required)");
     app.add_flag_callback(
@@ -42,9 +42,9 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "Print the summary as JSON, and nothing else");
     add_field_options(app, arguments.config, "Training (losses in nat)");
     app.footer(
-        "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and, unless an option makes a "
-        "net that\n"
-        "only serves to compare (ablation), graphsage.weights (for `clearway links evaluate --model "
+        "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and, unless an option makes "
+        "a net for\n"
+        "comparison only (ablation), graphsage.weights (for `clearway links evaluate --model "
         "graphsage=FILE`).\n\n"
         "Example:\n"
         "  clearway dataset city --dense --samples --net graphsage --failure B10 C.link --seeds 10 --out "

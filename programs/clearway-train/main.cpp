@@ -33,7 +33,7 @@ enum class Mode { as_published, corrected, logistic };
 struct Arguments {
     std::filesystem::path data;
     std::filesystem::path out;
-    Mode mode = Mode::as_published;  ///< One of the options says which.
+    Mode mode = Mode::as_published;  ///< Set by an option.
     PairChoice pairs = PairChoice::candidates;
     std::vector<std::filesystem::path> unseen;
     Printing printing = Printing::epochs;
@@ -62,7 +62,8 @@ void declare_options(CLI::App& app, Arguments& arguments) {
                "Fit the logistic pair model on `clearway dataset --samples --net logistic`")
             ->excludes(corrected)
             ->excludes(as_published);
-    app.add_option("--ridge", arguments.logistic.ridge, "Weight of the squared weights beside the mean loss")
+    app.add_option("--ridge", arguments.logistic.ridge,
+                   "Weight of the sum of squared weights, added to the mean loss")
         ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("NUMBER, 0 to 1e6 [{:g}]", arguments.logistic.ridge))
         ->needs(logistic)
@@ -96,43 +97,44 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "torch.load),\n"
         "graphsage_*.weights (for `clearway links evaluate --model graphsage_corrected=FILE`), and\n"
         "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
-        "Examples:\n  clearway dataset city --out data/city\n  clearway train --as-published "
-        "--data data/city --out models/mine\n"
+        "Examples:\n"
+        "  clearway dataset city --out data/city\n"
+        "  clearway train --as-published --data data/city --out models/mine\n"
         "  clearway train --as-published --data data/city --pairs true-links --seed 1 --out models/true "
         "--json");
 }
 
-/// What can be trained, the recommended first; for whoever names none.
+/// What can be trained, the recommended net first. Printed when the user names none.
 constexpr const char* choices =
     "clearway train: which net? Name one of these:\n"
     "  clearway train graphsage --data DIR --out DIR        recommended: the net that repairs links best\n"
     "  clearway train --logistic --data DIR --out DIR       a logistic model of pairs: small and quick\n"
     "  clearway train --corrected --data DIR --out DIR      the dissertation's net, trained soundly\n"
     "  clearway train --as-published --data DIR --out DIR   the dissertation's net and training: no better\n"
-    "                                                       than a constant, kept to be compared with\n"
+    "                                                       than a constant, kept for comparison\n"
     "The data set comes from `clearway dataset SCENARIO --out DIR`, with `--samples --net graphsage`,\n"
     "`--samples --net logistic`, `--samples` and nothing else, in this order. `clearway train graphsage "
     "--help`\n"
     "and `clearway train --help` describe the options.\n";
 
-/// Whether the words say which net is trained, or ask for something else than a training.
+/// Whether the arguments name a net, or ask for something other than a training.
 bool names_a_net(int argument_count, char** argument_values) {
     for (int i = 1; i < argument_count; ++i) {
         const std::string_view word = argument_values[i];
-        if (!word.starts_with("-") && i == 1) return true;  // a word: known, or told to be unknown
+        if (!word.starts_with("-") && i == 1) return true;  // a word: known, or reported as unknown later
         for (const char* known : {"--as-published", "--corrected", "--logistic", "--help", "-h", "--version"})
             if (word == known) return true;
     }
     return false;
 }
 
-/// The dissertation's three lines an epoch, counted from 0 as there.
+/// The dissertation's three lines per epoch, counted from 0 as there.
 TrainingHooks hooks_as_published(Printing printing) {
     TrainingHooks hooks;
     hooks.should_stop = stop_requested;
     if (printing != Printing::epochs) return hooks;
     hooks.on_epoch = [](std::uint32_t epoch, const EpochLoss& loss) {
-        // float, as Python's item() is printed there with the digits of the float.
+        // Printed with the digits of a float, as Python's item() is there.
         fmt::print("epoch: {}\n=======\nloss: {} {}\n", epoch, loss.train, loss.held_out);
     };
     return hooks;

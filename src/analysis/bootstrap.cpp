@@ -39,8 +39,8 @@ double acceleration_of(const std::vector<double>& without) {
     return squares > 0.0 ? cubes / (6.0 * std::pow(squares, 1.5)) : 0.0;
 }
 
-/// Equation (14.14): how much of the distribution lies below the observed value, ties counting half, in
-/// normal units.
+/// Equation (14.14): the share of the distribution below the observed value, with ties counting half, as a
+/// normal quantile.
 double bias_of(const std::vector<double>& sorted, double observed) {
     const auto below = std::ranges::lower_bound(sorted, observed) - sorted.begin();
     const auto upto = std::ranges::upper_bound(sorted, observed) - sorted.begin();
@@ -80,8 +80,8 @@ double sum_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Sum of values, each as often as its row was drawn. Four sums, so that additions need not wait for each
-/// other: this is where the time of a bootstrap goes.
+/// Sum of values, each as often as its row was drawn. Four partial sums make the additions independent,
+/// because a bootstrap spends its time here.
 double sum_of(std::span<const double> values, RowCounts counts) {
     std::array<double, 4> sums = {};
     std::size_t row = 0;
@@ -94,7 +94,7 @@ double sum_of(std::span<const double> values, RowCounts counts) {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// Values of all members with the cluster of each, ascending.
+/// Values of all members in ascending order, each with its cluster.
 struct Pool {
     std::vector<std::pair<double, std::uint32_t>> members;
     std::vector<double> sizes;  ///< Members of each cluster, with and without a value.
@@ -112,7 +112,7 @@ Pool pool_of(std::span<const Cluster> clusters) {
     return pool;
 }
 
-/// Infinite where the quantile falls among the members without a value.
+/// Infinite if the quantile falls among the members without a value.
 double quantile_of(const Pool& pool, double share, RowCounts counts) {
     const double wanted = share * sum_of(pool.sizes, counts) * (1.0 - 1e-12);
     std::uint64_t passed = 0;

@@ -11,12 +11,12 @@
 
 namespace clearway::analysis {
 
-/// Bootstrap distributions of small samples are too narrow, by sqrt((n - 1) / n) and by normal instead of t
-/// tails.
+/// Bootstrap distributions of small samples are too narrow: by sqrt((n - 1) / n), and because their tails are
+/// normal instead of t.
 enum class SmallSample : std::uint8_t {
     as_published,  ///< Efron 1987.
-    expanded,  ///< End points moved outwards to make up for both (expanded percentile interval, Hesterberg
-               ///< 2015).
+    /// End points are moved outwards to compensate for both (expanded percentile interval, Hesterberg 2015).
+    expanded,
 };
 
 struct BootstrapConfig {
@@ -29,8 +29,9 @@ struct BootstrapConfig {
 /// How often each row of a resample was drawn; the counts add up to the number of rows.
 using RowCounts = std::span<const std::uint8_t>;
 
-/// Resamples of `rows` independent rows, drawn once for every statistic of as many rows: equal rows and
-/// configurations give equal resamples. Takes resamples x rows bytes. Immutable; may be shared by threads.
+/// Resamples of `rows` independent rows, drawn once and shared by all statistics of that many rows. Equal
+/// numbers of rows and equal configurations give equal resamples. Takes resamples x rows bytes. Immutable;
+/// may be shared by threads.
 class Resamples {
   public:
     explicit Resamples(std::size_t rows, const BootstrapConfig& config = {});
@@ -45,17 +46,17 @@ class Resamples {
     std::vector<std::uint8_t> counts_;
 };
 
-/// Statistic of the rows, each taken as often as it was drawn.
+/// Statistic of the rows, each counted as often as it was drawn.
 using RowStatistic = std::function<double(RowCounts counts)>;
 /// Statistic of the means of columns.
 using MeansStatistic = std::function<double(std::span<const double> means)>;
 
-/// Bias-corrected and accelerated bootstrap interval (Efron 1987) of a statistic over independent rows, the
-/// acceleration by jackknife. Nothing below three rows, or when the statistic does not vary or is not finite
-/// in some resample. Calls `statistic` resamples + rows + 1 times.
+/// Bias-corrected and accelerated bootstrap interval (Efron 1987) of a statistic over independent rows, with
+/// the acceleration from the jackknife. Nothing for fewer than three rows, or when the statistic does not
+/// vary or is not finite in some resample. Calls `statistic` resamples + rows + 1 times.
 std::optional<Interval> bootstrap_bca(const Resamples& resamples, const RowStatistic& statistic);
-/// The same for a statistic of the means of `columns`, each with one value a row; cost resamples x rows x
-/// columns.
+/// The same for a statistic of the means of `columns`, each with one value per row. Takes time in proportion
+/// to resamples x rows x columns.
 std::optional<Interval> bootstrap_bca(const Resamples& resamples,
                                       std::span<const std::span<const double>> columns,
                                       const MeansStatistic& statistic);
@@ -63,29 +64,29 @@ std::optional<Interval> bootstrap_bca(const Resamples& resamples,
 std::optional<Interval> bootstrap_bca_of_mean(const Resamples& resamples, std::span<const double> values);
 
 /// Gap closed = (sum of baseline - sum of condition) / (sum of baseline - sum of solo) over replications. The
-/// spans have one length.
+/// spans have equal lengths.
 struct GapClosed {
     double value = 0.0;
     std::optional<Interval> interval;  ///< BCa over replications.
 };
-/// Nothing for empty spans, or where baseline is not slower than solo on average: no gap to close.
-/// `resamples` are of as many rows as the spans have.
+/// Nothing for empty spans, or when the baseline is not slower than solo on average, so that there is no gap.
+/// `resamples` must have as many rows as the spans.
 std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span<const double> baseline,
                                     std::span<const double> solo, const Resamples& resamples);
 
-/// Members of one replication that share a fate: travel times of its vehicles, s. Those that have none (they
-/// did not arrive) are counted and rank above all others.
+/// The members of one replication, which are not independent: travel times of its vehicles, s. Vehicles
+/// without one (they did not arrive) are counted and rank above all others.
 struct Cluster {
     std::vector<double> values;
     std::size_t without_value = 0;
 };
-/// Quantile of all members of all clusters, and its BCa interval over clusters drawn whole.
+/// Quantile of all members of all clusters, with its BCa interval from resampling whole clusters.
 struct PooledQuantile {
-    std::optional<double> value;  ///< Nothing where it falls among the members without a value.
+    std::optional<double> value;  ///< Nothing if it falls among the members without a value.
     std::optional<Interval> interval;
 };
-/// The smallest value that at least `share` of all members do not exceed. `resamples` are of as many rows as
-/// there are clusters.
+/// The smallest value that at least `share` of all members do not exceed. `resamples` must have one row per
+/// cluster.
 PooledQuantile pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples);
 
 }  // namespace clearway::analysis

@@ -15,13 +15,13 @@ namespace {
 using boost::math::complement;
 using boost::math::gamma_distribution;
 
-/// Share of the normal distribution beyond the t quantile of `outside`.
+/// Tail probability of the normal distribution beyond the t quantile of `outside`.
 double widened(double outside, double degrees_of_freedom) {
     const double t = boost::math::quantile(boost::math::students_t(degrees_of_freedom), outside);
     return boost::math::cdf(boost::math::normal(), t);
 }
 
-/// Covariance of two samples over the product of their deviations; 0 where one does not vary.
+/// Pearson correlation of two samples; 0 if one does not vary.
 double correlation(std::span<const double> first, std::span<const double> second, const Estimate& of_first,
                    const Estimate& of_second) {
     double sum = 0.0;
@@ -31,7 +31,7 @@ double correlation(std::span<const double> first, std::span<const double> second
     return scale > 0.0 ? sum / scale : 0.0;
 }
 
-/// Distance of a limit of the difference from it, from those of the two means.
+/// Distance between the difference and its limit, from the distances of the two means to their limits.
 double recovered(double from_first, double from_second, double correlation) {
     const double square =
         from_first * from_first + from_second * from_second - 2.0 * correlation * from_first * from_second;

@@ -7,7 +7,7 @@
 
 namespace clearway::analysis {
 
-// Pure functions on samples. Values are not checked for being finite. Nothing here prints or rounds.
+// Pure functions on samples. Values are not checked for being finite.
 
 /// Confidence interval; `low` <= `high`.
 struct Interval {
@@ -18,10 +18,10 @@ struct Interval {
     bool contains(double value) const { return low <= value && value <= high; }
 };
 
-/// Share of intervals that hold the true value, over many samples.
+/// Share of intervals that contain the true value, over many samples.
 inline constexpr double usual_level = 0.95;
 
-/// A mean with what is known of its uncertainty.
+/// A mean with its uncertainty.
 struct Estimate {
     std::size_t n = 0;
     double mean = 0.0;
@@ -32,26 +32,26 @@ struct Estimate {
 /// Mean and t interval: mean +- t(n - 1) s / sqrt(n). Nothing for an empty sample.
 std::optional<Estimate> estimate_mean(std::span<const double> values, double level = usual_level);
 
-/// Fewer values than this give no interval that is worth printing: at four a t interval is twice as wide as
-/// at ten, and skewed values make it miss one time in four.
+/// With fewer values no interval is printed: at four values a t interval is twice as wide as at ten, and with
+/// skewed values it misses the true mean one time in four.
 inline constexpr std::size_t fewest_for_interval = 5;
 
 /// Mean of values that are never negative (durations, shares), with an interval that does not reach below 0:
-/// the t interval where it stays above 0, else that of the logarithm of the mean, whose standard error is
-/// s / (sqrt(n) mean) by the delta method: mean x exp(-+ t(n - 1) s / (sqrt(n) mean)). Cutting the t interval
-/// at 0 keeps its coverage, which is too low just there, since values near a bound are skewed: of 20 values
-/// of which four in five are 0 it holds the true mean in 80 % of samples, this one in 91 %; of 10 of which
-/// every other is 0, 85 % against 93 % (tests/analysis/coverage_test.cpp). A BCa bootstrap of so few values
-/// is no better than t there. Nothing for an empty sample.
+/// the t interval if it stays above 0, else that of the logarithm of the mean, whose standard error is
+/// s / (sqrt(n) mean) by the delta method: mean x exp(-+ t(n - 1) s / (sqrt(n) mean)). A t interval cut at 0
+/// keeps its coverage, which is too low there because values near a bound are skewed. For 20 values of which
+/// four in five are 0, it contains the true mean in 80 % of samples and this interval in 91 %; for 10 values
+/// of which half are 0, 85 % against 93 % (tests/analysis/coverage_test.cpp). A BCa bootstrap of so few
+/// values is no better than t. Nothing for an empty sample.
 std::optional<Estimate> estimate_not_negative(std::span<const double> values, double level = usual_level);
 
-/// Mean of `condition[i] - baseline[i]` with its t interval. The spans have one length.
+/// Mean of `condition[i] - baseline[i]` with its t interval. The spans have equal lengths.
 std::optional<Estimate> estimate_difference(std::span<const double> condition,
                                             std::span<const double> baseline, double level = usual_level);
 
-/// The same as a share of the baseline's mean: difference and interval divided by mean(baseline), which is
-/// taken as known; the interval is that of the difference, and says of the ratio's own uncertainty nothing.
-/// Nothing when that mean is not positive.
+/// The same as a share of the baseline's mean: difference and interval are divided by mean(baseline), which
+/// is taken as known, so the interval ignores the uncertainty of that mean. Nothing when that mean is not
+/// positive.
 std::optional<Estimate> relative_difference(std::span<const double> condition,
                                             std::span<const double> baseline, double level = usual_level);
 
@@ -60,33 +60,33 @@ double median(std::span<const double> values);
 /// Quantile `share` in [0, 1] by linear interpolation between order statistics (Hyndman and Fan 1996, type
 /// 7). `values` not empty.
 double quantile(std::span<const double> values, double share);
-/// The same of values that are ascending already.
+/// The same for values which are already in ascending order.
 double quantile_of_sorted(std::span<const double> sorted, double share);
 
-/// Interval of the population's quantile from order statistics, without assuming a distribution: interpolated
-/// so that it keeps its level (Nyblom 1992; for the median Hettmansperger and Sheather 1986). `share` in
-/// (0, 1). Nothing for a sample too small to bound it: at 95 % a median takes 6 values, a 95th percentile 72.
+/// Distribution-free interval of the population's quantile from order statistics, interpolated to reach its
+/// level (Nyblom 1992; for the median Hettmansperger and Sheather 1986). `share` in (0, 1). Nothing for a
+/// sample that is too small: at 95 % a median needs 6 values, a 95th percentile 72.
 std::optional<Interval> quantile_interval(std::span<const double> values, double share,
                                           double level = usual_level);
 
 /// Mean of counts (0, 1, 2, ...) with an interval that never reaches below 0: Garwood's exact Poisson
-/// interval (1936) of total / phi, scaled by phi = max(1, variance / mean), with t instead of normal tails
-/// where phi is estimated. Simulated coverage: tests/analysis/coverage_test.cpp. Nothing for an empty sample.
+/// interval (1936) of total / phi, scaled by phi = max(1, variance / mean), with t instead of normal tails if
+/// phi > 1. Simulated coverage: tests/analysis/coverage_test.cpp. Nothing for an empty sample.
 std::optional<Estimate> estimate_count(std::span<const double> counts, double level = usual_level);
 
 /// Mean of `condition[i] - baseline[i]` of counts; the interval follows from those of the two means by the
-/// method of variance estimates recovery with their correlation (Zou and Donner 2008), so rare events are not
-/// taken for certain differences. A bootstrap, like a t interval, is too narrow there: four collisions
-/// against none excluded 0.
+/// method of variance estimates recovery with their correlation (Zou and Donner 2008), so that rare events do
+/// not look like certain differences. A bootstrap and a t interval are too narrow for them: with four
+/// collisions against none they excluded 0.
 std::optional<Estimate> estimate_count_difference(std::span<const double> condition,
                                                   std::span<const double> baseline,
                                                   double level = usual_level);
 
-/// Mean of the paired differences over their standard deviation (Cohen's d for pairs, d_z). Nothing below two
-/// pairs or without variation.
+/// Mean of the paired differences divided by their standard deviation (Cohen's d for pairs, d_z). Nothing
+/// below two pairs or without variation.
 std::optional<double> effect_size(std::span<const double> condition, std::span<const double> baseline);
 
-/// t(n - 1) s / sqrt(n): half the width of the interval of a mean of `n` >= 2 values that scatter with
+/// t(n - 1) s / sqrt(n): half the width of the interval of a mean of `n` >= 2 values with standard deviation
 /// `deviation`.
 double half_width(double deviation, std::size_t n, double level = usual_level);
 
@@ -98,9 +98,9 @@ std::size_t required_replications(double deviation, double half_width, double le
 /// FHWA's minimum, whatever the equation says.
 inline constexpr std::size_t fewest_replications = 10;
 
-/// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros left out, ties at mean
-/// rank; exact up to 25 differences without ties, else normal with continuity and tie correction. Nothing
-/// when every difference is zero.
+/// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros are left out, ties get
+/// their mean rank; exact for up to 25 differences without zeros and ties, else normal with continuity and
+/// tie correction. Nothing when every difference is zero.
 std::optional<double> wilcoxon_p(std::span<const double> condition, std::span<const double> baseline);
 
 /// Two-sided p value of the paired t test. Nothing below two pairs or without variation.
@@ -109,9 +109,9 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
 /// Holm's step-down adjustment, in the order of `p_values`; each at most 1.
 std::vector<double> holm(std::span<const double> p_values);
 
-/// GEH statistic of a modelled against a counted flow, both in vehicles an hour and >= 0:
+/// GEH statistic of a modelled against a counted flow, both in vehicles per hour and >= 0:
 /// sqrt(2 (m - c)^2 / (m + c)), 0 when both are 0 (DMRB volume 12, section 2, part 1, 4.4.42). Below 5 a flow
-/// counts as met; the usual criterion asks that of 85 % of the places.
+/// counts as matched; the usual criterion requires this at 85 % of the places.
 double geh(double modelled_per_hour, double counted_per_hour);
 inline constexpr double geh_limit = 5.0;
 

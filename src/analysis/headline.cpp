@@ -9,14 +9,15 @@ namespace {
 
 using experiment::ConditionSpec;
 
-/// Replications are run in their order, so beyond so many that are not there none is looked for.
+/// Runs are made in the order of the replications, so the search stops after this many missing ones.
 constexpr std::size_t most_looks = 1000;
 
 bool is_baseline_of(const ConditionSpec& other, const ConditionSpec& condition) {
     return other.traffic_model == condition.traffic_model && !other.acts() && other.name != condition.name;
 }
 
-/// Restricted travel time of the emergency vehicles of a run, against another run's where there is one.
+/// Restricted travel time of the emergency vehicles of a run, minus that of the baseline's run if there is
+/// one.
 std::optional<double> value_of(const results::RunRecord& run, const results::RunRecord* baseline) {
     const std::optional<double>& time_s = run.metrics.emergency_restricted_travel_time_s;
     if (baseline == nullptr || !time_s) return time_s;

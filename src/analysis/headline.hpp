@@ -12,9 +12,9 @@
 
 namespace clearway::analysis {
 
-/// The number that a study is run for, while it runs: restricted mean EV travel time in the first condition
-/// that is compared with a baseline, less the baseline's, in the first scenario; the mean of the first
-/// condition where nothing is compared. Each pair of runs is read once.
+/// The main result of a study while it runs, in the first scenario: restricted mean EV travel time of the
+/// first condition that has a baseline, minus that of the baseline. If nothing is compared, the mean of the
+/// first condition. Each pair of runs is read once.
 class Headline {
   public:
     explicit Headline(const results::Store& store);
@@ -25,10 +25,10 @@ class Headline {
     std::optional<Estimate> estimate() const;
     const std::string& scenario() const { return scenario_; }
     const std::string& condition() const { return condition_; }
-    /// Empty where nothing is compared.
+    /// Empty if nothing is compared.
     const std::string& baseline() const { return baseline_; }
-    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`, then how many
-    /// emergency vehicles it lost if more than the baseline; empty before the first pair.
+    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`, then the objections on the side
+    /// of emergency vehicles, if any; empty before the first pair.
     std::string text() const;
 
   private:

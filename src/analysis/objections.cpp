@@ -31,7 +31,7 @@ void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
     }
 }
 
-/// A count of every replication that both conditions have.
+/// A count from every replication that both conditions have.
 struct PairedCounts {
     std::vector<double> condition;
     std::vector<double> baseline;
@@ -40,7 +40,7 @@ struct PairedCounts {
         condition.push_back(static_cast<double>(with));
         baseline.push_back(static_cast<double>(without));
     }
-    /// Nothing unless the condition has more beyond the interval.
+    /// The paired difference if its interval lies above 0, else nothing.
     std::optional<Estimate> surplus(double level) const {
         auto difference = estimate_count_difference(condition, baseline, level);
         const bool more = difference && difference->interval && difference->interval->low > 0.0;
@@ -53,7 +53,8 @@ std::uint64_t emergency_collisions(const RunRecord& run) {
 }
 
 std::string amount(const Estimate& more) {
-    return fmt::format("{:+.1f} a run [{:.1f}, {:.1f}]", more.mean, more.interval->low, more.interval->high);
+    return fmt::format("{:+.1f} per run [{:.1f}, {:.1f}]", more.mean, more.interval->low,
+                       more.interval->high);
 }
 
 /// `12 teleported, 1 still on the road`.

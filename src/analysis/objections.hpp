@@ -33,38 +33,38 @@ struct OutcomeCounts {
 
 /// Emergency vehicles of a run, by how they ended.
 OutcomeCounts emergency_outcomes(const results::RunRecord& run);
-/// All but the emergency vehicles, from the metrics: their rows need not have been read.
+/// All other vehicles, from the metrics, so their rows need not have been read.
 OutcomeCounts other_outcomes(const results::RunRecord& run);
 
-/// What rules out that a condition is called better than its baseline, or without effect, whatever the means
-/// say. Verdicts, tables, curves, comparisons and gates all ask this one place.
+/// Reasons why a condition must not be called better than its baseline, or without effect, whatever the means
+/// are. Verdicts, tables, curves, comparisons and gates all use this.
 struct Objections {
     OutcomeCounts emergency;               ///< Over the replications that both have.
-    OutcomeCounts baseline_emergency;      ///< Over the same.
-    std::optional<Estimate> collisions;    ///< With emergency vehicles, more a run than at the baseline.
-    std::optional<Estimate> teleported;    ///< Other vehicles, more a run than at the baseline.
+    OutcomeCounts baseline_emergency;      ///< Over the same replications.
+    std::optional<Estimate> collisions;    ///< With emergency vehicles: surplus per run over the baseline.
+    std::optional<Estimate> teleported;    ///< Other vehicles: surplus per run over the baseline.
     std::optional<Estimate> not_inserted;  ///< Likewise.
     bool unchecked = false;                ///< Ran without the simulator's safety checks.
 
-    /// More than the baseline, by number: one lost ambulance needs no interval.
+    /// Whether it loses more than the baseline, by number: one lost ambulance needs no interval.
     bool loses_emergency() const { return emergency.lost() > baseline_emergency.lost(); }
-    /// Against any claim of benefit to, or of no effect on, emergency vehicles.
+    /// Against any claim of a benefit for, or no effect on, emergency vehicles.
     bool on_emergency() const { return loses_emergency() || collisions || unchecked; }
     /// Against any claim of that kind about the other vehicles.
     bool on_others() const { return teleported || not_inserted || unchecked; }
 };
 
-/// `collisions`, `teleported` and `not_inserted` are set where the interval of the paired difference lies
-/// above 0.
+/// `collisions`, `teleported` and `not_inserted` are set if the interval of the paired difference lies above
+/// 0.
 Objections objections_to(const detail::Runs& condition, const detail::Runs& baseline,
                          traffic::SafetyChecks safety_checks, double level = usual_level);
 
-/// `lost 13 of 20 emergency vehicles (13 teleported; baseline 0) and ran without safety checks`; empty where
-/// nothing speaks against the condition.
+/// `lost 13 of 20 emergency vehicles (13 teleported; baseline 0) and ran without safety checks`; empty if
+/// there is no objection.
 std::string emergency_objections(const Objections& objections);
-/// `more other vehicles teleported (+3.2 a run [1.0, 5.4])`; likewise.
+/// `more other vehicles teleported (+3.2 per run [1.0, 5.4])`; empty if there is no objection.
 std::string other_objections(const Objections& objections);
-/// The shortest word that a table has room for: `lost EVs`, `hit EVs`, `unchecked`; empty likewise.
+/// A short form for tables: `lost EVs`, `hit EVs`, `unchecked`; empty if there is no objection.
 std::string emergency_objection_word(const Objections& objections);
 
 }  // namespace clearway::analysis

@@ -9,13 +9,13 @@
 namespace clearway::analysis {
 namespace {
 
-/// Lower confidence limit of the quantile: it lies above the quantile with probability `outside`. Nyblom
-/// 1992: between the order statistics that bracket that probability, weighted as two-sided exponential
-/// variables would have it.
+/// Lower confidence limit of the quantile, which lies above the quantile with probability `outside`.
+/// Interpolated between the order statistics that bracket this probability, with weights that are exact for
+/// the double exponential distribution (Nyblom 1992).
 std::optional<double> lower_limit(std::span<const double> sorted, double share, double outside) {
     const auto n = static_cast<double>(sorted.size());
     const boost::math::binomial below(n, share);
-    // Of r = 1, 2, ...: the probability that order statistic r lies above the quantile, P(fewer than r
+    // For r = 1, 2, ...: the probability that order statistic r lies above the quantile, P(fewer than r
     // below).
     const auto above = [&](std::size_t rank) {
         return boost::math::cdf(below, static_cast<double>(rank - 1));

@@ -10,10 +10,10 @@
 namespace clearway::analysis {
 namespace {
 
-/// Above it the normal approximation is used; the exact count would still fit.
+/// For more differences the normal approximation is used.
 constexpr std::size_t largest_exact = 25;
 
-/// Absolute differences and signs, zeros left out, by size.
+/// Rank sums of the absolute differences, without zeros.
 struct Ranked {
     double positive_sum = 0.0;    ///< Ranks of the positive differences.
     double tie_correction = 0.0;  ///< Sum of t^3 - t over groups of t ties.
@@ -46,7 +46,7 @@ Ranked rank(std::span<const double> condition, std::span<const double> baseline)
     return ranked;
 }
 
-/// Two-sided, by counting the subsets of 1..n with each sum.
+/// Two-sided, by counting the subsets of 1..n for each sum.
 double exact_p(const Ranked& ranked) {
     const std::size_t largest_sum = ranked.count * (ranked.count + 1) / 2;
     std::vector<double> subsets(largest_sum + 1, 0.0);
@@ -55,7 +55,7 @@ double exact_p(const Ranked& ranked) {
         for (std::size_t sum = largest_sum; sum >= number; --sum)
             subsets[sum] += subsets[sum - number];
     }
-    // The distribution is symmetric: the smaller tail, twice.
+    // The distribution is symmetric, so the smaller tail is doubled.
     const auto sum = static_cast<std::size_t>(ranked.positive_sum);
     const std::size_t smaller = std::min(sum, largest_sum - sum);
     const auto end = subsets.begin() + static_cast<std::ptrdiff_t>(smaller) + 1;

@@ -8,7 +8,7 @@ const std::optional<Estimate>& difference_of(const MetricSummary& metric) {
     return metric.comparison ? metric.comparison->difference : none;
 }
 
-/// The largest need over all conditions, each seen through `estimate_of`.
+/// The condition whose estimate, from `estimate_of`, needs most replications.
 template <class EstimateOf>
 std::optional<Precision> widest_by(const Summary& summary, const std::string& metric, double half_width,
                                    EstimateOf&& estimate_of) {

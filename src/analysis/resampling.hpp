@@ -37,15 +37,15 @@ class RunResampling {
     std::span<const double> weights(std::size_t resample) const {
         return std::span(weights_).subspan(resample * runs_, runs_);
     }
-    /// Percentile interval of the values of all resamples, its shares moved outwards for few runs as
-    /// SmallSample::expanded says (with the degrees of freedom of all strata). Nothing when a stratum has
-    /// fewer than two runs, or when a value is not finite.
+    /// Percentile interval of the values of all resamples, with its end points moved outwards for few runs as
+    /// in SmallSample::expanded (with the degrees of freedom of all strata). Nothing when a stratum has fewer
+    /// than two runs, or when a value is not finite.
     std::optional<Interval> interval(std::vector<double> values) const;
 
   private:
     Config config_;
     std::size_t runs_ = 0;
-    std::optional<double> outside_;  ///< Share below the lower end; nothing where there can be no interval.
+    std::optional<double> outside_;  ///< Share below the lower end; nothing if there can be no interval.
     std::vector<double> weights_;
 };
 

@@ -27,14 +27,15 @@ std::optional<double> as_number(const Member& member) {
     }
 }
 
-/// Metrics that average over the emergency vehicles that arrived, and the vehicle's number behind them.
+/// The vehicle's metric behind a run's metric that averages over the emergency vehicles that arrived; else
+/// nothing.
 std::optional<detail::VehicleNumber> vehicle_number_of(const std::string& metric) {
     if (metric == "emergency_travel_time_s") return &metrics::VehicleRow::travel_time_s;
     if (metric == "emergency_time_loss_s") return &metrics::VehicleRow::time_loss_s;
     return std::nullopt;
 }
 
-/// Resamples by number of rows: metrics of as many pairs share them.
+/// Resamples by number of rows, shared by all metrics with as many pairs.
 class ResampleCache {
   public:
     explicit ResampleCache(double level) { config_.level = level; }
@@ -50,7 +51,7 @@ class ResampleCache {
     std::map<std::size_t, Resamples> cache_;
 };
 
-/// Values of a condition and its baseline, one a complete pair.
+/// Values of a condition and its baseline, one per complete pair.
 struct Pairs {
     std::vector<double> condition;
     std::vector<double> baseline;
@@ -238,7 +239,7 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
     summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
 }
 
-/// The condition that `condition` is compared with, or nothing for baselines and solo.
+/// The condition that `condition` is compared with; nullptr for baselines and solo.
 const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vector<ConditionSpec>& all) {
     if (condition.traffic_model == TrafficModel::free_flow) return nullptr;
     const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
@@ -295,7 +296,7 @@ class Index {
     std::map<Cell, std::size_t> errors_;
 };
 
-/// Compares a condition with its baseline, which is summarised.
+/// Compares a condition with its baseline, which has been summarised already.
 void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
                         ResampleCache& resamples, ConditionSummary& summary) {
     for (std::size_t metric = 0; metric < summary.metrics.size(); ++metric) {
@@ -328,7 +329,7 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     std::vector<Values> values = values_of(runs);
     const std::vector<MetricInfo> metrics = all_metrics();
     for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
-        // The runs that have a value would be those that lost nobody.
+        // Only the runs that lost no emergency vehicle have a value.
         if (summary.runs_without_horizon > 0 && metrics[metric].name == primary_metric)
             values[metric].assign(values[metric].size(), std::nullopt);
         summary.metrics.push_back(describe(metrics[metric], std::move(values[metric]), resamples.level()));

@@ -13,13 +13,13 @@
 
 namespace clearway::analysis {
 
-/// What a metric's values are, which decides its interval.
+/// The kind of a metric's values, which decides its interval.
 enum class MetricKind : std::uint8_t {
     quantity,  ///< Durations, shares: `estimate_not_negative`.
     count,     ///< 0, 1, 2, ...: `estimate_count`, never below 0.
 };
 
-/// A metric as tables show it. All come from the field table of metrics::RunMetrics.
+/// A metric as tables show it. Taken from the field table of metrics::RunMetrics.
 struct MetricInfo {
     std::string name;
     std::string unit;
@@ -27,10 +27,10 @@ struct MetricInfo {
     MetricKind kind = MetricKind::quantity;
 };
 
-/// One value for each replication; nothing where there is none.
+/// One value per replication; nothing where it is missing.
 using Values = std::vector<std::optional<double>>;
 
-/// Mean of the values that there are, with the interval of the metric's kind.
+/// Mean of the values present, with the interval of the metric's kind.
 std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level = usual_level);
 /// Mean of the paired differences of the replications where both have a value.
 std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
@@ -40,7 +40,7 @@ std::vector<MetricInfo> all_metrics();
 /// Value of a metric by name; nothing where the run has none. Throws std::out_of_range for an unknown name.
 std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name);
 
-/// The metric that verdicts, headlines, curves and gates speak of: nobody is left out of it.
+/// The metric of verdicts, headlines, curves and gates: it counts every emergency vehicle, arrived or not.
 inline constexpr const char* primary_metric = "emergency_restricted_travel_time_s";
 
 /// A condition against its baseline, in one metric, paired by replication. For metrics of emergency vehicles
@@ -49,8 +49,8 @@ inline constexpr const char* primary_metric = "emergency_restricted_travel_time_
 /// are counted.
 struct Comparison {
     std::size_t complete_pairs = 0;
-    /// Replications that lack a value in at least one of the two conditions: failed, missing, nobody to
-    /// average over.
+    /// Replications that lack a value in at least one of the two conditions: failed, missing, or without a
+    /// vehicle to average over.
     std::size_t incomplete_pairs = 0;
     /// Emergency vehicles of complete pairs that arrived in only one condition or in none.
     std::size_t vehicles_left_out = 0;
@@ -64,7 +64,7 @@ struct Comparison {
     std::optional<double> effect_size;        ///< Cohen's d for pairs, d_z.
     std::optional<double> t_p;                ///< Not for counts, which are far from normal.
     std::optional<double> wilcoxon_p;
-    /// Adjusted over all comparisons of a scenario in this metric: `t_p`, of counts `wilcoxon_p`.
+    /// `t_p` (for counts `wilcoxon_p`), adjusted over all comparisons of a scenario in this metric.
     std::optional<double> holm_p;
 };
 
@@ -76,11 +76,11 @@ struct MetricSummary {
     std::optional<double> median;
     std::optional<Interval> median_interval;
     std::optional<double> percentile_95;
-    std::optional<Interval> percentile_95_interval;  ///< Takes 72 replications.
+    std::optional<Interval> percentile_95_interval;  ///< Needs 72 replications.
     std::optional<Comparison> comparison;  ///< Nothing for the baseline itself and for the solo condition.
 };
 
-/// Travel times of all emergency vehicles of a condition, those that did not arrive ranked last.
+/// Travel times of all emergency vehicles of a condition. Those that did not arrive rank last.
 struct TravelTimeTail {
     PooledQuantile median;
     PooledQuantile percentile_95;
@@ -92,19 +92,19 @@ struct ConditionSummary {
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;
     std::size_t missing_runs = 0;
-    /// Complete runs with emergency vehicles but without a restricted travel time: an older version made them
-    /// and did not note the horizon.
+    /// Complete runs with emergency vehicles but without a restricted travel time. They were made by an older
+    /// version, which did not record the horizon.
     std::size_t runs_without_horizon = 0;
     OutcomeCounts emergency;
     OutcomeCounts others;
-    Objections objections;  ///< Against the baseline; nothing for baselines and solo.
-    /// Leases over all complete runs, by policy, then action. Nothing where no run has them by action.
+    Objections objections;  ///< Against the baseline; none for baselines and solo.
+    /// Leases over all complete runs, by policy, then action. Nothing if no run has them by action.
     std::optional<std::vector<metrics::LeaseRow>> leases;
     TravelTimeTail travel_time;
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
     std::optional<Recovery> recovery;      ///< Likewise.
-    /// In `primary_metric`. Nothing without a solo condition, and for baselines.
+    /// In `primary_metric`. Nothing for baselines, and without a solo condition.
     std::optional<GapClosed> gap_closed;
     /// Replications behind `gap_closed`.
     std::size_t gap_replications = 0;
@@ -128,15 +128,15 @@ struct Summary {
     std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
 };
 
-/// The conditions of `second`, each compared with the condition of the same name in `first`: equal units, so
-/// the same scenario, seed and condition, run twice. The summary is that of `second`, without scenarios and
-/// conditions that only one of the two has; `baseline` names the condition. Throws core::InputError when the
-/// two share no run that was made from the same seed and configuration.
+/// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario
+/// and with the same seed. The summary is that of `second`, without scenarios and conditions that only one
+/// study has; `baseline` is the condition's own name. Throws core::InputError when seeds or scenario
+/// configurations differ, or when the studies share no scenario and condition.
 Summary compare_studies(const results::Results& first, const results::Results& second,
                         double level = usual_level);
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times
-/// are those of the first condition in free flow. Deterministic.
+/// are those of the first free-flow condition. Deterministic.
 Summary summarise(const results::Results& results, double level = usual_level);
 
 }  // namespace clearway::analysis

@@ -13,7 +13,7 @@ namespace {
 using detail::Runs;
 using Pair = std::pair<const results::RunRecord*, const results::RunRecord*>;  // condition, baseline
 
-/// Replications in which both runs are complete and say where time was lost.
+/// Replications in which both runs are complete and record where time was lost.
 std::vector<Pair> watched_pairs(const Runs& condition, const Runs& baseline) {
     std::vector<Pair> pairs;
     for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
@@ -26,7 +26,7 @@ std::vector<Pair> watched_pairs(const Runs& condition, const Runs& baseline) {
     return pairs;
 }
 
-/// Numbers of one approach, one value a pair; index 0 the condition, 1 the baseline.
+/// Numbers of one approach, one value per pair; index 0 is the condition, 1 the baseline.
 struct Series {
     explicit Series(std::size_t pairs) {
         for (auto* const column : {&human, &automated, &waiting, &vehicles}) {

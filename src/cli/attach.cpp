@@ -36,9 +36,9 @@ void read_place(const std::string& place, experiment::AttachJob& job) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), job.port);
     constexpr int last_port = 65535;
     if (error != std::errc() || end != digits.data() + digits.size() || job.port < 1 || job.port > last_port)
-        throw core::InputError({"HOST:PORT", fmt::format("`{}` is no place of a SUMO", place),
-                                "a host and a port from 1 to 65535, localhost:8813",
-                                "Give the port that SUMO was started with, --remote-port"});
+        throw core::InputError({"HOST:PORT", fmt::format("`{}` is not the address of a SUMO", place),
+                                "a host and a port from 1 to 65535, as localhost:8813",
+                                "Give the port that SUMO was started with (--remote-port)"});
 }
 
 core::ExitCode attach(const Arguments& arguments) {
@@ -49,7 +49,7 @@ core::ExitCode attach(const Arguments& arguments) {
     if (std::filesystem::exists(folder))
         throw core::InputError(
             {folder.string(), "exists already", "a new folder",
-             "Give another with --out, or remove it; a simulation elsewhere cannot be resumed"});
+             "Give another with --out, or remove it; an attached simulation cannot be resumed"});
     job.output = std::filesystem::absolute(folder);
     if (!job.network.empty()) job.network = std::filesystem::absolute(job.network);
     job.condition = condition_of(arguments.described);
@@ -72,17 +72,17 @@ Action configure_attach(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     arguments->described.condition.name = "attached";
     experiment::AttachJob& job = arguments->job;
-    app.add_option("place", arguments->place, "Where SUMO waits for orders (its --remote-port)")
+    app.add_option("place", arguments->place, "Where SUMO waits for a client (its --remote-port)")
         ->required()
         ->option_text("HOST:PORT (required)");
-    add_condition_options(app, arguments->described, "What is done (names: clearway list)");
+    add_condition_options(app, arguments->described, "Condition (names: clearway list)");
     app.add_option("--automated", job.automated,
-                   "Vehicle types that are automated, beside those that say so (clearway.class)")
+                   "Vehicle types that are automated, besides those that declare it (clearway.class)")
         ->option_text("TYPE ... [none]");
     app.add_option("--emergency", job.emergency,
-                   "Vehicle types that are emergency vehicles, beside those of vClass emergency")
+                   "Vehicle types that are emergency vehicles, besides those of vClass emergency")
         ->option_text("TYPE ... [none]");
-    app.add_option("--network", job.network, "Its network file, where SUMO's own path does not lead to it")
+    app.add_option("--network", job.network, "Its network file, if it is not at the path that SUMO reports")
         ->option_text("FILE [as SUMO says]");
     add_seed_option(app, job.study_seed);
     app.add_option("--out", arguments->folder, "Run folder")->option_text("DIR [runs/attached-PORT]");

@@ -28,7 +28,7 @@ struct Arguments {
     scenario::Options options;
 };
 
-/// What a finding means for whoever wants to compare policies on the scenario.
+/// What a finding means for a comparison of policies on the scenario.
 enum class Grade : std::uint8_t { ok, note, falls_short, failed };
 
 constexpr const char* word_of(Grade grade) {
@@ -66,10 +66,11 @@ Finding emergency_finding(const results::RunRecord& record) {
     const std::uint64_t count = record.metrics.emergency_count;
     const Grade grade = count == 0 || entered < count ? Grade::falls_short : Grade::ok;
     return {"emergency", grade,
-            fmt::format("{} EVs with a route, {} entered, {} arrived by then", count, entered, arrived)};
+            fmt::format("{} EVs with a route, {} entered, {} arrived in the time checked", count, entered,
+                        arrived)};
 }
 
-/// Routes in what `prepare` wrote, and those of a single edge.
+/// Number of routes that `prepare` wrote, and of those with a single edge.
 struct RouteCount {
     std::size_t all = 0;
     std::size_t single = 0;
@@ -91,7 +92,7 @@ RouteCount traffic_routes(const std::string& xml) {
     return count;
 }
 
-/// Rows end with the edges.
+/// The edges are the last column.
 RouteCount emergency_routes(const std::string& csv) {
     RouteCount count;
     std::istringstream lines(csv);
@@ -102,7 +103,7 @@ RouteCount emergency_routes(const std::string& csv) {
     return count;
 }
 
-/// Whoever drives one edge passes no junction, and so meets no signal and nobody who crosses.
+/// A vehicle with a single edge passes no junction, so it meets no signal and no crossing traffic.
 Finding routes_finding(const std::filesystem::path& demand) {
     const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
     const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
@@ -114,7 +115,7 @@ Finding routes_finding(const std::filesystem::path& demand) {
 
 std::vector<Finding> findings_of(const results::RunRecord& record, const results::RunTiming& timing,
                                  double wall_s) {
-    constexpr double most_left_outside = 0.1;  // Of the vehicles: above it queues reach the network's edge.
+    constexpr double most_left_outside = 0.1;  // Share of the vehicles. Above it, queues reach the boundary.
     constexpr double most_teleported = 0.01;
     const metrics::RunMetrics& run = record.metrics;
     const double outside = share(run.not_inserted, run.vehicle_count);
@@ -131,7 +132,8 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const results
                      run.unfinished, run.simulated_s, run.others_time_loss_s.value_or(0.0))},
         {"collisions", run.collisions > 0 ? Grade::note : Grade::ok,
          fmt::format("{} in the baseline, {} of them at junctions", run.collisions, run.junction_collisions)},
-        {"speed", Grade::ok, fmt::format("{:.1f} times real time, with loading", run.simulated_s / wall_s)},
+        {"speed", Grade::ok,
+         fmt::format("{:.1f} times real time, including loading", run.simulated_s / wall_s)},
         {"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)}};
 }
 
@@ -139,13 +141,12 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
     const bool aborted = error.cause == results::ErrorCause::signal;
     std::string text = error.message;
     if (!error.log_tail.empty()) text += "\n" + error.log_tail;
-    text += fmt::format("\nInputs and logs are kept in {}; the command that makes the run again:\n  {}",
+    text += fmt::format("\nInputs and logs are kept in {}; the command that repeats the run:\n  {}",
                         folder.string(), error.command);
     if (aborted)
         text +=
-            "\nSUMO itself aborted. Where a teleport went before, --time-to-teleport -1 avoids it; so may "
-            "less "
-            "traffic, --density 0.5";
+            "\nSUMO itself aborted. If a teleport came before it, --time-to-teleport -1 avoids it; less "
+            "traffic (--density 0.5) may help too";
     return {aborted ? "aborts" : "loads", Grade::failed, text};
 }
 
@@ -176,7 +177,7 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     config.replications = 1;
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     scenario::ScenarioConfig& brief = config.scenarios.front();
-    constexpr double grace_s = 60.0;  // The last to depart enter, too.
+    constexpr double grace_s = 60.0;  // So that the last to depart can enter too.
     double last_s = brief.time.window_s;
     for (const scenario::EmergencyTrip& trip : brief.emergency_trips)
         last_s = std::max(last_s, trip.depart_s);

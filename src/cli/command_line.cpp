@@ -26,11 +26,11 @@ constexpr std::array all_verbs = {
          configure_run},
     Verb{"study", "Run a study file: scenarios x conditions x factors x replications",
          "clearway study my-study.toml --out runs/mine", configure_study},
-    Verb{"status", "Tell how far a study is, also while it runs elsewhere",
+    Verb{"status", "Show the progress of a study, also while it runs elsewhere",
          "clearway status runs/mine --json", configure_status},
-    Verb{"submit", "Divide a study for a cluster, GNU parallel or local processes",
+    Verb{"submit", "Divide a study into shards for a cluster, GNU parallel or local processes",
          "clearway submit my-study.toml --engine slurm --out /shared/mine --go", configure_submit},
-    Verb{"merge", "Put the shards of a study together", "clearway merge /shared/mine --out runs/mine",
+    Verb{"merge", "Merge the shards of a study", "clearway merge /shared/mine --out runs/mine",
          configure_merge},
     Verb{"report", "Print the tables of a run folder and write its report.html",
          "clearway report runs/reproduce", configure_report},
@@ -38,25 +38,25 @@ constexpr std::array all_verbs = {
          "clearway compare runs/old runs/new --tolerance 1 --tolerance collisions=0.5", configure_compare},
     Verb{"results", "Print any table of a run folder as CSV or JSON",
          "clearway results runs/reproduce vehicles --csv", configure_results},
-    Verb{"replay", "Think a recorded run through again with another predictor, or export it as CSV",
+    Verb{"replay", "Replay a recorded run with another predictor, or export it as CSV",
          "clearway replay runs/city-1a2b3c/city/corridor/0 --predictor dead_reckoning", configure_replay},
-    Verb{"verify", "Make stored runs again and compare every number",
+    Verb{"verify", "Repeat stored runs and compare every number",
          "clearway verify runs/reproduce/city/baseline/7", configure_verify},
     Verb{"dataset", "Record a data set for link prediction from a scenario",
          "clearway dataset city --out data/city", configure_dataset},
     Verb{"train", "Train link prediction, as published or corrected",
          "clearway train graphsage --data data/graphsage --out trained/graphsage", configure_train},
-    Verb{"links", "Judge link prediction: links evaluate",
+    Verb{"links", "Evaluate link prediction: links evaluate",
          "clearway links evaluate --benchmark eval_v1 --quick", configure_links},
     Verb{"list", "List scenarios, conditions, failures, predictors, policies and settings",
          "clearway list --json", configure_list},
     Verb{"init", "Copy a scenario into a folder of your own to edit",
          "clearway init my-crossing --from intersection", configure_init},
-    Verb{"import", "Make a scenario of an OpenStreetMap extract or of a SUMO scenario",
+    Verb{"import", "Make a scenario from an OpenStreetMap extract or a SUMO scenario",
          "clearway import monaco.osm.pbf --name monaco", configure_import},
-    Verb{"check", "Run a scenario briefly and tell whether it is fit for a study", "clearway check ./monaco",
+    Verb{"check", "Run a scenario briefly and check whether it is fit for a study", "clearway check ./monaco",
          configure_check},
-    Verb{"attach", "Go on with a SUMO that was started elsewhere, under a policy of Clearway",
+    Verb{"attach", "Take over a SUMO that was started elsewhere, with a policy of Clearway",
          "clearway attach localhost:8813 --policy corridor --failure B10 --predictor graphsage",
          configure_attach},
     Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
@@ -89,7 +89,7 @@ std::vector<std::string> verb_names() {
     return names;
 }
 
-/// The message of a command line that cannot be parsed, in the words of the verb that was called.
+/// The message for a command line that cannot be parsed, as the verb that was called states it.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* deepest = &app;
     std::string name = "clearway";
@@ -100,14 +100,14 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     return core::usage_message(*deepest, name, error);
 }
 
-/// What is wrong with the first word, when it is no verb.
+/// What is wrong with the first word, if it is not a verb.
 std::optional<std::string> verb_problem(int argument_count, const char* const* arguments) {
     const std::vector<std::string> names = verb_names();
     if (argument_count < 2) return fmt::format("which verb? One of {}", fmt::join(names, ", "));
     const std::string word = arguments[1];
     if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return std::nullopt;
     const std::string near = core::nearest(word, names);
-    return fmt::format("`{}` is no verb{}", word,
+    return fmt::format("`{}` is not a verb{}", word,
                        near.empty() ? fmt::format("; verbs are {}", fmt::join(names, ", "))
                                     : fmt::format(", did you mean `{}`?", near));
 }
@@ -126,7 +126,7 @@ void declare(CLI::App& app, Action& action) {
     }
 }
 
-/// Never throws: standard error may be as full as the disk that is complained of.
+/// Never throws: standard error may be on the same full disk.
 core::ExitCode complain(const std::exception& error, core::ExitCode code) {
     std::fflush(stdout);
     std::fputs("clearway: ", stderr);
@@ -160,7 +160,7 @@ std::span<const Verb> verbs() {
 }
 
 int run_command_line(int argument_count, const char* const* arguments) {
-    // Line by line into a pipe too: what goes to standard error between two lines never lands within one.
+    // Line buffering for pipes too, so that messages on standard error never land within a line of output.
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     const int usage = static_cast<int>(core::ExitCode::usage);
     if (const std::optional<std::string> problem = verb_problem(argument_count, arguments)) {

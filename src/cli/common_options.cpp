@@ -11,7 +11,7 @@ namespace clearway::cli {
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what) {
     app.add_flag_callback(
         "--json", [&printing] { printing = Printing::json; },
-        fmt::format("Print {} as JSON, units in the names of fields [text]", what));
+        fmt::format("Print {} as JSON, with units in the field names [text]", what));
 }
 
 void add_tables_option(CLI::App& app, report::Tables& tables) {
@@ -27,7 +27,7 @@ void add_record_option(CLI::App& app, experiment::StepRecording& recording) {
 }
 
 void add_jobs_option(CLI::App& app, unsigned& jobs) {
-    app.add_option("--jobs", jobs, "Worker processes at one time; 0: one per core. Changes no result")
+    app.add_option("--jobs", jobs, "Worker processes at a time; 0: one per core. Changes no result")
         ->check(CLI::Range(0U, 4096U))
         ->option_text(fmt::format("N, 0 to 4096 [{}]", jobs));
 }
@@ -40,7 +40,7 @@ void add_seed_option(CLI::App& app, std::uint64_t& seed) {
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {
     return app
         .add_option("--seeds", seeds,
-                    "Replications; the conditions of one share demand, drivers and failures")
+                    "Replications; in each, all conditions share demand, drivers and failures")
         ->check(CLI::Range(1U, most_replications))
         ->option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
 }

@@ -24,11 +24,11 @@ void add_json_option(CLI::App& app, Printing& printing, const std::string& what)
 void add_tables_option(CLI::App& app, report::Tables& tables);
 /// Declares `--record`: every step of every run is kept in a file.
 void add_record_option(CLI::App& app, experiment::StepRecording& recording);
-/// Declares `--jobs`: worker processes at one time, 0 for one per core.
+/// Declares `--jobs`: worker processes at a time, 0 for one per core.
 void add_jobs_option(CLI::App& app, unsigned& jobs);
 /// Declares `--seed`: the study seed, from which every random number of every replication follows.
 void add_seed_option(CLI::App& app, std::uint64_t& seed);
-/// Declares `--seeds`: number of replications; `app` shows the present value as the default.
+/// Declares `--seeds`: number of replications; the help shows the current value as the default.
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.

@@ -39,7 +39,7 @@ std::vector<std::string> metric_names() {
     return names;
 }
 
-/// What a tolerance without a name gates: the metric that was asked for, else the primary one.
+/// The metric of a tolerance without a name: the chosen one, else the primary one.
 std::string gated_metric(const std::vector<std::string>& chosen, const std::string& word) {
     if (chosen.size() > 1)
         throw core::InputError({"--tolerance", fmt::format("`{}` names none of the chosen metrics", word),
@@ -48,7 +48,7 @@ std::string gated_metric(const std::vector<std::string>& chosen, const std::stri
     return chosen.empty() ? analysis::primary_metric : chosen[0];
 }
 
-/// `1.5` of the metric that was chosen, or `METRIC=1.5`.
+/// Reads `1.5`, for the chosen metric, or `METRIC=1.5`.
 report::Tolerance tolerance_from(const std::string& word, const std::vector<std::string>& chosen) {
     const std::size_t equals = word.find('=');
     report::Tolerance tolerance;
@@ -58,13 +58,13 @@ report::Tolerance tolerance_from(const std::string& word, const std::vector<std:
     char* end = nullptr;
     tolerance.largest = std::strtod(value.c_str(), &end);
     if (value.empty() || *end != '\0' || !std::isfinite(tolerance.largest) || tolerance.largest < 0.0)
-        throw core::InputError({"--tolerance", fmt::format("`{}` is no tolerance", word),
-                                "a number from 0 on, in the metric's unit, or METRIC=NUMBER", ""});
+        throw core::InputError({"--tolerance", fmt::format("`{}` is not a tolerance", word),
+                                "a number of at least 0, in the metric's unit, or METRIC=NUMBER", ""});
     if (equals == std::string::npos) tolerance.metric = gated_metric(chosen, word);
     return tolerance;
 }
 
-/// All tolerances; the metrics of gates are shown too.
+/// All tolerances. Their metrics are added to those that are shown.
 std::vector<report::Tolerance> check(Arguments& arguments) {
     std::vector<report::Tolerance> tolerances;
     const std::vector<std::string> chosen = arguments.metrics;
@@ -97,7 +97,7 @@ analysis::Summary summary_of(const Arguments& arguments) {
                                    [](const auto& condition) { return !condition.baseline.empty(); });
     });
     if (!compared)
-        throw core::InputError({arguments.first, "has no condition beside its baselines", "",
+        throw core::InputError({arguments.first, "has no condition besides its baselines", "",
                                 "Name a second run folder to compare it with"});
     return summary;
 }
@@ -133,7 +133,7 @@ Action configure_compare(CLI::App& app) {
         ->allow_extra_args(false)
         ->option_text("NAME [EV and others' times, collisions, teleports]");
     app.add_option("--tolerance", arguments->tolerances,
-                   "Exit with 6 where it may be worse by more than this (95 %), or more EVs are lost")
+                   "Exit with 6 if it may be worse by more than this (95 %), or if more EVs are lost")
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER ... [none]");
     add_json_option(app, arguments->printing, "the comparison");

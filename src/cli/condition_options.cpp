@@ -28,7 +28,7 @@ void add_condition_options(CLI::App& app, DescribedCondition& described, const s
 
 void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
                          const std::string& usual, const std::string& group) {
-    app.add_option("--set", settings, "Any number of the condition (clearway list settings); can be repeated")
+    app.add_option("--set", settings, "A setting of the condition (clearway list settings); can be repeated")
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
         ->group(group);
     app.add_option("--model", model, "Model file of a learned predictor")
@@ -39,7 +39,7 @@ void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std:
 std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words) {
     const std::size_t equals = words.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
-        throw core::InputError({option, fmt::format("`{}` is no assignment", words), "NAME=VALUE", ""});
+        throw core::InputError({option, fmt::format("`{}` is not an assignment", words), "NAME=VALUE", ""});
     return {words.substr(0, equals), words.substr(equals + 1)};
 }
 

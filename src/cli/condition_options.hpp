@@ -14,26 +14,26 @@ namespace clearway::cli {
 struct DescribedCondition {
     experiment::ConditionSpec condition;
     std::vector<std::string> settings;  ///< `preempt_signals.lead_s=12`.
-    std::string model;                  ///< File; empty: the one in the program.
+    std::string model;                  ///< Model file; empty: the built-in model.
 };
 
 /// Declares `--policy`, `--failure`, `--predictor`, `--set`, `--model` and `--safety-checks` in a group of
 /// the help. Names are checked later (names.hpp).
 void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& group);
 
-/// Declares `--set` and `--model` alone; `usual` says what holds without a model.
+/// Declares only `--set` and `--model`; `usual` is the default that the help shows for `--model`.
 void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
                          const std::string& usual, const std::string& group);
 
 /// Name and value of `NAME=VALUE`. Throws core::InputError, naming `option`.
 std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words);
 
-/// Sets what `--set` and `--model` say on top of a condition. Throws core::InputError for words that are no
-/// assignment, names that do not exist, values out of range and a model that cannot be read.
+/// Applies `--set` and `--model` to a condition. Throws core::InputError for words that are not assignments,
+/// unknown names, values out of range and a model that cannot be read.
 void apply_settings(const std::vector<std::string>& settings, const std::string& model,
                     experiment::ConditionSpec& condition);
 
-/// The condition with its settings and model. Throws as apply_settings.
+/// The condition with its settings and model. Throws as apply_settings does.
 experiment::ConditionSpec condition_of(const DescribedCondition& described);
 
 /// Declares an option that is `on` or `off`; returns it for its group and text.

@@ -78,7 +78,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     print_files(result.lines, arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,
-                   "clearway: interrupted; what is complete is kept in {}. To record the rest again:\n  {}\n",
+                   "clearway: interrupted; what is complete is kept in {}. To record the rest:\n  {}\n",
                    arguments.folder, invocation.command);
     }
     return result.exit_code;
@@ -109,7 +109,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
     CLI::Option* const samples =
         app.add_flag_callback(
                "--samples", [&job] { job.dataset = experiment::DatasetKind::samples; },
-               "What predictors are given at many moments, and the answers [one snapshot]")
+               "Inputs of predictors at many moments, with the true links [one snapshot]")
             ->group(group);
     static const std::map<std::string, experiment::DatasetKind> nets = {
         {"corrected", experiment::DatasetKind::samples},
@@ -117,7 +117,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
         {"logistic", experiment::DatasetKind::pair_samples}};
     app.add_option_function<std::string>(
            "--net", [&job](const std::string& name) { job.dataset = nets.at(name); },
-           "Whose inputs: graphsage_corrected's, graphsage's or the pair model's (as CSV)")
+           "Predictor to record for: graphsage_corrected, graphsage or the pair model (CSV)")
         ->check(CLI::IsMember(nets))
         ->option_text("corrected|graphsage|logistic [corrected]")
         ->needs(samples)
@@ -125,7 +125,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
     app.add_option_function<std::string>(
            "--exits",
            [&job](const std::string& word) { job.exits = *core::value_from<sensing::Exits>(word); },
-           "Whether it is known when a vehicle leaves the network")
+           "Whether it is known that a vehicle has left the network")
         ->check(CLI::IsMember({"known", "unknown"}))
         ->option_text("known|unknown [known]")
         ->needs(samples)

@@ -19,7 +19,7 @@
 namespace clearway::cli {
 namespace {
 
-/// SUMO's series that the gateway is written for and tested with.
+/// The SUMO series that the gateway is written for and tested with.
 const std::string supported_sumo = "1.15";
 
 enum class Severity { required, optional };
@@ -54,10 +54,10 @@ Check check_sumo_home() {
     return check;
 }
 
-/// A program of Clearway's own; it answers at once when all its libraries are there.
+/// One of Clearway's own programs. It starts only if all of its libraries are found.
 Check check_sister(const std::string& program, const std::string& purpose) {
     Check check{program, false, Severity::required, "cannot be started",
-                fmt::format("Build it ({}); a missing shared library also shows here", purpose)};
+                fmt::format("Build it ({}). A missing shared library also causes this", purpose)};
     const std::optional<std::string> text = output_of(sister_program(program), {"--version"});
     check.passed = text.has_value();
     if (check.passed) check.found = first_line(*text);
@@ -75,9 +75,9 @@ Check check_folder() {
     const bool writable = ::access(here.c_str(), W_OK) == 0;
     std::error_code error;
     const double free_gb = static_cast<double>(std::filesystem::space(here, error).available) / 1e9;
-    return {"present folder", writable && free_gb > 1.0, Severity::required,
+    return {"current folder", writable && free_gb > 1.0, Severity::required,
             fmt::format("{}, {:.1f} GB free", writable ? "writable" : "not writable", free_gb),
-            "Runs are written below the present folder; choose another with --out"};
+            "Runs are written below the current folder; choose another with --out"};
 }
 
 std::vector<Check> all_checks() {

@@ -28,8 +28,8 @@ struct Arguments {
     Printing printing = Printing::text;
 };
 
-/// What an import does now, on standard error: a line that is redrawn on a terminal, otherwise one every 10
-/// s.
+/// Shows the current stage of an import on standard error: a line that is redrawn on a terminal, otherwise
+/// one every 10 s.
 class Stages {
   public:
     void show(const std::string& stage) {
@@ -52,7 +52,7 @@ class Stages {
     std::chrono::steady_clock::time_point shown_ = started_;
 };
 
-/// Imports, saying what is done, until it is interrupted.
+/// Imports and shows the stages; a signal interrupts it.
 scenario_import::Findings import_watched(const scenario_import::ImportRequest& request) {
     const core::InterruptionWatch interruption;
     Stages stages;
@@ -71,7 +71,7 @@ core::ExitCode import(Arguments& arguments) {
     if (arguments.printing == Printing::json) {
         fmt::print("{}", scenario_import::to_json(findings));
     } else {
-        // A name alone could be that of a scenario that comes with Clearway.
+        // A bare name could be that of a scenario shipped with Clearway.
         const std::filesystem::path& folder = arguments.request.folder;
         const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
         fmt::print("{}picture: {}/network.svg\nNext: {}\n", scenario_import::to_text(findings),
@@ -89,7 +89,7 @@ Action configure_import(CLI::App& app) {
                    "A map (.osm, .gz, .bz2, .pbf), a .sumocfg, or a .net.xml with its files")
         ->required()
         ->option_text("FILE ... (required)");
-    app.add_option("--name", arguments->name, "Scenario and new folder of this name")
+    app.add_option("--name", arguments->name, "Name of the scenario and of its new folder")
         ->required()
         ->option_text("NAME (required)");
     static const std::map<std::string, scenario_import::DrivingSide> sides = {
@@ -98,15 +98,14 @@ Action configure_import(CLI::App& app) {
         {"left", scenario_import::DrivingSide::left}};
     app.add_option_function<std::string>(
            "--driving-side", [&request](const std::string& side) { request.side = sides.at(side); },
-           "Of a map: side on which traffic drives; auto: by country")
+           "For a map: side on which traffic drives; auto: by country")
         ->check(CLI::IsMember(sides))
         ->option_text("auto|right|left [auto]");
-    app.add_option("--av-share", request.automated_share,
-                   "Share of the cars that is automated, by vehicle id")
+    app.add_option("--av-share", request.automated_share, "Share of automated cars, drawn by vehicle id")
         ->check(core::NumberRange{0.0, 1.0})
         ->option_text("SHARE, 0 to 1 [0.35]");
     app.add_option("--pedestrians", request.pedestrians_per_hour,
-                   "Pedestrians an hour at each crossing with signals; a map's roads get sidewalks")
+                   "Pedestrians per hour at each crossing with signals; a map's roads get sidewalks")
         ->check(core::NumberRange{0.0, 2000.0})
         ->option_text("NUMBER, 0 to 2000 [0]");
     static const std::map<std::string, scenario::CarFollowing> models = {
@@ -114,15 +113,16 @@ Action configure_import(CLI::App& app) {
     app.add_option_function<std::string>(
            "--car-following",
            [&request](const std::string& name) { request.car_following = models.at(name); },
-           "Of a SUMO scenario's vehicles: their own model, or IDM")
+           "For a SUMO scenario's vehicles: their own model, or IDM")
         ->check(CLI::IsMember(models))
         ->option_text("own|idm [own]");
-    app.add_option("--begin", request.begin_s, "Of a SUMO scenario: its time at which this one begins, s")
+    app.add_option("--begin", request.begin_s,
+                   "For a SUMO scenario: the time in it at which the new scenario begins, s")
         ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
     app.add_flag_callback(
         "--leave-out-bad-vehicles",
         [&request] { request.bad_vehicles = scenario_import::BadVehicles::leave_out; },
-        "Leave out vehicles and persons with unknown edges or gaps on their way [refuse]");
+        "Leave out vehicles and persons with unknown edges or gaps in the route [refuse]");
     add_json_option(app, arguments->printing, "the findings");
     return [arguments](const Invocation&) { return import(*arguments); };
 }

@@ -24,7 +24,7 @@ Action configure_init(CLI::App& app) {
         ->option_text("SCENARIO [intersection]");
     return [arguments](const Invocation&) {
         scenario::init(arguments->folder, arguments->from);
-        // A name alone could be that of a scenario that comes with Clearway.
+        // A bare name could be that of a scenario shipped with Clearway.
         const std::filesystem::path folder = arguments->folder;
         const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
         fmt::print("{} written, a copy of {}. Edit it, then:\n  {}\n", (folder / "scenario.toml").string(),

@@ -53,7 +53,7 @@ constexpr std::uint32_t quick_validation = 2;
 
 std::string number_text(const std::string& option, const std::string& text) {
     if (!core::number_from(text))
-        throw core::InputError({option, fmt::format("`{}` is no number", text), "NAME=NUMBER", ""});
+        throw core::InputError({option, fmt::format("`{}` is not a number", text), "NAME=NUMBER", ""});
     return core::setting_text(text);
 }
 
@@ -102,7 +102,7 @@ fs::path benchmark_file(const std::string& name) {
                             "eval_v1, or a TOML file", "docs/reference/link-prediction.md describes both"});
 }
 
-/// The benchmark's scenarios of these names; all of them for none.
+/// Keeps the benchmark's scenarios of these names; all of them if `names` is empty.
 void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark& benchmark) {
     if (names.empty()) return;
     std::vector<std::string> known;
@@ -145,7 +145,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     for (const scenario::ScenarioConfig& config : benchmark.scenarios) {
         if (std::ranges::find(names, config.name) != names.end())
             problems.push_back(
-                {"SCENARIO", fmt::format("`{}` is there twice", config.name), "each once", ""});
+                {"SCENARIO", fmt::format("`{}` is given twice", config.name), "each once", ""});
         names.push_back(config.name);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
@@ -175,7 +175,7 @@ void check(const links::LinkPlan& plan) {
         prediction::check_settings(predictor.name, predictor.settings, "--set " + predictor.name, problems);
         if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
             problems.push_back({"--model " + predictor.name,
-                                fmt::format("{} is no file", predictor.model_file),
+                                fmt::format("{} is not a file", predictor.model_file),
                                 "a .weights file of clearway train", ""});
         } else if (!predictor.model_file.empty()) {
             prediction::check_model(predictor.name, predictor.model_file);
@@ -215,7 +215,7 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     facts.split = plan.split == links::LinkSplit::test ? "test" : "validation";
     facts.study_seed = benchmark.study_seed;
     facts.seeds =
-        fmt::format("study seed {}, replications {}; thresholds of F1 chosen on {}", benchmark.study_seed,
+        fmt::format("study seed {}, replications {}; F1 thresholds chosen on {}", benchmark.study_seed,
                     range_text(plan.own_seeds()), range_text(benchmark.validation));
     facts.failures = benchmark.failures;
     facts.exits = benchmark.exits;
@@ -238,16 +238,16 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     return facts;
 }
 
-/// Identity of the program that does the runs.
+/// Hash of the worker program, which makes the runs.
 std::string worker_hash() {
     const std::string program = sister_program("clearway-run");
     if (!fs::exists(program))
         throw core::EnvironmentError(
-            fmt::format("{} is missing. `clearway doctor` shows what else is", program));
+            fmt::format("{} is missing. `clearway doctor` shows what else is missing", program));
     return core::content_hash(core::read_file(program));
 }
 
-/// Does the runs that the plan's folder lacks.
+/// Makes the runs that are missing in the plan's folder.
 core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFiles& files, unsigned jobs) {
     std::vector<WorkerJob> work;
     for (const experiment::LinkJob& job : links::missing_runs(plan, files)) {
@@ -267,7 +267,7 @@ core::ExitCode evaluate(const Arguments& arguments, const Invocation& invocation
     const links::LinkRunFiles files(plan, worker_hash());
     const core::ExitCode code = complete_runs(plan, files, arguments.jobs);
     if (code != core::ExitCode::ok) {
-        fmt::print(stderr, "clearway: incomplete; what is done is kept in {}. To go on:\n  {}\n",
+        fmt::print(stderr, "clearway: incomplete; complete runs are kept in {}. To continue:\n  {}\n",
                    plan.folder.string(), invocation.command);
         return code;
     }
@@ -296,7 +296,7 @@ void add_what(CLI::App& app, Arguments& arguments) {
         ->option_text("NAME|FILE [none]");
     app.add_option("--failure", arguments.failures, "Sensor failures (clearway list)")
         ->option_text("NAME ... [all]");
-    app.add_option("--exits", arguments.exits, "Whether it is known when a vehicle leaves the network")
+    app.add_option("--exits", arguments.exits, "Whether it is known that a vehicle has left the network")
         ->check(CLI::IsMember({"known", "unknown", "both"}))
         ->option_text("known|unknown|both [both]");
     app.add_option("--predictor", arguments.predictors, "Predictors (clearway list)")
@@ -306,7 +306,7 @@ void add_what(CLI::App& app, Arguments& arguments) {
     app.add_option("--set", arguments.settings, "A setting of all predictors, or of one")
         ->option_text("[PREDICTOR.]NAME=NUMBER ... [defaults]");
     app.add_option("--against", arguments.against,
-                   "The opponent that errors are compared with; by default the best kinematic one present")
+                   "Predictor to compare errors with; by default the best kinematic one present")
         ->option_text("PREDICTOR [route_rule, kalman, ...]");
 }
 
@@ -326,7 +326,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
     declare("--seeds", arguments.test.count, "Replications to test on", 0U);
     declare("--first-seed", arguments.test.first, "Number of the first of them", 0U);
     declare("--validation-seeds", arguments.validation.count,
-            "Replications on which thresholds of F1 are chosen", 0U);
+            "Replications on which F1 thresholds are chosen", 0U);
     declare("--first-validation-seed", arguments.validation.first, "Number of the first of them", 0U);
     app.add_flag("--quick", arguments.quick,
                  fmt::format("At most {} test and {} validation seeds [all]", quick_test, quick_validation))
@@ -336,7 +336,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
            [&arguments](const std::string& name) {
                arguments.split = name == "test" ? links::LinkSplit::test : links::LinkSplit::validation;
            },
-           "Seeds to print figures of; tune settings on `validation` alone")
+           "Seeds whose results are printed; tune settings only on `validation`")
         ->check(CLI::IsMember({"test", "validation"}))
         ->option_text("test|validation [test]")
         ->group(group);
@@ -346,7 +346,7 @@ Action configure_evaluate(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_what(app, *arguments);
     app.add_option("--out", arguments->folder,
-                   "Folder of runs and results; runs that it has are not repeated")
+                   "Folder of runs and results; runs that it already holds are not repeated")
         ->option_text("DIR [runs/eval_v1, or runs/links]");
     add_jobs_option(app, arguments->jobs);
     add_json_option(app, arguments->printing, "all figures");
@@ -370,7 +370,7 @@ Action configure_evaluate(CLI::App& app) {
 Action configure_links(CLI::App& app) {
     app.require_subcommand(1);
     CLI::App* const command =
-        app.add_subcommand("evaluate", "Judge predictors by their links, on seeds kept apart for it");
+        app.add_subcommand("evaluate", "Evaluate predictors by their links, on seeds kept for this purpose");
     return configure_evaluate(*command);
 }
 

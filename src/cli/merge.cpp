@@ -73,7 +73,7 @@ core::ExitCode merge(const Arguments& arguments) {
 Action configure_merge(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folders", arguments->sources,
-                   "Run folders of the shards, or folders with them in shards/")
+                   "Run folders of the shards, or folders that hold them in shards/")
         ->required()
         ->option_text("DIR ... (required)");
     app.add_option("--out", arguments->out, "Run folder of the whole study; may hold some runs already")

@@ -71,8 +71,8 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
         std::vector<std::string> sorted = condition.policies;
         std::ranges::sort(sorted);
         if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-            problems.push_back({where + "policy", fmt::format("`{}` is there twice", *twice),
-                                "each policy once", "Take one of the two out"});
+            problems.push_back({where + "policy", fmt::format("`{}` is given twice", *twice),
+                                "each policy once", "Remove one of the two"});
         const std::vector<core::Problem> unfit = experiment::check_settings(condition, where);
         problems.insert(problems.end(), unfit.begin(), unfit.end());
     }

@@ -27,7 +27,7 @@ struct Cell {
     RunCost cost;  ///< Of one run.
 };
 
-/// The folder's store when it holds this study, with as many replications or fewer.
+/// The store in `folder` if it holds this study with at most as many replications.
 std::optional<results::Store> existing_store(const study::Plan& plan, const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
     results::Store store = results::Store::open(folder);
@@ -64,7 +64,7 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
 /// What is left of a plan.
 struct Rest {
     std::size_t complete = 0;
-    std::optional<double> wall_s = 0.0;  ///< Nothing when a cell's is unknown.
+    std::optional<double> wall_s = 0.0;  ///< Nothing when it is unknown for a cell.
     double disk_bytes = 0.0;
     bool measured = true;
 };
@@ -94,8 +94,8 @@ std::string size_text(double bytes) {
 
 std::string precision_text(const results::PrecisionTarget& target) {
     return fmt::format(
-        "replications: those of this round; further rounds follow until {} is known to +- {:g}, "
-        "with {} replications at most\n",
+        "replications: those of this round; further rounds follow until {} is known to +- {:g}, with {} "
+        "replications at most\n",
         target.metric, target.half_width, target.at_most);
 }
 
@@ -132,10 +132,10 @@ std::string plan_text(const study::Plan& plan, const std::filesystem::path& fold
     text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
                         plan.run_count(), plan.units.size(), rest.complete, folder.string());
     text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
-                        : "time unknown: the size of measured demand stands in its files";
+                        : "time unknown: the size of measured demand is only in its files";
     text += fmt::format(
         ", about {} on the disk ({})\n", size_text(rest.disk_bytes),
-        rest.measured ? "from runs of these scenarios here" : "rough: right within a factor of about three");
+        rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");
     if (plan.manifest.precision) text += precision_text(*plan.manifest.precision);
     return text;
 }

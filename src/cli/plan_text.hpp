@@ -7,12 +7,13 @@
 
 namespace clearway::cli {
 
-/// What a plan would do, for `--dry-run`: cells, runs, those already in `folder`, and the time and disk that
-/// the rest should take with `workers` processes (0: one per core).
+/// What a plan would do, for `--dry-run`: cells, runs, those already in `folder`, and the estimated time and
+/// disk space of the rest with `workers` processes (0: one per core).
 std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers);
 /// The same as JSON.
 std::string plan_json(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers);
-/// Wall time of what is left of a plan with `workers` processes, s; nothing where nobody can tell.
+/// Estimated wall time of the rest of a plan with `workers` processes, s; nothing when it cannot be
+/// estimated.
 std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,
                                             unsigned workers);
 

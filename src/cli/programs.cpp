@@ -12,14 +12,14 @@
 namespace clearway::cli {
 namespace {
 
-/// An empty file that goes when this object does.
+/// An empty file that is removed when this object is destroyed.
 class TemporaryFile {
   public:
     TemporaryFile() : path_((std::filesystem::temp_directory_path() / "clearway-XXXXXX").string()) {
         const int descriptor = ::mkstemp(path_.data());
         if (descriptor < 0) {
             throw core::EnvironmentError(
-                fmt::format("{}: cannot write there. Set TMPDIR to a folder that can be written",
+                fmt::format("{}: cannot write there. Set TMPDIR to a writable folder",
                             std::filesystem::temp_directory_path().string()));
         }
         ::close(descriptor);

@@ -12,10 +12,10 @@ namespace clearway::cli {
 /// `program` is a path or a name looked up in PATH.
 std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments);
 
-/// Path of one of Clearway's background plans, beside this one.
+/// Path of another of Clearway's programs, in the folder of this one.
 std::string sister_program(const std::string& name);
 
-/// Versions of Clearway and of the SUMO inside its worker, as the worker tells them. Throws
+/// Versions of Clearway and of the SUMO inside its worker, as the worker reports them. Throws
 /// core::EnvironmentError when it cannot be started, usually because a shared library is missing.
 study::Versions installed_versions();
 

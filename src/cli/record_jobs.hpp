@@ -7,8 +7,8 @@
 
 namespace clearway::cli {
 
-/// Records data sets with worker processes as `work_on` says; the lines are what the workers said about their
-/// files, by replication. Job files and logs stand beside each job's scenario file.
+/// Records data sets with worker processes, through `work_on`. The lines of the result are what the workers
+/// printed about their files, by replication. Job files and logs are next to each job's scenario file.
 WorkerResult record_jobs(const std::vector<experiment::DatasetJob>& jobs, unsigned processes);
 
 }  // namespace clearway::cli

@@ -28,11 +28,11 @@ namespace {
 const char* const open_loop =
     "Nothing is simulated: sensing, prediction and policy run again over the recorded traffic, which does "
     "not\n"
-    "react (open loop). It shows what would have been believed and how right that would have been; what a\n"
-    "policy gains is for `clearway run`. Without --predictor, --failure, --policy, --set and --model the\n"
-    "recorded beliefs and leases must come out to the bit; exit code 6 if they do not.";
+    "react (open loop). It shows what would have been believed and how accurate that would have been. What\n"
+    "a policy gains is measured by `clearway run`. Without --predictor, --failure, --policy, --set and\n"
+    "--model the replay must reproduce the recorded beliefs and leases to the bit; else exit code 6.";
 
-/// What the sensors lacked: made by a replay of them, while the other tables stand in the recording.
+/// What the sensors missed. A replay of the sensors makes this table; the others are in the recording.
 constexpr const char* failures_table = "failures";
 
 std::vector<std::string> table_names() {
@@ -55,7 +55,7 @@ struct Arguments {
     Printing printing = Printing::text;
 };
 
-/// In a run folder the scenario's copy stands above its network, and names the files with signal programs.
+/// In a run folder the copy of the scenario is above its network; it names the files with signal programs.
 std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem::path& network_file) {
     const std::filesystem::path scenario = network_file.parent_path().parent_path() / "scenario.toml";
     if (!std::filesystem::exists(scenario)) return {};
@@ -82,7 +82,7 @@ roads::Network network_of(const trace::RecordingInfo& info, const Arguments& arg
     return roads::Network::read(file, signal_programs_beside(file));
 }
 
-/// What was set of a policy or predictor that the replay replaces goes with it.
+/// Drops the settings of policies and predictors that the replay replaces.
 void drop_what_is_gone(const experiment::ConditionSpec& recorded, experiment::ConditionSpec& condition) {
     if (condition.predictor != recorded.predictor) {
         condition.model_file.clear();
@@ -115,7 +115,7 @@ trace::RoadNames names_of(const roads::Network& network) {
     return names;
 }
 
-/// Prints header and, of each step between --from and --to, what `lines` gives.
+/// Prints the header, then what `lines` returns for each step between --from and --to.
 core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arguments,
                          const std::string& header,
                          const std::function<std::string(const trace::RecordedStep&)>& lines) {
@@ -155,7 +155,7 @@ core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& a
     }
     if (arguments.failure || !arguments.settings.empty() || !arguments.model.empty())
         throw core::InputError({arguments.failure ? "--failure" : "--set, --model",
-                                fmt::format("does not go with --csv {}", arguments.table),
+                                fmt::format("cannot be combined with --csv {}", arguments.table),
                                 "a replay, or --csv failures", "The table shows what was recorded"});
     const trace::RecordingTable table = trace::recording_table_from(arguments.table).value();
     const trace::RoadNames names = names_of(network);
@@ -196,7 +196,7 @@ nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
     return json;
 }
 
-/// Its name, or without its run folder the end of it.
+/// The run's name; without the folder if the recording is not in a run folder.
 std::string run_of(const std::filesystem::path& recording, const experiment::RunKey& key) {
     const std::filesystem::path folder = recording.parent_path().parent_path().parent_path().parent_path();
     if (!std::filesystem::exists(folder / "manifest.json")) return experiment::to_text(key);
@@ -291,7 +291,7 @@ core::ExitCode replay_file(Arguments arguments) {
     if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
         throw core::InputError(
-            {"--from, --to", "go with --csv alone", "", "A replay needs the recording from its beginning"});
+            {"--from, --to", "work only with --csv", "", "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = network_of(info, arguments);
@@ -302,15 +302,15 @@ core::ExitCode replay_file(Arguments arguments) {
     if (condition != info.condition || is_same(result)) return core::ExitCode::ok;
     fmt::print(
         stderr,
-        "clearway: the recorded condition does not come out again. The recording is of version {}, this "
-        "is {}; a model file or the code changed\n",
+        "clearway: the replay does not reproduce the recorded condition. The recording is of version {}, "
+        "this is {}; a model file or the code has changed\n",
         info.provenance.clearway_version, CLEARWAY_VERSION);
     return core::ExitCode::fell_short;
 }
 
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
-    const char* const group = "Export as CSV, in place of a replay";
+    const char* const group = "Export as CSV, instead of a replay";
     CLI::Option* const csv = app.add_option("--csv", arguments->table, "Table to print, see below")
                                  ->check(CLI::IsMember(table_names()))
                                  ->option_text("TABLE [replay]")
@@ -339,7 +339,7 @@ Action configure_replay(CLI::App& app) {
     thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
                            ->option_text("NAME [as recorded]"));
     app.add_option("--failure", arguments->failure,
-                   "How sensors fail, with the draws of the recorded run; also of --csv failures")
+                   "How sensors fail, with the draws of the recorded run; also for --csv failures")
         ->option_text("NAME [as recorded]");
     thinking.push_back(app.add_option("--policy", arguments->policies, "Policies, in this order")
                            ->option_text("NAME ... [as recorded]"));
@@ -349,7 +349,7 @@ Action configure_replay(CLI::App& app) {
         ->option_text("FILE [that of its run folder]");
     thinking.push_back(app.add_flag_callback(
         "--json", [arguments] { arguments->printing = Printing::json; },
-        "Print the figures as JSON, units in the names of fields [text]"));
+        "Print the figures as JSON, with units in the field names [text]"));
     add_csv_options(app, arguments, thinking);
     return [arguments](const Invocation&) { return replay_file(*arguments); };
 }

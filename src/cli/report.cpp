@@ -20,7 +20,7 @@ Action configure_report(CLI::App& app) {
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--least-difference", arguments->how.least_relevant_s,
-                   "Least difference of an EV's time that counts as an effect, s; 0: any")
+                   "Smallest difference of an EV's time that counts as an effect, s; 0: any")
         ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
     add_json_option(app, arguments->how.printing, "the tables");

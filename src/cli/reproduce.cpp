@@ -11,8 +11,8 @@
 namespace clearway::cli {
 namespace {
 
-constexpr std::uint32_t usual_seeds = 20;  // the least that the dissertation's tables are printed from
-constexpr std::uint32_t quick_seeds = 10;  // FHWA's least number; half a minute on two cores
+constexpr std::uint32_t usual_seeds = 20;  // the fewest that the dissertation's tables are printed from
+constexpr std::uint32_t quick_seeds = 10;  // FHWA's minimum; half a minute on two cores
 
 struct Arguments {
     std::uint32_t seeds = usual_seeds;
@@ -25,8 +25,8 @@ struct Arguments {
     scenario::Options scenario;
 };
 
-/// `runs/reproduce`, with what was asked for behind it, so that a quick try is not in the way of the real
-/// thing.
+/// `runs/reproduce` with a suffix for options that differ from the defaults, so that a quick try does not
+/// block the whole study.
 std::string folder_of(const Arguments& arguments) {
     if (!arguments.folder.empty()) return arguments.folder;
     std::string folder = "runs/reproduce";
@@ -54,10 +54,10 @@ Action configure_reproduce(CLI::App& app) {
     CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     app.add_flag_callback(
            "--quick", [arguments] { arguments->seeds = quick_seeds; },
-           fmt::format("{} seeds, FHWA's least: under a minute on two cores [off]", quick_seeds))
+           fmt::format("{} seeds, FHWA's minimum: under a minute on two cores [off]", quick_seeds))
         ->excludes(seeds);
     add_seed_option(app, arguments->seed);
-    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
+    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there is continued")
         ->option_text("DIR [runs/reproduce, with the number of seeds unless it is 20]");
     add_jobs_option(app, arguments->jobs);
     add_limit_options(app, arguments->limits);

@@ -44,7 +44,7 @@ Action configure_results(CLI::App& app) {
         ->option_text(fmt::format("TABLE [{}]", arguments->table));
     auto* const csv = app.add_flag_callback(
         "--csv", [arguments] { arguments->format = results::TableFormat::csv; },
-        "Print comma-separated values, names of columns first [on]");
+        "Print comma-separated values, column names first [on]");
     auto* const json = app.add_flag_callback(
         "--json", [arguments] { arguments->format = results::TableFormat::json; },
         "Print a JSON array with an object for each row [off]");

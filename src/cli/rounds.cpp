@@ -19,7 +19,7 @@ struct Round {
     std::string text;        ///< What was found, for the user.
 };
 
-/// What the replications so far say about the next ones.
+/// Decides from the replications so far whether another round follows.
 Round judge(const results::Store& store, const results::PrecisionTarget& target) {
     const results::Results results = results::read_results(store);
     const auto found = analysis::widest(analysis::summarise(results), target.metric, target.half_width);
@@ -67,7 +67,7 @@ core::ExitCode run_in_rounds(study::StudyConfig config, RunPlanOptions options) 
         const Round round = judge(store, *config.precision);
         say(round);
         if (round.outcome != Outcome::more) return publish(store, {options.printing, options.tables});
-        // At least one more, so that runs that fail cannot keep a study from its cap.
+        // At least one more, so that failing runs cannot keep a study from reaching its cap.
         config.replications =
             std::min(std::max(round.next, config.replications + 1), config.precision->at_most);
     }

@@ -4,14 +4,14 @@
 
 namespace clearway::cli {
 
-/// Runs a study with a precision target in rounds, each with as many replications as the last one's variation
-/// asks for (FHWA's rule, analysis::required_replications), until the target or its cap is reached; says so
-/// on standard error; then as run_and_print. Continued in its folder, it takes the same way to the same
-/// results.
+/// Runs a study with a precision target in rounds. Each round has as many replications as the variation so
+/// far requires (FHWA's rule, analysis::required_replications). It reports each round on standard error,
+/// stops when the target or its cap is reached, and then publishes as run_and_print does. A study that is
+/// continued in its folder takes the same rounds to the same results.
 core::ExitCode run_in_rounds(study::StudyConfig config, RunPlanOptions options);
 
-/// Replications that a study with a precision target has asked for so far in a folder; those of the first
-/// round where it has not begun.
+/// Replications that a study with a precision target has reached in a folder; those of the first round if it
+/// has not begun.
 std::uint32_t replications_so_far(const study::StudyConfig& config, const std::filesystem::path& folder);
 
 }  // namespace clearway::cli

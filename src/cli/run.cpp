@@ -22,12 +22,12 @@ namespace {
 
 enum class Floor : std::uint8_t { solo, none };
 
-constexpr std::uint32_t usual_seeds = 10;  // FHWA's least number of replications
+constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
 
 struct Arguments {
     std::string scenario;
     std::vector<std::string> conditions;  ///< Built-in ones, by name.
-    DescribedCondition own;               ///< Without a name: it is named after what it is.
+    DescribedCondition own;               ///< Without a name it is named after its content.
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
     std::uint64_t seed = 1;
@@ -39,7 +39,7 @@ struct Arguments {
     report::Tables tables = report::Tables::essential;
     scenario::Options options;
     bool is_shown = false;
-    double delay_ms = 50.0;  ///< 0.25 s steps: five times as fast as the traffic.
+    double delay_ms = 50.0;  ///< With steps of 0.25 s: five times real time.
     std::string window_settings;
 };
 
@@ -56,7 +56,7 @@ void add_once(std::vector<experiment::ConditionSpec>& conditions,
     if (std::ranges::none_of(conditions, same_name)) conditions.push_back(condition);
 }
 
-/// What is compared with a condition: nothing but the car-following model, with the same traffic model.
+/// The baseline of a condition: the car-following model alone, in the same traffic model.
 experiment::ConditionSpec baseline_of(experiment::TrafficModel traffic_model) {
     experiment::ConditionSpec baseline = experiment::built_in_condition("baseline", "--condition");
     if (traffic_model == baseline.traffic_model) return baseline;
@@ -83,7 +83,7 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const Arguments& argume
     return chosen;
 }
 
-/// Those, or else the usual one, and what they are compared with.
+/// The chosen conditions, or else the usual one, with their baselines and solo.
 std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
                                                      std::vector<experiment::ConditionSpec> chosen) {
     if (chosen.empty())
@@ -106,7 +106,7 @@ std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
     return all;
 }
 
-/// Of the conditions that the user chose, the one that a window shows.
+/// The chosen condition that a window shows.
 experiment::ConditionSpec shown_condition(const std::vector<experiment::ConditionSpec>& chosen) {
     if (chosen.empty()) return experiment::built_in_condition(experiment::usual_condition, "--gui");
     if (chosen.size() == 1) return chosen.front();
@@ -121,7 +121,7 @@ experiment::ConditionSpec shown_condition(const std::vector<experiment::Conditio
 std::filesystem::path window_settings(const std::string& file) {
     if (file.empty()) return {};
     if (std::filesystem::is_regular_file(file)) return std::filesystem::absolute(file);
-    throw core::InputError({"--gui-settings-file", fmt::format("{} is no file", file),
+    throw core::InputError({"--gui-settings-file", fmt::format("{} is not a file", file),
                             "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
 }
 
@@ -155,7 +155,7 @@ void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
                                  ->group(group);
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
-                   "Least wall time of a step, from a minute before the first emergency vehicle, ms")
+                   "Minimum wall time per step, from a minute before the first emergency vehicle, ms")
         ->check(core::NumberRange{0.0, longest_delay_ms})
         ->option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
         ->needs(gui)
@@ -171,19 +171,19 @@ void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& 
     add_condition_options(app, arguments->own, group);
     experiment::ConditionSpec& own = arguments->own.condition;
     add_switch(app, "--bluelight", own.bluelight,
-               "SUMO's device.bluelight on every emergency vehicle: an opponent")
+               "SUMO's device.bluelight on every emergency vehicle, for comparison")
         ->option_text("on|off [off]")
         ->group(group);
-    static const std::map<std::string, experiment::TrafficModel> engines = {
+    static const std::map<std::string, experiment::TrafficModel> models = {
         {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
     app.add_option_function<std::string>(
-           "--traffic-model", [&own](const std::string& name) { own.traffic_model = engines.at(name); },
-           "SUMO's lateral model; sublane brings a baseline of its own")
-        ->check(CLI::IsMember(engines))
+           "--traffic-model", [&own](const std::string& name) { own.traffic_model = models.at(name); },
+           "SUMO's lateral model; sublane adds a baseline of its own")
+        ->check(CLI::IsMember(models))
         ->option_text("standard|sublane [standard]")
         ->group(group);
     app.add_option("--name", own.name, "Its name in tables and folders")
-        ->option_text("NAME [after what it is: corridor_B10_graphsage]")
+        ->option_text("NAME [after its content: corridor_B10_graphsage]")
         ->group(group);
 }
 
@@ -200,11 +200,11 @@ Action configure_run(CLI::App& app) {
             fmt::format("NAME ... [{}, unless one of your own is described]", experiment::usual_condition));
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
-        "Leave out the runs of emergency vehicles alone, hence the gap closed [with them]");
+        "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
     const CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
-    app.add_option("--out", arguments->folder, "Run folder; what was interrupted there continues")
-        ->option_text("DIR [runs/SCENARIO-xxxxxx, digits by what is run]");
+    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there is continued")
+        ->option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
     add_limit_options(app, arguments->limits);

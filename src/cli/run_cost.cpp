@@ -18,8 +18,7 @@ constexpr double mean_trip_s = 120.0;
 constexpr double overhead_s = 0.2;
 /// A folder and two small files, each a block of 4 KiB.
 constexpr double least_disk_bytes = 12.0 * 1024.0;
-/// A line of vehicles.csv, counted in the four scenarios: 130 to 170 bytes; measured ones lie in the upper
-/// half.
+/// A line of vehicles.csv: 130 to 170 bytes in the four scenarios, more in those with measured demand.
 constexpr double vehicle_disk_bytes = 160.0;
 constexpr std::size_t sampled_runs = 10;
 
@@ -81,7 +80,7 @@ CostBook::CostBook(const fs::path& folder) {
         try {
             stores_.push_back(results::Store::open(each));
         } catch (const core::InputError&) {
-            // A folder of another version has nothing to say about costs.
+            // A folder of another version cannot be read.
         }
     }
 }

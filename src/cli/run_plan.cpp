@@ -53,7 +53,7 @@ class PresentEstimate {
     std::chrono::steady_clock::time_point read_{};
 };
 
-/// Hidden files apart: a shard's number and the lock.
+/// Hidden files do not count: a shard's number and the lock.
 bool is_absent_or_empty(const std::filesystem::path& folder) {
     std::error_code none;
     for (auto entry = std::filesystem::directory_iterator(folder, none);
@@ -181,7 +181,9 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     name_errors(store, results);
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
     if (!results.missing.empty()) {
-        fmt::print(stderr, "clearway: {} of {} runs are missing; the command that started them continues\n",
+        fmt::print(stderr,
+                   "clearway: {} of {} runs are missing; repeat the command that started them to "
+                   "continue\n",
                    results.missing.size(), results.manifest.runs().size());
         return core::ExitCode::incomplete;
     }

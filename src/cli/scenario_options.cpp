@@ -8,17 +8,18 @@
 namespace clearway::cli {
 namespace {
 
-const char* const group = "Scenario (what is not given stays as the scenario says)";
+const char* const group = "Scenario (the defaults are those of the scenario)";
 
 void add_demand_options(CLI::App& app, scenario::Options& options) {
     app.add_flag_callback(
            "--dense", [&options] { options.variant = scenario::Variant::dense; },
            "The scenario's dense variant [standard]")
         ->group(group);
-    app.add_option("--density", options.density, "Factor on human and automated vehicles")
+    app.add_option("--density", options.density,
+                   "Factor on the numbers of human-driven and automated vehicles")
         ->option_text("FACTOR, 0 to 100 [1]")
         ->group(group);
-    app.add_option("--av-share", options.automated_share, "Share of them that is automated")
+    app.add_option("--av-share", options.automated_share, "Share of these that is automated")
         ->option_text("SHARE, 0 to 1 [as counted]")
         ->group(group);
     app.add_option("--kinds", options.traffic_kinds, "Weights of the kinds car, van, truck, bus")
@@ -38,27 +39,27 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
     app.add_option("--warm-up", options.warm_up_s, "Emergency vehicles enter after this simulation time, s")
         ->option_text("SECONDS [by scenario]")
         ->group(group);
-    app.add_option("--horizon", options.horizon_s, "Cut a run at this simulation time, s")
+    app.add_option("--horizon", options.horizon_s, "End a run at this simulation time, s")
         ->option_text("SECONDS [by scenario]")
         ->group(group);
     app.add_option("--step-length", options.step_length_s, "Simulation step, s")
         ->option_text("SECONDS, 0.1 to 0.25 [0.25]")
         ->group(group);
     app.add_option("--time-to-teleport", options.time_to_teleport_s,
-                   "SUMO lifts a vehicle that stood this long over the jam, s; -1: never")
+                   "SUMO teleports a vehicle that has stood this long, s; -1: never")
         ->option_text("SECONDS, -1 to 86400 [300]")
         ->group(group);
     app.add_option("--siren", options.siren_compliance, "Share of human drivers that yield to a siren")
         ->option_text("SHARE, 0 to 1 [by scenario: 0]")
         ->group(group);
     app.add_option("--road-speed", options.road_speed_factor,
-                   "Factor on all speed limits, as rain or snow has")
+                   "Factor on all speed limits, as in rain or snow")
         ->option_text("FACTOR, 0.05 to 1 [by scenario: 1]")
         ->group(group);
-    app.add_option("--friction", options.friction, "Share of a dry road's grip: accelerating and braking")
+    app.add_option("--friction", options.friction, "Share of a dry road's grip when accelerating and braking")
         ->option_text("SHARE, 0.1 to 1 [by scenario: 1]")
         ->group(group);
-    app.add_option("--pedestrians", options.pedestrians, "Pedestrians an hour at each crossing with signals")
+    app.add_option("--pedestrians", options.pedestrians, "Pedestrians per hour at each crossing with signals")
         ->option_text("NUMBER, 0 to 2000 [by scenario: 0]")
         ->group(group);
     static const std::map<std::string, scenario::IdmPreset> presets = {

@@ -23,16 +23,14 @@ void require_display() {
     if (is_set("DISPLAY")) return;
     if (is_set("WAYLAND_DISPLAY"))
         throw core::EnvironmentError(
-            "--gui needs an X display, and DISPLAY is not set: sumo-gui does not speak Wayland. Install "
-            "Xwayland "
-            "(Debian package xwayland) and start the session anew, or leave --gui out");
+            "--gui needs an X display, and DISPLAY is not set: sumo-gui does not support Wayland. Install "
+            "Xwayland (Debian package xwayland) and restart the session, or leave --gui out");
     throw core::EnvironmentError(
-        "--gui needs a display, and DISPLAY is not set. Run it in a graphical session, over ssh with ssh -X, "
-        "or "
-        "leave --gui out");
+        "--gui needs a display, and DISPLAY is not set. Run it in a graphical session, over ssh with ssh "
+        "-X, or leave --gui out");
 }
 
-/// What makes the first replication of a condition.
+/// The job that makes the first replication of a condition.
 experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
     for (const study::PlannedUnit& planned : plan.units) {
         if (planned.unit.traffic_model != shown.traffic_model) continue;
@@ -43,7 +41,7 @@ experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionS
     throw std::logic_error("the shown condition is not in the plan");
 }
 
-/// Shows the run; ok, or what kept it from its end.
+/// Shows the run. Returns ok, or why it did not finish.
 core::ExitCode show(const experiment::RunJob& unit) {
     const std::string label =
         experiment::to_text({unit.scenario, unit.conditions.front().name, unit.replication});

@@ -39,7 +39,7 @@ void add_cells(const std::vector<CellStatus>& shard, std::vector<CellStatus>& to
     }
 }
 
-/// Running while any shard is, stopped while any is, and failed when any is.
+/// Running if any shard is running, else stopped if any is, else failed if any is.
 State worse(State left, State right) {
     for (const State state : {State::running, State::stopped, State::failed}) {
         if (left == state || right == state) return state;

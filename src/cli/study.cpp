@@ -50,7 +50,7 @@ core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& s
         throw core::InputError({"--shard",
                                 "the study has a precision target, which needs all its runs at once",
                                 "a study with replications",
-                                "Run it whole, or give the number of replications that it came to"});
+                                "Run it as a whole, or give the number of replications that it reached"});
     study::Plan plan = plan_for(config, options);
     study::keep_shard(plan, shard);
     study::claim(options.folder, shard);
@@ -96,11 +96,12 @@ Action configure_study(CLI::App& app) {
     app.add_option("file", arguments->file, "Study file, TOML: scenarios, conditions, factors, replications")
         ->required()
         ->option_text("FILE (required)");
-    CLI::Option* const out =
-        app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there continues")
-            ->option_text("DIR [runs/NAME, the name that the file gives]");
+    CLI::Option* const out = app.add_option("--out", arguments->folder,
+                                            "Run folder; a study that was interrupted there is "
+                                            "continued")
+                                 ->option_text("DIR [runs/NAME, with the name in the file]");
     app.add_option("--shard", arguments->shard,
-                   "Run the I-th of N parts alone, into --out; `clearway merge` puts them together")
+                   "Run only the I-th of N shards, into --out; `clearway merge` merges them")
         ->option_text("I/N [the whole]")
         ->needs(out);
     app.add_flag_callback(
@@ -108,7 +109,7 @@ Action configure_study(CLI::App& app) {
         "Print cells, runs, estimated time and disk, and run nothing [off]");
     app.add_flag_callback(
         "--quick", [arguments] { arguments->extent = study::Extent::quick; },
-        "Run what [quick] of the file leaves, into runs/NAME-quick [the whole study]");
+        "Run what the file's [quick] leaves, into runs/NAME-quick [the whole study]");
     add_jobs_option(app, arguments->jobs);
     add_record_option(app, arguments->recording);
     add_limit_options(app, arguments->limits);

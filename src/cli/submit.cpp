@@ -23,15 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Work of a shard that one asks for when nobody says how many there are: long enough to outweigh starting
-/// it, short enough to lose little with a node.
+/// Work per shard, s, when the user gives no number of shards: long enough to outweigh its start, short
+/// enough to lose little with a node.
 constexpr double usual_shard_s = 300.0;
-/// Where the time cannot be estimated.
+/// Number of shards when the time cannot be estimated.
 constexpr std::uint32_t usual_shards = 16;
-/// Slurm's default MaxArraySize is 1001, which excludes itself; larger arrays need its administrator.
+/// Slurm's default MaxArraySize is 1001, so the largest index is 1000. Larger arrays need its administrator.
 constexpr std::uint32_t most_shards = 1000;
-/// Slurm's limit for a shard, as a multiple of its estimated time: the estimate is right within a factor of
-/// three.
+/// Slurm's time limit for a shard as a multiple of its estimated time. The estimate is accurate to a factor
+/// of three.
 constexpr double limit_factor = 6.0;
 constexpr double least_limit_s = 600.0;
 
@@ -68,7 +68,7 @@ std::uint32_t shard_count(const Arguments& arguments, const study::Plan& plan, s
     return std::min(static_cast<std::uint32_t>(wanted), units);
 }
 
-/// The number of shards is fixed with the first submission: shards of two divisions would do much work twice.
+/// Fixes the number of shards at the first submission: shards of two divisions would repeat much work.
 void claim(const fs::path& folder, std::uint32_t shards) {
     const fs::path file = folder / "shards.txt";
     const std::string text = fmt::format("{}\n", shards);
@@ -77,7 +77,7 @@ void claim(const fs::path& folder, std::uint32_t shards) {
     if (held == text) return;
     throw core::InputError(
         {folder.string(),
-         fmt::format("is divided into {} shards already, not {}", held.substr(0, held.find('\n')), shards),
+         fmt::format("is already divided into {} shards, not {}", held.substr(0, held.find('\n')), shards),
          "the same --shards, or another folder", "Choose another folder with --out"});
 }
 
@@ -151,7 +151,7 @@ core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) 
 Action configure_submit(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("file", arguments->file, "Study file")->required()->option_text("FILE (required)");
-    app.add_option("--out", arguments->out, "Folder on a file system that all machines see")
+    app.add_option("--out", arguments->out, "Folder on a file system that all machines share")
         ->required()
         ->option_text("DIR (required)");
     app.add_option_function<std::string>(
@@ -163,7 +163,7 @@ Action configure_submit(CLI::App& app) {
         ->check(CLI::Range(0U, 1000000U))
         ->option_text("N, 0 to 1000000 [0]");
     app.add_flag_callback(
-        "--go", [arguments] { arguments->start = Start::go; }, "Run submit.sh, too [only write it]");
+        "--go", [arguments] { arguments->start = Start::go; }, "Also run submit.sh [only write it]");
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "what was written");
     return [arguments](const Invocation& invocation) { return submit(*arguments, invocation); };

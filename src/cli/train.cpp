@@ -13,7 +13,8 @@
 namespace clearway::cli {
 namespace {
 
-/// Becomes clearway-train, which parses its own arguments: this program stays free of torch.
+/// Replaces this process with clearway-train, which parses its own arguments, so that this program does not
+/// need libtorch.
 core::ExitCode become_trainer(const std::vector<std::string>& arguments) {
     std::string program = core::program_folder() / "clearway-train";
     std::vector<std::string> words = {program};

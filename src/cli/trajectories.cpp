@@ -49,7 +49,7 @@ core::ExitCode write(const Arguments& arguments) {
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
     scenario::write_sumo_files(config, network, run, folder / "sumo");
-    fmt::print("{}: {} EVs and {} neighbours in {} places\n",
+    fmt::print("{}: {} EVs and {} neighbours at {} places\n",
                results::run_name(std::filesystem::proximate(run_folder), key), counts.emergency_vehicles,
                counts.neighbours, counts.places);
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
@@ -59,8 +59,8 @@ core::ExitCode write(const Arguments& arguments) {
                    : "its demand, traffic model and devices for any SUMO; what the policy did is not in it");
     if (!counts.has_coordinates)
         fmt::print(stderr,
-                   "clearway: this network has no map projection that is known, so no GeoJSON and no "
-                   "coordinates; x and y are there\n");
+                   "clearway: this network has no known map projection, so there is no GeoJSON and there "
+                   "are only x and y\n");
     return core::ExitCode::ok;
 }
 
@@ -74,7 +74,7 @@ Action configure_trajectories(CLI::App& app) {
         ->option_text("RUN (required)");
     app.add_option("--out", arguments->folder, "Folder to write into")
         ->option_text("DIR [trajectories-SCENARIO-CONDITION-N]");
-    app.add_option("--every", arguments->every_s, "Time between two places of a vehicle, s")
+    app.add_option("--every", arguments->every_s, "Time between two positions of a vehicle, s")
         ->check(core::NumberRange{0.01, 3600.0})
         ->option_text("SECONDS, 0.01 to 3600 [1]");
     app.add_option("--reach", arguments->reach_m, "Vehicles nearer than this to an EV are its neighbours, m")

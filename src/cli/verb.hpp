@@ -15,7 +15,8 @@ struct Invocation {
     std::string command;  ///< One line for a shell: `clearway run city --seeds 5`.
 };
 
-/// What a verb does once its arguments are parsed. Throws core::Error for what the user must hear.
+/// What a verb does once its arguments are parsed. Throws core::Error for errors that are reported to the
+/// user.
 using Action = std::function<core::ExitCode(const Invocation& invocation)>;
 
 /// A verb of the command line: `configure` declares its options on `app` and returns what to do with them.

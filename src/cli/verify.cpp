@@ -43,10 +43,10 @@ enum class Verdict : std::uint8_t { same, different, damaged, failed };
 struct Verification {
     std::string run;  ///< Its name.
     Verdict verdict = Verdict::same;
-    std::string hash;  ///< Of the stored record's trace; empty when it cannot be read.
+    std::string hash;  ///< Trace hash of the stored record; empty when it cannot be read.
     std::string cause;
     std::vector<results::CellDifference> cells;
-    std::string first_step;  ///< Where two recordings part; empty without recordings.
+    std::string first_step;  ///< Where two recordings first differ; empty without recordings.
 };
 
 const char* text_of(Verdict verdict) {
@@ -63,7 +63,7 @@ const char* text_of(Verdict verdict) {
     return "";
 }
 
-/// Another version may rightly give other numbers: nothing would be learned from comparing.
+/// Another version may legitimately give other numbers, so a comparison would show nothing.
 void require_same_versions(const results::Manifest& manifest) {
     const study::Versions here = installed_versions();
     std::string differing;
@@ -74,13 +74,12 @@ void require_same_versions(const results::Manifest& manifest) {
                                  manifest.clearway_version, here.clearway);
     if (!differing.empty())
         throw core::EnvironmentError(
-            fmt::format("this study was made with other versions ({}): a run made here need not be the same. "
-                        "Verify with the versions of the study",
+            fmt::format("this study was made with other versions ({}): a run made here may differ. Verify "
+                        "with the versions of the study",
                         differing));
 }
 
-/// The runs to verify and where they are. Throws core::Error with code incomplete where there is nothing to
-/// compare with.
+/// The runs to verify and the store that holds them.
 struct Chosen {
     results::Store store;
     std::vector<experiment::RunKey> keys;
@@ -118,14 +117,15 @@ Chosen chosen_runs(const Arguments& arguments) {
                                 results::run_name_form, "Name one of its runs, or add --all or --sample N"});
     if (!wants_many) return chosen_run(arguments.what);
     if (!is_folder)
-        throw core::InputError({"RUN", fmt::format("{} is no run folder", arguments.what),
-                                "a folder written with --out", "One run goes without --all and --sample"});
+        throw core::InputError({"RUN", fmt::format("{} is not a run folder", arguments.what),
+                                "a folder written with --out",
+                                "For a single run leave out --all and --sample"});
     results::Store store = results::Store::open(arguments.what);
     std::vector<experiment::RunKey> keys = complete_runs(store, arguments);
     return {std::move(store), std::move(keys)};
 }
 
-/// Units that make these runs again, from the scenarios and networks of the folder.
+/// A plan that repeats these runs from the scenarios and networks of the folder.
 study::Plan plan_of(const results::Store& store, const std::vector<experiment::RunKey>& keys,
                     const std::filesystem::path& out) {
     study::Plan plan;
@@ -157,7 +157,7 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
     return plan;
 }
 
-/// Where two recordings of a run part; empty when that cannot be said.
+/// The first difference between two recordings of a run; empty if there is none or a recording is missing.
 std::string first_differing_step(const std::filesystem::path& one, const std::filesystem::path& other) {
     if (!std::filesystem::exists(one) || !std::filesystem::exists(other)) return "";
     try {
@@ -216,7 +216,7 @@ Verification verify(const results::Store& stored, const results::Store& again,
 void print_verification(const Verification& each) {
     fmt::print("{:<10} {}{}{}\n", text_of(each.verdict), each.run,
                each.hash.empty() ? "" : "  trace " + each.hash, each.cause.empty() ? "" : "  " + each.cause);
-    if (!each.first_step.empty()) fmt::print("  recordings part {}\n", each.first_step);
+    if (!each.first_step.empty()) fmt::print("  recordings first differ {}\n", each.first_step);
     for (const char* const table : {"provenance", "metrics", "vehicles"}) {
         std::size_t count = 0;
         for (const results::CellDifference& cell : each.cells) {
@@ -282,7 +282,8 @@ core::ExitCode verify_runs(const Arguments& arguments) {
     std::error_code none;
     if (std::filesystem::equivalent(stored.folder(), arguments.out, none))
         throw core::InputError({"--out", fmt::format("{} is the folder to verify", arguments.out),
-                                "a new or empty folder", "A run must be made elsewhere to be compared"});
+                                "a new or empty folder",
+                                "The runs must be repeated elsewhere to be compared"});
     require_same_versions(stored.manifest());
     std::optional<core::TemporaryFolder> temporary;
     if (arguments.out.empty()) temporary.emplace();
@@ -309,24 +310,24 @@ core::ExitCode verify_runs(const Arguments& arguments) {
 
 Action configure_verify(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option(
-           "run", arguments->what,
-           fmt::format("Run to make again: {}; for --all or --sample a folder", results::run_name_form))
+    app.add_option("run", arguments->what,
+                   fmt::format("Run to repeat: {}; with --all or --sample a folder", results::run_name_form))
         ->required()
         ->option_text("RUN|DIR (required)");
     CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
-    app.add_option("--sample", arguments->sample, "So many complete runs, evenly spread over the sorted list")
+    app.add_option("--sample", arguments->sample,
+                   "Number of complete runs, evenly spread over the sorted list")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
         ->option_text("N, 1 or more [off]")
         ->excludes(all);
-    app.add_option("--out", arguments->out, "New run folder that keeps the runs made again")
+    app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
         ->option_text("DIR [a temporary one, removed at the end]");
     add_jobs_option(app, arguments->jobs);
     add_json_option(app, arguments->printing, "the verdicts");
     app.footer(
         app.get_footer() +
         "\n  clearway verify runs/city --sample 20\n\n"
-        "The runs are made again from the configurations and networks in the folder, elsewhere, and every\n"
+        "The runs are repeated elsewhere, from the configurations and networks in the folder, and every\n"
         "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
         "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
         "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.");

@@ -19,7 +19,7 @@ namespace {
 constexpr int shown_lines = 10;
 constexpr int program_not_started = 127;
 
-/// What the failure of one worker means for the command.
+/// Exit code of the command after a worker failed.
 core::ExitCode exit_code_of(const core::Exit& exit) {
     constexpr std::array told = {core::ExitCode::bad_input, core::ExitCode::environment,
                                  core::ExitCode::incomplete, core::ExitCode::conflict};
@@ -71,7 +71,7 @@ class JobList : public core::TaskList {
     void report_failure(const WorkerJob& job, const core::Exit& exit) {
         ++failed_;
         const std::string words = core::tail(job.log, shown_lines);
-        remove_work(job);  // often with the log
+        remove_work(job);  // this often removes the log too
         const bool is_kept = std::filesystem::exists(job.log);
         fmt::print(stderr, "\nclearway: {}: {}{}\n{}", job.label, exit.describe(),
                    is_kept ? fmt::format(" ({})", job.log.string()) : "", words);
@@ -95,7 +95,7 @@ class JobList : public core::TaskList {
     }
 
     const std::vector<WorkerJob>& jobs_;
-    std::vector<std::filesystem::path> logs_;  ///< Of jobs that were done; empty otherwise.
+    std::vector<std::filesystem::path> logs_;  ///< Of jobs that succeeded; empty otherwise.
     std::string program_;
     core::Progress progress_;
     std::size_t next_ = 0;

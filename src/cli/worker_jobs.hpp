@@ -24,10 +24,10 @@ struct WorkerResult {
     std::vector<std::string> lines;  ///< Logs of the workers that did not fail, in the order of the jobs.
 };
 
-/// Does the jobs with `processes` workers at one time (0: one per core), with progress on standard error. A
-/// worker that fails is reported there and the others go on; the first failure decides the exit code. SIGINT
-/// and SIGTERM end the workers: one that does not end within a few seconds is killed. `title` names what is
-/// counted. Throws core::EnvironmentError when no worker can be started.
+/// Runs the jobs with up to `processes` workers at a time (0: one per core), with progress on standard error.
+/// A worker that fails is reported there and the others continue; the first failure decides the exit code.
+/// SIGINT and SIGTERM end the workers: one that does not end within a few seconds is killed. `title` names
+/// what is counted. Throws core::EnvironmentError when no worker can be started.
 WorkerResult work_on(const std::vector<WorkerJob>& jobs, unsigned processes, const std::string& title);
 
 }  // namespace clearway::cli

@@ -7,12 +7,12 @@
 
 namespace clearway::core {
 
-/// What to throw where `path` could not be written, with the system's reason (errno) and its cure.
+/// The error to throw when `path` cannot be written: the system's reason (an errno value) and what to do.
 EnvironmentError write_error(const std::filesystem::path& path, int reason);
 
-/// A file that is written piece by piece and is there as a whole or not at all: written aside, and after
-/// `commit` flushed to the disk and renamed, name and all. Without it, nothing is left. All functions throw
-/// EnvironmentError naming the file (folder not writable, disk full).
+/// A file that is written piece by piece and appears as a whole or not at all. The bytes go to a temporary
+/// file beside it, which `commit` flushes and renames. Without `commit` the temporary file is removed. All
+/// functions throw EnvironmentError naming the file (folder not writable, disk full).
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path file);
@@ -21,9 +21,9 @@ class AtomicFile {
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     void write(std::string_view bytes);
-    /// Where the bytes are until `commit`, for a library that writes a file by its name.
+    /// The temporary file, for a library which writes to a path.
     const std::filesystem::path& aside() const { return aside_; }
-    /// Replaces an earlier file of the name. Nothing can be written afterwards.
+    /// Puts the file in place of an earlier one. Nothing can be written afterwards.
     void commit();
 
   private:
@@ -34,8 +34,7 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
-/// Removes what an AtomicFile in `folder` left half written because its process was killed. Files of
-/// processes that are still there stay.
+/// Removes the temporary files that killed processes left in `folder`. Those of running processes stay.
 void remove_abandoned_parts(const std::filesystem::path& folder);
 
 }  // namespace clearway::core

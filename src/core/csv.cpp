@@ -45,7 +45,7 @@ bool CsvReader::read_quoted_cell(std::size_t start) {
             quoted = !quoted;
         }
     }
-    if (quoted) throw std::runtime_error("a quote does not end");
+    if (quoted) throw std::runtime_error("a quote is not closed");
     cells_.emplace_back(cell);
     return pass_separator();
 }

@@ -15,10 +15,11 @@
 
 namespace clearway::core {
 
-/// Text as a cell of a CSV file (RFC 4180): quoted only where it must be.
+/// Text as a cell of a CSV file (RFC 4180): quoted only if it has to be.
 std::string csv_text(std::string_view text);
 
-/// Shortest decimal text that reads back as the same number.
+/// A value as a cell. Numbers get the shortest text that reads back as the same number; an empty optional
+/// gives an empty cell.
 template <class Value>
 std::string csv_cell(const Value& value) {
     if constexpr (OptionalMember<Value>::value) {
@@ -48,19 +49,19 @@ void append_empty_cells(std::string& line) {
     for_each_field<Struct>([&](const auto&) { line += ","; });
 }
 
-/// Takes a CSV text apart, row by row, copying nothing but quoted cells: reading runs is most of what a
-/// report of many takes. The text outlives the reader.
+/// Splits a CSV text row by row. Only quoted cells are copied, because a report spends most of its time
+/// reading runs. The text must outlive the reader.
 class CsvReader {
   public:
     explicit CsvReader(std::string_view text) : text_(text) {}
 
-    /// Goes to the next row; false at the end. Throws std::runtime_error for a quote that does not end.
+    /// Moves to the next row; false at the end. Throws std::runtime_error for a quote that is not closed.
     bool next();
     /// The cells of the row, valid until the next one; at least one.
     const std::vector<std::string_view>& cells() const { return cells_; }
 
   private:
-    /// These answer whether the row goes on.
+    /// These return whether the row continues.
     bool read_cell();
     bool read_quoted_cell(std::size_t start);
     bool pass_separator();
@@ -68,10 +69,10 @@ class CsvReader {
     std::string_view text_;
     std::size_t at_ = 0;
     std::vector<std::string_view> cells_;
-    std::deque<std::string> unquoted_;  ///< What `cells_` refers to where quotes were taken off.
+    std::deque<std::string> unquoted_;  ///< Unquoted text that `cells_` refers to.
 };
 
-/// The opposite of `csv_cell`. Throws std::runtime_error for text that is no such value.
+/// The inverse of `csv_cell`. Throws std::runtime_error for text that is not such a value.
 template <class Value>
 void read_cell(std::string_view cell, Value& target) {
     if constexpr (OptionalMember<Value>::value) {

@@ -17,7 +17,7 @@ std::string format_all(const std::vector<Problem>& problems) {
     return text;
 }
 
-/// Levenshtein's distance, one row at a time.
+/// Levenshtein distance, one row at a time.
 std::size_t edit_distance(const std::string& left, const std::string& right) {
     std::vector<std::size_t> row(right.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});

@@ -20,13 +20,12 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One thing wrong with what the user gave. All members may hold text from the user's files; printers escape
-/// them.
+/// One problem with the user's input. All members may hold text from the user's files; printers escape it.
 struct Problem {
     std::string where;    ///< File and place: `city.toml:12:3: demand.count` or `--step-length`.
-    std::string what;     ///< What is wrong with it, with the value met: `-3 is negative`.
-    std::string allowed;  ///< What would be right: `0 to 100000`. Empty where nothing general can be said.
-    std::string cure;     ///< What to do. Empty where `allowed` says it all.
+    std::string what;     ///< What is wrong, with the value found: `-3 is negative`.
+    std::string allowed;  ///< What is allowed: `0 to 100000`. Empty if there is no general rule.
+    std::string cure;     ///< What to do. Empty if `allowed` is enough.
 };
 
 /// Base of everything that a program reports to its user with an exit code. `what()` is the whole message.
@@ -52,14 +51,14 @@ class InputError : public Error {
     std::vector<Problem> problems_;
 };
 
-/// The machine lacks something: SUMO missing or of another version, a folder not writable, a full disk, a
-/// taken port.
+/// Something is wrong with the machine: SUMO is missing or has another version, a folder is not writable, the
+/// disk is full, a port is taken.
 class EnvironmentError : public Error {
   public:
     explicit EnvironmentError(const std::string& message) : Error(ExitCode::environment, message) {}
 };
 
-/// The simulator failed. Each layer that passes it on adds what it knows (time, vehicle, file) with
+/// The simulator failed. Each layer that rethrows it adds what it knows (time, vehicle, file) with
 /// `with_context`.
 class SimulatorError : public Error {
   public:
@@ -68,7 +67,7 @@ class SimulatorError : public Error {
     SimulatorError with_context(const std::string& context) const;
 };
 
-/// Two results claim one place and differ.
+/// Two different results claim the same place.
 class ConflictError : public Error {
   public:
     explicit ConflictError(const std::string& message) : Error(ExitCode::conflict, message) {}
@@ -80,8 +79,8 @@ std::string format_problem(const Problem& problem);
 /// `a, b, c`.
 std::string listed(const std::vector<std::string>& words);
 
-/// The entry of `candidates` nearest to `word` by edit distance, or empty when none is near (more than a
-/// third differs).
+/// The candidate nearest to `word` by edit distance; empty when all differ in more than a third of its
+/// letters (and in more than two).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace clearway::core

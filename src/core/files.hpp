@@ -6,18 +6,18 @@
 
 namespace clearway::core {
 
-/// Writes `content` to `file` so that a reader meets the old file or the whole new one, never a part: an
-/// AtomicFile. Throws EnvironmentError (folder not writable, disk full) and then leaves `file` as it was.
+/// Writes `content` to `file` through an AtomicFile: a reader sees the old file or the whole new one. Throws
+/// EnvironmentError (folder not writable, disk full) and then leaves `file` unchanged.
 void write_atomically(const std::filesystem::path& file, std::string_view content);
 
 /// The whole file. Throws InputError when it is missing or unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-/// Waits until the names in `folder` are on the disk, so that a rename survives the loss of power. Does
-/// nothing on file systems that cannot. Throws EnvironmentError when the folder is not there.
+/// Flushes the directory entries of `folder` to the disk, so that a rename survives a power failure. Does
+/// nothing on file systems which do not support this. Throws EnvironmentError when the folder does not exist.
 void flush_folder(const std::filesystem::path& folder);
 
-/// Makes a folder and its parents. Throws EnvironmentError naming the folder when that is not possible or not
+/// Makes a folder and its parents. Throws EnvironmentError naming the folder when it cannot be made or is not
 /// writable.
 void make_folder(const std::filesystem::path& folder);
 

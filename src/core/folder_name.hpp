@@ -5,9 +5,9 @@
 
 namespace clearway::core {
 
-/// Whether a text may name a scenario, a condition or a run: all become folders, words of shells and files of
-/// SUMO, which takes commas and blanks for separators. ASCII letters, digits and `_-.+=`, not starting with
-/// `.`, at most 100 bytes, for names of files are longer than it and must stay below 255.
+/// Whether a text may name a scenario, a condition or a run. Such names become folder names, shell words and
+/// entries of SUMO's file lists, which are separated by commas and spaces. Allowed: 1 to 100 ASCII letters,
+/// digits and `_-.+=`, not starting with `.`; file names built from them must stay below 255 bytes.
 bool is_folder_name(std::string_view name);
 
 /// `text` with `_` in place of each character that a folder name cannot have, and of `=` and `+`, which

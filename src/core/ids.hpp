@@ -9,8 +9,8 @@
 
 namespace clearway::core {
 
-/// What outlives a step: a vehicle's identity, a 64-bit hash of its SUMO id. It does not depend on the order
-/// in which vehicles appear, so keyed random draws agree between conditions. Collisions are refused where
+/// Identity of a vehicle during the whole run: a 64-bit hash of its SUMO id. It does not depend on the order
+/// in which vehicles appear, so keyed random draws agree between conditions. Collisions are rejected where
 /// keys are registered.
 struct VehicleKey {
     std::uint64_t value = 0;

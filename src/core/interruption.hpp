@@ -7,8 +7,9 @@
 
 namespace clearway::core {
 
-/// While this object lives, SIGINT and SIGTERM are noted instead of ending the process, so that children end
-/// first and files are closed. One at a time; signal handlers belong to the whole process.
+/// While this object lives, SIGINT and SIGTERM are noted instead of ending the process, so that children can
+/// end first and files are closed. Only one may exist at a time, because signal handlers belong to the whole
+/// process.
 class InterruptionWatch {
   public:
     InterruptionWatch();
@@ -16,7 +17,7 @@ class InterruptionWatch {
     InterruptionWatch(const InterruptionWatch&) = delete;
     InterruptionWatch& operator=(const InterruptionWatch&) = delete;
 
-    /// The first signal that came since construction, or 0.
+    /// The first signal received since construction, or 0.
     int signal() const;
     /// `interrupted` or `terminated` after such a signal, otherwise `code`.
     ExitCode exit_code(ExitCode code) const;

@@ -20,16 +20,16 @@ namespace clearway::core {
 /// Keeps the order of its keys, so that equal values give equal bytes.
 using Json = nlohmann::ordered_json;
 
-/// Text of a value: two blanks of indent, a line end at the end. Bytes that are not UTF-8 are replaced, for
-/// names come from files of others.
+/// A value as text, indented by two spaces, with a newline at the end. Invalid UTF-8 is replaced, because
+/// names come from the user's files.
 std::string to_text(const Json& json);
 
-/// Reads one object of a file strictly and collects what is wrong with it.
+/// Reads one object of a file strictly and collects its problems.
 class ObjectReader {
   public:
     ObjectReader(const Json& object, std::string where, std::vector<core::Problem>& problems);
 
-    /// A key that must be there.
+    /// A required key.
     template <class Value>
     void read(const char* key, Value& target) {
         const Json* node = find(key);
@@ -46,12 +46,12 @@ class ObjectReader {
             convert(key, *node, target);
         }
     }
-    /// A key that may be left out.
+    /// An optional key.
     template <class Value>
     void read_if_there(const char* key, Value& target) {
         if (object_.is_object() && object_.contains(key)) read(key, target);
     }
-    /// A key that must be there and hold the name of an enumerator.
+    /// A required key that holds the name of an enumerator.
     template <class Enum, class FromName>
     void read_name(const char* key, Enum& target, FromName&& from_name) {
         std::string word;
@@ -68,9 +68,9 @@ class ObjectReader {
     void read_fields(Struct& target) {
         core::for_each_field<Struct>([&](const auto& field) { read(field.name, target.*field.member); });
     }
-    /// Keys that have not been asked for are problems.
+    /// Reports every key that was not read.
     void refuse_others();
-    /// A key that must hold an object or an array; an empty value when it does not.
+    /// A required key that holds an object or an array (`type`); an empty one when it does not.
     const Json& child(const char* key, Json::value_t type);
     void problem(const char* key, std::string what);
 

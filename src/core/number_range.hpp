@@ -9,13 +9,12 @@
 
 namespace clearway::core {
 
-/// The numbers from `minimum` to `maximum`, both included, as a check of an option. What is not finite is
-/// none of them.
+/// Validator of an option: a number from `minimum` to `maximum`, both inclusive.
 struct NumberRange {
     double minimum;
     double maximum;
 
-    /// What is wrong with `text` as one of these numbers; empty when nothing is.
+    /// The error message for `text`; empty when it is valid.
     std::string operator()(const std::string& text) const {
         double number = 0.0;
         const std::optional<Problem> problem = set_member(*this, text, "", number);

@@ -70,7 +70,7 @@ std::optional<Exit> collect(const Child& child, int options) {
     return exit;
 }
 
-/// A word as a shell reads it back.
+/// A word quoted for a shell.
 std::string quoted(const std::string& word) {
     const auto plain = [](unsigned char letter) {
         return std::isalnum(letter) != 0 ||
@@ -86,9 +86,9 @@ std::string quoted(const std::string& word) {
 
 [[noreturn]] void become(const Command& command, int output, pid_t parent, char** arguments,
                          char** environment) {
-    // Only calls that are safe after a fork in a program with threads.
+    // Only calls which are safe after a fork in a program with threads are allowed here.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(128 + SIGTERM);  // It died before the request stood.
+    if (getppid() != parent) _exit(128 + SIGTERM);  // The parent died before prctl took effect.
     if (output >= 0) {
         dup2(output, STDOUT_FILENO);
         dup2(output, STDERR_FILENO);

@@ -80,7 +80,7 @@ std::string Progress::line(std::size_t columns) const {
     const auto with_bar = [&](std::size_t width) {
         return render_bar(label_, done_, total_, failed_, elapsed_s, before_, width) + note;
     };
-    // The bar gives way first, then the end of the note.
+    // Shorten the bar first, then the note.
     const std::size_t length = with_bar(bar_width).size();
     const std::size_t too_long = length > columns ? length - columns : 0;
     const std::size_t width = bar_width - std::min(too_long, bar_width - least_bar_width);

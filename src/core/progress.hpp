@@ -21,10 +21,10 @@ class Progress {
     /// The bar if standard error is a terminal, else lines.
     static Style style_for_stderr();
 
-    /// Work that was done before this job began, so that it does not count for the pace.
+    /// Work done before this job began; it is left out of the estimate of the time left.
     void begin_at(std::size_t done) { before_ = done; }
-    /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines).
-    /// `note` is a short extra text, for example the present estimate of the headline metric.
+    /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines). `note` is
+    /// a short extra text, for example the current estimate of the headline metric.
     void update(std::size_t done, std::size_t failed, const std::string& note = {});
     /// Prints the final state and ends the line.
     void finish();
@@ -33,8 +33,8 @@ class Progress {
     static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
                                   std::size_t failed, double elapsed_s, std::size_t before = 0,
                                   std::size_t width = 30);
-    /// What is printed now; a bar's line has at most `columns` characters, for which first the bar and then
-    /// the note is shortened.
+    /// The line as it is printed now. With a bar it has at most `columns` characters: the bar is shortened
+    /// first, then the note.
     std::string line(std::size_t columns) const;
 
   private:

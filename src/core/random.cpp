@@ -52,7 +52,7 @@ double KeyedRandom::normal(Purpose purpose, std::uint64_t subject, std::uint64_t
 std::uint64_t KeyedRandom::below(std::uint64_t bound, Purpose purpose, std::uint64_t subject,
                                  std::uint64_t counter) const {
     assert(bound > 0);
-    // Multiplication instead of a remainder: no bias that a test could see as long as bound < 2^53.
+    // Multiplication instead of a remainder; the bias is negligible while bound is far below 2^53.
     const double scaled = to_unit(bits(purpose, subject, counter)) * static_cast<double>(bound);
     return std::min(static_cast<std::uint64_t>(scaled), bound - 1);
 }

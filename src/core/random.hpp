@@ -13,8 +13,8 @@ struct Replication {
     std::uint32_t value = 0;
 };
 
-/// What a draw is for. Draws of different purposes are independent; the numbers are part of every result's
-/// reproducibility and never change (append only).
+/// What a draw is for. Draws of different purposes are independent. Results depend on the numbers, so these
+/// never change (append only).
 enum class Purpose : std::uint32_t {
     demand = 1,
     driver = 2,
@@ -38,13 +38,13 @@ enum class Purpose : std::uint32_t {
 /// FNV-1a, 64 bit (Fowler, Noll, Vo).
 std::uint64_t fnv1a64(std::string_view bytes);
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit moves every output
-/// bit.
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit affects every
+/// output bit.
 std::uint64_t mix64(std::uint64_t word);
 
 /// Random numbers without state: a draw is a pure function of (study seed, replication, purpose, subject,
 /// counter). Neither the order of calls nor the presence of other vehicles changes a draw, so all conditions
-/// of a replication meet the same drivers and the same sensor failures. Thread-safe, never allocates.
+/// of a replication have the same drivers and the same sensor failures. Thread-safe, never allocates.
 class KeyedRandom {
   public:
     KeyedRandom(StudySeed seed, Replication replication);

@@ -23,7 +23,7 @@ namespace clearway::core {
 /// Members of field tables that are set by name: `mean_outage_s` -> `20`.
 using Settings = std::map<std::string, std::string>;
 
-/// The number that `text` is; nothing when it is none.
+/// `text` as a number; nothing when it is not one.
 inline std::optional<double> number_from(const std::string& text) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -31,13 +31,15 @@ inline std::optional<double> number_from(const std::string& text) {
     return number;
 }
 
-/// One spelling for each number, `12` for `12.0`, so that equal settings are equal texts. Other text stays.
+/// One spelling for each number, `12` for `12.0`, so that equal settings are equal texts. Other text is
+/// returned unchanged.
 inline std::string setting_text(const std::string& text) {
     const auto number = number_from(text);
     return number ? fmt::format("{}", *number) : text;
 }
 
-/// The words that a member of this type may be: of enumerations their `spellings`. Empty for numbers.
+/// The words allowed for a member of this type: the `spellings` of an enumeration, true and false for a bool.
+/// Empty for numbers.
 template <class Member>
 std::vector<std::string> words_of() {
     std::vector<std::string> words;
@@ -64,8 +66,8 @@ std::string member_text(const Member& value) {
     }
 }
 
-/// Sets one member from its text: a number (whole where the member is), a truth value, or an enumeration by
-/// its `spellings`.
+/// Sets one member from text: a number (whole for an integer member), true or false, or a word from the
+/// `spellings` of an enumeration. Returns what is wrong, if anything.
 template <class Field, class Member>
 std::optional<Problem> set_member(const Field& field, const std::string& text, const std::string& where,
                                   Member& target) {
@@ -95,7 +97,7 @@ std::optional<Problem> set_member(const Field& field, const std::string& text, c
     }
 }
 
-/// A name that is none of `known`: lists them and names the nearest.
+/// The problem of a name that is not in `known`; lists them and suggests the nearest.
 inline Problem unknown_setting(const std::string& where, const std::string& name,
                                const std::vector<std::string>& known) {
     const std::string near = nearest(name, known);
@@ -103,8 +105,8 @@ inline Problem unknown_setting(const std::string& where, const std::string& name
             near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
 }
 
-/// Sets members of `targets` by name. Answers everything that is wrong: a name that is no member of any (with
-/// the nearest), a value of another type or out of its range. `where` stands before each name in messages.
+/// Sets members of `targets` by name. Returns every problem: an unknown name (with the nearest known one), a
+/// value of the wrong type or out of range. Messages put `where` before each name.
 template <class... Structs>
 std::vector<Problem> apply_settings(const Settings& settings, const std::string& where, Structs&... targets) {
     std::vector<Problem> problems;
@@ -114,7 +116,7 @@ std::vector<Problem> apply_settings(const Settings& settings, const std::string&
     };
     (collect(targets), ...);
     for (const auto& setting : settings) {
-        const std::string& name = setting.first;  // no binding: clang 14 cannot capture one
+        const std::string& name = setting.first;  // clang 14 cannot capture a structured binding
         bool known = false;
         [[maybe_unused]] const auto set = [&]<class Struct>(Struct& target) {
             for_each_field<Struct>([&](const auto& field) {
@@ -130,7 +132,7 @@ std::vector<Problem> apply_settings(const Settings& settings, const std::string&
     return problems;
 }
 
-/// The same, throwing core::InputError with everything that is wrong.
+/// The same, but throws core::InputError with every problem.
 template <class... Structs>
 void set_all(const Settings& settings, const std::string& where, Structs&... targets) {
     std::vector<Problem> problems = apply_settings(settings, where, targets...);
@@ -141,18 +143,18 @@ void set_all(const Settings& settings, const std::string& where, Structs&... tar
 struct SettingInfo {
     std::string name;
     std::string unit;                ///< SI symbol; "1" for ratios and counts, "" for words.
-    double minimum = 0.0;            ///< Of numbers; inclusive.
-    double maximum = 0.0;            ///< Likewise.
-    std::vector<std::string> words;  ///< The words that are allowed where it is no number.
+    double minimum = 0.0;            ///< For numbers; inclusive.
+    double maximum = 0.0;            ///< For numbers; inclusive.
+    std::vector<std::string> words;  ///< The allowed words if it is not a number.
     std::string preset;              ///< The default, as text.
     std::string doc;
     std::string source;  ///< Why the default is what it is.
 };
 
-/// What may be set of something, whatever structs hold it.
+/// All settings of one component, whichever structs hold them.
 struct SettingsTable {
     std::vector<SettingInfo> rows;
-    /// As apply_settings, of a copy that is thrown away.
+    /// Checks settings with apply_settings on a temporary copy.
     std::vector<Problem> (*check)(const Settings& settings, const std::string& where) = nullptr;
 };
 
@@ -169,7 +171,7 @@ std::vector<SettingInfo> field_rows(const std::string& prefix = "") {
     return rows;
 }
 
-/// The table of one struct or several.
+/// The table of one or more structs. The defaults are the initialisers of their members.
 template <class... Structs>
 SettingsTable settings_table() {
     SettingsTable table;
@@ -185,7 +187,7 @@ SettingsTable settings_table() {
     return table;
 }
 
-/// Those of `settings` whose names begin with `component` and a dot, without both.
+/// The settings whose names begin with `component` and a dot; this prefix is removed.
 inline Settings settings_of(const Settings& settings, const std::string& component) {
     Settings own;
     const std::string prefix = component + ".";

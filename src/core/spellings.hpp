@@ -8,8 +8,8 @@
 
 namespace clearway::core {
 
-/// The words of an enumeration in files and on the command line, each beside its enumerator. They stand once,
-/// beside the enumeration:
+/// The words for the enumerators of an enumeration in files and on the command line. They are declared once,
+/// next to the enumeration:
 ///
 ///     constexpr core::Spellings<Colour, 2> spellings(Colour) {
 ///         return {{{Colour::red, "red"}, {Colour::blue, "blue"}}};
@@ -22,7 +22,7 @@ concept Spelled = requires {
     spellings(Enum{});
 };
 
-/// The word of an enumerator. Modules take this into their namespaces: `traffic::name(kind)`.
+/// The word of an enumerator. Modules import this into their namespaces: `traffic::name(kind)`.
 template <Spelled Enum>
 constexpr std::string_view name(Enum wanted) {
     for (const auto& [value, word] : spellings(Enum{})) {

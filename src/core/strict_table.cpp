@@ -38,10 +38,10 @@ void StrictTable::texts(const std::string& key, std::vector<std::string>& target
     const toml::node* node = find(key);
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
-    if (array == nullptr) return problem(key, "is not a list", "a list of texts", "");
+    if (array == nullptr) return problem(key, "is not a list", "a list of quoted texts", "");
     for (const toml::node& element : *array) {
         const auto value = element.value_exact<std::string>();
-        if (!value) return problem(key, "holds something else than texts", "a list of texts", "");
+        if (!value) return problem(key, "holds something other than text", "a list of quoted texts", "");
         target.push_back(*value);
     }
 }

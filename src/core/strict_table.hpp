@@ -13,8 +13,8 @@
 
 namespace clearway::core {
 
-/// Reads one table of a TOML file and collects what is wrong with it. Every key that is asked for becomes a
-/// valid one; `finish` reports the others.
+/// Reads one table of a TOML file and collects its problems. Every key that is asked for counts as known;
+/// `finish` reports all others.
 class StrictTable {
   public:
     StrictTable(const toml::table& table, std::string path, std::string file,
@@ -28,7 +28,7 @@ class StrictTable {
         const auto value = whole_number(key, minimum, maximum);
         if (value) target = static_cast<Integer>(*value);
     }
-    /// One of the words of an enumeration; `Target` is `Enum` or an optional one.
+    /// One of the words of an enumeration; `Target` is `Enum` or `std::optional<Enum>`.
     template <Spelled Enum, class Target>
     void word(const std::string& key, Target& target) {
         std::string found;
@@ -60,7 +60,7 @@ class StrictTable {
     void finish();
     bool has(const std::string& key) const { return table_.contains(key); }
 
-    /// `study.toml:3:1: condition.name`; of a key that is not there, the place of the table.
+    /// `study.toml:3:1: condition.name`; for a missing key the place of the table.
     std::string where(const std::string& key) const;
     void problem(const std::string& key, std::string what, std::string allowed, std::string cure);
 

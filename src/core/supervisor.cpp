@@ -36,7 +36,7 @@ Supervisor::~Supervisor() {
     try {
         end_all();
     } catch (const std::exception&) {
-        // Nobody is left to tell; the children get SIGTERM when this process ends.
+        // A destructor cannot report this. The children get SIGTERM when this process ends.
     }
 }
 
@@ -107,7 +107,7 @@ std::vector<TaskEnd> Supervisor::end_all() {
     std::vector<TaskEnd> ended;
     while (!running_.empty()) {
         for (TaskEnd end : collect()) {
-            if (end.exit.ok()) end.ended_by = EndedBy::itself;  // It had done its work.
+            if (end.exit.ok()) end.ended_by = EndedBy::itself;  // It had finished its work.
             ended.push_back(end);
         }
         if (!running_.empty()) std::this_thread::sleep_for(pause);

@@ -13,7 +13,7 @@
 
 namespace clearway::core {
 
-/// What one process may use, not counting children of its own.
+/// What one process may use; its own children are not counted.
 struct ProcessLimits {
     double wall_s = std::numeric_limits<double>::infinity();
     long memory_mib = 0;  ///< Resident size; 0: no limit.
@@ -26,7 +26,7 @@ struct Task {
     ProcessLimits limits = {};
 };
 
-/// Who ended a process.
+/// What ended a process.
 enum class EndedBy : std::uint8_t { itself, time_limit, memory_limit, interruption };
 
 /// How a process ended.
@@ -36,7 +36,7 @@ struct TaskEnd {
     EndedBy ended_by = EndedBy::itself;
 };
 
-/// What a supervisor asks and tells. An exception that leaves one of these ends all processes.
+/// The tasks of a supervisor and its callbacks. An exception thrown from one of them ends all processes.
 class TaskList {
   public:
     TaskList() = default;
@@ -44,25 +44,27 @@ class TaskList {
     TaskList(const TaskList&) = delete;
     TaskList& operator=(const TaskList&) = delete;
 
-    /// The next task to start; nothing when there is none now. Asked again after each end.
+    /// The next task to start; nothing when there is none at present. Called again while a process slot is
+    /// free.
     virtual std::optional<Task> next() = 0;
-    /// A process has ended, also when an interruption ended it. May give `next` more to answer.
+    /// A process has ended, possibly through a limit or an interruption. `next` may return further tasks
+    /// afterwards.
     virtual void ended(const TaskEnd& end) = 0;
-    /// Called about fifty times a second with the tasks whose processes run.
+    /// Called about a hundred times a second with the ids of the running tasks.
     virtual void tick(std::span<const std::size_t> running) = 0;
 };
 
 struct SupervisorConfig {
-    std::size_t processes = 0;  ///< At one time; 0: one per core.
-    double grace_s = 5.0;       ///< From SIGTERM to SIGKILL. Assumed: a worker closes its files in less.
+    std::size_t processes = 0;  ///< At the same time; 0: one per core.
+    double grace_s = 5.0;       ///< From SIGTERM to SIGKILL. Assumed: a worker closes its files sooner.
 };
 
-/// Which limit a running child is over; `itself` when it is over none.
+/// Which limit a running child exceeds; `itself` when it exceeds none.
 EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits);
 
-/// Runs child processes side by side. Limits are looked at 20 times a second. A
-/// process over one gets SIGTERM, and SIGKILL when it still lives
-/// after the grace. None outlives the supervisor. One thread.
+/// Runs child processes in parallel. Limits are checked 20 times a second: a process over a limit gets
+/// SIGTERM, and SIGKILL if it is still running after the grace period. No process outlives the supervisor.
+/// For use by one thread.
 class Supervisor {
   public:
     explicit Supervisor(SupervisorConfig config);
@@ -70,8 +72,8 @@ class Supervisor {
     Supervisor(const Supervisor&) = delete;
     Supervisor& operator=(const Supervisor&) = delete;
 
-    /// Works until the list has nothing left and no process runs, or until a signal comes: then all processes
-    /// are ended. Throws core::EnvironmentError when no process can be started.
+    /// Returns when no task is left and no process runs, or after a signal, which ends all processes. Throws
+    /// core::EnvironmentError when no process can be started.
     void run(TaskList& tasks, const InterruptionWatch& interruption);
 
   private:
@@ -84,11 +86,11 @@ class Supervisor {
         std::optional<Clock::time_point> terminated;  ///< When SIGTERM was sent.
     };
     void start_what_fits(TaskList& tasks);
-    /// Ends processes over their limits, and answers those that ended since the last call.
+    /// Ends processes over their limits, and returns those that ended since the last call.
     std::vector<TaskEnd> collect();
     void enforce_limits(Running& running, bool look_now) const;
     bool look_is_due();
-    /// Returns when no process is left.
+    /// Ends all processes and waits for them.
     std::vector<TaskEnd> end_all();
 
     SupervisorConfig config_;

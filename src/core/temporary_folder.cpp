@@ -17,9 +17,8 @@ TemporaryFolder::TemporaryFolder() {
     const std::filesystem::path place = std::filesystem::temp_directory_path(error);
     std::string pattern = (place / "clearway-XXXXXX").string();
     if (error || ::mkdtemp(pattern.data()) == nullptr)
-        throw EnvironmentError(
-            fmt::format("{}: cannot make a folder there. Set TMPDIR to a folder that can be written",
-                        error ? "TMPDIR" : place.string()));
+        throw EnvironmentError(fmt::format("{}: cannot make a folder there. Set TMPDIR to a writable folder",
+                                           error ? "TMPDIR" : place.string()));
     path_ = pattern;
 }
 

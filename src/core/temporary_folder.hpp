@@ -4,12 +4,12 @@
 
 namespace clearway::core {
 
-/// A folder that goes, with all it holds, when this object does.
+/// A folder that is removed with its contents when this object is destroyed.
 class TemporaryFolder {
   public:
-    /// A new folder among the system's temporary ones. Throws EnvironmentError when none can be made there.
+    /// A new folder in the system's temporary folder. Throws EnvironmentError when it cannot be made.
     TemporaryFolder();
-    /// `folder` itself, made with its parents where it is not there. Throws EnvironmentError as make_folder.
+    /// Takes over `folder`, which is made with its parents if missing. Throws as make_folder does.
     explicit TemporaryFolder(std::filesystem::path folder);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;

@@ -12,9 +12,10 @@ namespace clearway::core {
 namespace {
 
 constexpr std::size_t usual_columns = 80;
-constexpr std::size_t least_columns = 20;  // a terminal that says less does not know
+constexpr std::size_t least_columns = 20;  // a terminal that reports fewer does not know its width
 
-/// Whether a line stands on standard error without its end. The terminal is one, whoever writes to it.
+/// Whether a drawn line on standard error still lacks its newline. Global, because all writers share one
+/// terminal.
 bool is_line_drawn = false;
 
 std::size_t columns_from(const char* text) {

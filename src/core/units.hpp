@@ -4,8 +4,8 @@
 
 namespace clearway::core {
 
-/// A number with an SI unit in its type, for use at module boundaries. Inside a module flat `float` or
-/// `double` arrays with the unit in their name are the rule. Arithmetic that would change the unit is left to
+/// A number with an SI unit in its type, for use at module boundaries. Inside modules, plain `float` or
+/// `double` arrays with the unit in their name are the rule. Arithmetic that changes the unit must go through
 /// `.value`, on purpose.
 template <class Tag>
 struct Quantity {
@@ -30,8 +30,8 @@ using Metres = Quantity<struct MetresTag>;
 using Seconds = Quantity<struct SecondsTag>;
 using MetresPerSecond = Quantity<struct MetresPerSecondTag>;
 
-/// Two times that differ by less are one moment, s. SUMO's clock counts milliseconds; times are sums of steps
-/// and carry rounding errors, which stay far below half of one.
+/// Times that differ by less are the same moment, s. SUMO's clock counts milliseconds; times are sums of
+/// steps and carry rounding errors, which stay far below half of one.
 inline constexpr double clock_tolerance_s = 0.0005;
 
 constexpr MetresPerSecond from_kmh(double kilometres_per_hour) {

@@ -19,7 +19,8 @@ constexpr int chunk_bytes = 1 << 18;
 using ParserHandle = std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)>;
 using GzipHandle = std::unique_ptr<gzFile_s, decltype(&gzclose_r)>;
 
-/// What the callbacks need. Exceptions must not cross expat, which is C: they wait in `failure`.
+/// What the callbacks need. Exceptions must not pass through expat, which is C, so they are kept in
+/// `failure`.
 struct Job {
     XML_Parser parser;
     XmlHandler& handler;
@@ -58,7 +59,7 @@ void on_text(void* user, const XML_Char* text, int length) {
                             "Check that the file exists, is readable and is complete"});
 }
 
-/// The next part of the file; 0 at its end.
+/// Reads the next chunk of the file and returns its size; 0 at the end.
 int read_chunk(gzFile input, void* buffer, const std::filesystem::path& file) {
     const int count = gzread(input, buffer, chunk_bytes);
     int code = Z_OK;

@@ -24,7 +24,7 @@ class XmlAttributes {
     const char** pairs_;
 };
 
-/// Receives the elements of a document in their order.
+/// Receives the elements of a document in document order.
 class XmlHandler {
   public:
     XmlHandler() = default;
@@ -32,15 +32,15 @@ class XmlHandler {
     XmlHandler& operator=(const XmlHandler&) = delete;
     virtual ~XmlHandler() = default;
 
-    /// `line` is that of the element's first letter, from 1. Whatever this throws leaves `stream_xml`.
+    /// `line` is where the element begins, from 1. Exceptions thrown here leave `stream_xml`.
     virtual void start(std::string_view element, const XmlAttributes& attributes, unsigned long line) = 0;
     virtual void end(std::string_view element) = 0;
-    /// A part of the text between elements; one text may come in several parts. Ignored by default.
+    /// A piece of the text between elements; one text may come in several pieces. Ignored by default.
     virtual void characters(std::string_view) {}
 };
 
-/// Reads an XML file, packed with gzip or not, through `handler` with a fixed amount of memory. Throws
-/// core::InputError naming file and line when it is missing, damaged or not XML.
+/// Streams an XML file, plain or gzipped, to `handler` in a fixed amount of memory. Throws core::InputError
+/// naming file and line when it is missing, damaged or not XML.
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler);
 
 }  // namespace clearway::core

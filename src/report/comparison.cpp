@@ -42,8 +42,8 @@ std::string last_part(const std::string& name) {
     return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
 }
 
-/// The conditions of a scenario as the first columns of its tables: their names, and one column for each
-/// factor of the study in place of its digits in the names.
+/// The first columns of a scenario's tables: the names of the conditions, and one column per factor of the
+/// study, whose values are left out of the names.
 class LabelColumns {
   public:
     explicit LabelColumns(const ScenarioSummary& scenario) {
@@ -82,7 +82,7 @@ class LabelColumns {
     std::size_t name_width() const {
         return width_of_factors_ + 12 <= label_width ? label_width - width_of_factors_ : label_width;
     }
-    /// What does not fit before the numbers stands on a line of its own.
+    /// A label that does not fit before the numbers gets a line of its own.
     static std::string on_line(std::string text) {
         if (text.size() <= label_width) return text;
         text.resize(std::min(text.size(), page_width));
@@ -184,7 +184,7 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
     }
 }
 
-/// What stands before any table.
+/// The lines before the tables.
 std::string objections_text(const ScenarioSummary& scenario) {
     std::string text;
     for (const ConditionSummary& condition : scenario.conditions) {

@@ -13,7 +13,7 @@ struct Tolerance {
     double largest = 0.0;
 };
 
-/// A comparison that a tolerance does not let through.
+/// A comparison that fails a tolerance.
 struct Shortfall {
     std::string scenario;
     std::string condition;
@@ -21,20 +21,20 @@ struct Shortfall {
     std::string why;     ///< `its interval reaches to +2.3 s`, `there is no interval`.
 };
 
-/// Whether more of a metric is better: arrivals and right links. Of all others less is.
+/// Whether higher values of a metric are better, as for arrivals and correct links. For most metrics lower
+/// values are.
 bool more_is_better(const std::string& metric);
 
-/// Where there is a tolerance at all: every objection against a condition, for no tolerance of a mean
-/// outweighs a lost emergency vehicle (see analysis::Objections). Then comparisons for which the 95 %
-/// interval of the difference does not show that the condition is worse by no more than the tolerance. One
-/// without an interval shows nothing and falls short; pairs that are all equal have one. Throws
-/// std::out_of_range for an unknown metric.
+/// If there is any tolerance: first every objection against a condition, because no tolerance of a mean
+/// outweighs a lost emergency vehicle (see analysis::Objections). Then every comparison whose 95 % interval
+/// does not show that the condition is worse by at most the tolerance. A comparison without an interval falls
+/// short; pairs that are all equal have an interval. Throws std::out_of_range for an unknown metric.
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary, const std::vector<Tolerance>& tolerances);
 
-/// The paired table of each scenario and metric for a terminal of 110 columns.
+/// The paired table of each scenario and metric for a terminal of 100 columns.
 std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics);
 
-/// The same for machines, with the shortfalls: one JSON object, null for "not available".
+/// The same as one JSON object, with the shortfalls; null for missing values.
 std::string comparison_json(const analysis::Summary& summary, const std::vector<std::string>& metrics,
                             const std::vector<Shortfall>& short_of);
 

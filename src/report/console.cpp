@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t page_width = 80;
 constexpr std::size_t label_width = 22;
 
-/// Names come from files: nothing in them may steer the terminal. For text of several lines.
+/// Replaces control characters other than newlines, because names come from files and must not control the
+/// terminal.
 std::string safe_table(std::string text) {
     std::ranges::replace_if(
         text,
@@ -47,8 +48,8 @@ std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& 
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
-/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (<2.1)` where the bound at 0 makes it
-/// lopsided.
+/// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (<2.1)` if the bound at 0 makes it
+/// asymmetric.
 std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
     if (!value.mean) return missing(style.script);
     std::string text = number(*value.mean, style);
@@ -149,7 +150,7 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
     }
 }
 
-/// Breaks at spaces; lines after the first are indented.
+/// Wraps at spaces; lines after the first are indented.
 void append_wrapped(const std::string& paragraph, std::string& text) {
     std::size_t start = 0;
     const std::string indent = "    ";
@@ -182,7 +183,7 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
     }
 }
 
-/// Median and 95th percentile over all EVs, those that did not arrive ranked last.
+/// Median and 95th percentile over all EVs. Those that did not arrive rank last.
 void append_tails(const ScenarioFacts& scenario, std::string& text) {
     auto out = std::back_inserter(text);
     fmt::format_to(out, "\nEV travel time over all EVs, s\n{:<{}}{:>7}  {:<14}{:>8}  {}\n{:-<{}}\n", "",
@@ -199,9 +200,8 @@ void append_censored(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;  // arrived only
         if (!paired || (paired->incomplete_pairs == 0 && paired->vehicles_left_out == 0)) continue;
-        append_wrapped(fmt::format("Left out of differences of EV travel time, arrived only: {}: {} of {} "
-                                   "without an EV that arrived in "
-                                   "both conditions, and {} in the others that did not.",
+        append_wrapped(fmt::format("Left out of the differences of EV travel time, arrived only: {}: {} of "
+                                   "{} in which no EV arrived in both conditions, and {} in the other pairs.",
                                    label(condition), counted(paired->incomplete_pairs, "pair"),
                                    paired->incomplete_pairs + paired->complete_pairs,
                                    counted(paired->vehicles_left_out, "EV")),
@@ -216,7 +216,7 @@ std::uint64_t emergency_vehicles(const ScenarioFacts& scenario) {
     return most;
 }
 
-/// What the policies asked for: a null result often follows from it.
+/// What the policies asked for, because it often explains a null result.
 void append_leases(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.has_policy || condition.runs == 0) continue;
@@ -227,7 +227,7 @@ void append_leases(const ScenarioFacts& scenario, std::string& text) {
 
 void append_head(const ScenarioFacts& scenario, std::string& text) {
     const std::uint64_t emergency = emergency_vehicles(scenario);
-    fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) a condition\n", "", page_width,
+    fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) per condition\n", "", page_width,
                    printable(scenario.name), counted(scenario.replications, "replication"),
                    counted(emergency, "emergency vehicle"));
     const bool has_runs =
@@ -281,7 +281,7 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
 }
 
-/// Empty where there are enough.
+/// Empty if there are enough.
 std::string few_seeds_sentence(const StudyFacts& study) {
     const bool few = std::ranges::any_of(study.scenarios, [](const ScenarioFacts& scenario) {
         return scenario.replications < analysis::fewest_for_interval;
@@ -306,16 +306,13 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     text += safe_table(sensitivity_table(study.sensitivities));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
-        "here: mean and half width of its 95 % interval; (<x): the upper end where the interval is lopsided, "
-        "because it cannot reach below 0. EV travel time, all: verdicts follow it, and an EV that did not "
-        "arrive "
-        "counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline did not arrive "
-        "or "
-        "collided, or safety checks were off, so neither help nor no effect can be claimed. diff.: mean of "
-        "the "
-        "paired differences to the baseline of the same replication; better or worse when its interval "
-        "excludes "
-        "0; negligible where an EV's time changes by less than what counts (--least-difference).",
+        "here: mean and half width of its 95 % interval; (<x): upper end of an asymmetric interval, as none "
+        "reaches below 0. EV travel time, all: the measure of the verdicts; an EV that did not arrive "
+        "counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline did not "
+        "arrive or collided, or safety checks were off, so neither a benefit nor the absence of an effect "
+        "can be claimed. diff.: mean of the paired differences to the baseline of the same replication; "
+        "better or worse when its interval excludes 0; negligible when an EV's time changes by less than "
+        "--least-difference.",
         text);
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(

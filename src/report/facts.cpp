@@ -15,7 +15,7 @@ const std::array<MeasureInfo, measure_count>& measures() {
         {M::emergency_restricted_time, "emergency_restricted_travel_time_s", "EV travel time, all", "s",
          "From entering the network to arriving, restricted mean over all EVs: one that did not arrive "
          "(teleported, removed, not inserted, still on the road) counts with the horizon. The primary "
-         "measure, of which verdicts speak.",
+         "measure, used by verdicts.",
          Better::lower, Relevance::least, 1.0},
         {M::emergency_travel_time, "emergency_travel_time_s", "EV travel time, arrived only", "s",
          "The same, mean over the EVs that arrived: it hides those that were lost.", Better::lower,
@@ -28,17 +28,17 @@ const std::array<MeasureInfo, measure_count>& measures() {
          "open signals.",
          Better::higher, Relevance::any, 100.0},
         {M::other_time_loss, "others_time_loss_s", "Time loss, others", "s",
-         "Time loss of all vehicles that are no EVs: what the gain costs them.", Better::lower,
+         "Time loss of all vehicles that are not EVs: what the gain costs them.", Better::lower,
          Relevance::any, 1.0},
         {M::depart_delay, "depart_delay_s", "Depart delay, all", "s",
          "Depart delay, mean over all vehicles that entered.", Better::lower, Relevance::any, 1.0},
-        {M::collisions, "collisions", "Collisions", "per run", "Collisions of a run, junctions included.",
+        {M::collisions, "collisions", "Collisions", "per run", "Collisions per run, junctions included.",
          Better::lower, Relevance::any, 1.0},
         {M::teleports, "teleports", "Teleports", "per run",
-         "Vehicles of a run that SUMO took off the road and put down elsewhere.", Better::lower,
+         "Vehicles per run that SUMO took off the road and put down elsewhere.", Better::lower,
          Relevance::any, 1.0},
         {M::unfinished, "not_arrived", "Unfinished", "per run",
-         "Vehicles of a run that did not arrive: running at its end, not inserted or removed.", Better::lower,
+         "Vehicles per run that did not arrive: running at its end, not inserted or removed.", Better::lower,
          Relevance::any, 1.0},
     }};
     return table;

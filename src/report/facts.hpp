@@ -34,16 +34,16 @@ enum class Measure : std::uint8_t {
 };
 inline constexpr std::size_t measure_count = 12;
 
-/// What a difference means.
+/// Which direction of a measure is better.
 enum class Better : std::uint8_t { lower, higher };
 
 /// Which differences of a measure matter.
 enum class Relevance : std::uint8_t {
-    any,  ///< Each that is certain: a fraction of a second for everybody adds up, a collision is a collision.
-    least,  ///< Those of at least `usual_least_relevant_s`, or what the user says: times of an EV.
+    any,    ///< Every certain one: fractions of a second add up over all vehicles, and each collision counts.
+    least,  ///< Those of at least `usual_least_relevant_s` or the user's value: times of an EV.
 };
-/// Least difference of an EV's time that a verdict calls an effect, s. Assumed: below it nobody who sends an
-/// ambulance would notice, and it is four steps of the simulation.
+/// Smallest difference of an EV's time that a verdict calls an effect, s. Assumed: a dispatcher would not
+/// notice less, and it is four steps of the simulation.
 inline constexpr double usual_least_relevant_s = 1.0;
 
 /// How a measure is named and printed.
@@ -74,7 +74,7 @@ struct Estimate {
     bool has_interval() const { return low.has_value() && high.has_value() && !too_few(); }
 };
 
-/// What is known of a paired difference beside its mean and t interval.
+/// Statistics of a paired difference besides its mean and t interval.
 struct PairedStatistics {
     std::uint64_t complete_pairs = 0;
     std::uint64_t incomplete_pairs = 0;   ///< Replications without a value in one of the two conditions.
@@ -90,9 +90,9 @@ struct PairedStatistics {
 /// One measure of one condition.
 struct Outcome {
     Estimate value;
-    Estimate
-        difference;  ///< Paired, to the baseline of the same replications; empty where nothing is compared.
-    double least_relevant = 0.0;  ///< Smaller mean differences are no effect, in the measure's unit.
+    /// Paired, to the baseline of the same replications; empty if nothing is compared.
+    Estimate difference;
+    double least_relevant = 0.0;  ///< Smaller mean differences do not count; in the measure's unit.
     std::optional<PairedStatistics> paired;
 };
 
@@ -117,13 +117,13 @@ struct Events {
     std::uint64_t teleports = 0;
 };
 
-/// One number of the safety, comfort and flow of a condition.
+/// One row of a condition's table of safety, comfort and flow.
 struct SafetyFacts {
     const char* metric = "";            ///< Name in the tables of runs, unit included; static storage.
     const char* title = "";             ///< With the unit; static storage.
-    Estimate value;                     ///< A run.
-    Estimate difference;                ///< Paired, to the baseline; empty where nothing is compared.
-    std::optional<double> per_1000_km;  ///< Of counts: over all runs, by 1,000 vehicle-kilometres.
+    Estimate value;                     ///< Per run.
+    Estimate difference;                ///< Paired, to the baseline; empty if nothing is compared.
+    std::optional<double> per_1000_km;  ///< For counts: over all runs, per 1,000 vehicle-kilometres.
 };
 
 /// EV travel times of one replication, s: restricted means over all EVs.
@@ -132,7 +132,8 @@ struct TravelTimePair {
     double condition_s = 0.0;
 };
 
-/// Half width of the interval of the difference in restricted mean EV travel time after so many replications.
+/// Half width of the interval of the difference in restricted mean EV travel time after a number of
+/// replications.
 struct PrecisionPoint {
     std::uint64_t replications = 0;
     double half_width_s = 0.0;
@@ -144,34 +145,34 @@ struct Precision {
     double deviation_s = 0.0;            ///< Of the paired differences.
     std::uint64_t needed = 0;            ///< For a half width of the least relevant difference (FHWA's rule).
 };
-/// More replications than this are not asked for: who would need them should ask for a larger difference.
+/// Larger numbers of replications are not suggested: the user should accept a larger difference.
 inline constexpr std::uint64_t most_replications_asked = 200;
 inline constexpr std::size_t precision_points = 200;
 
-/// What a condition costs on one approach, s a run summed over vehicles that are no EVs, against the
-/// baseline.
+/// What a condition costs on one approach against the baseline, s per run, summed over all vehicles that are
+/// not EVs.
 struct ApproachFacts {
     std::string edge;
     std::string street;   ///< May be empty.
     Estimate difference;  ///< Time lost.
     Estimate human;       ///< Of it, human-driven vehicles.
     Estimate automated;   ///< Of it, automated vehicles.
-    Estimate waiting;     ///< Time stood.
+    Estimate waiting;     ///< Waiting time.
     std::optional<double> baseline_s;
-    std::optional<double> vehicles;       ///< A run, at the baseline.
-    std::optional<double> per_vehicle_s;  ///< Mean difference over them.
+    std::optional<double> vehicles;       ///< Per run, in the baseline.
+    std::optional<double> per_vehicle_s;  ///< Mean difference per vehicle.
 };
 
-/// A counted flow and what the baseline's runs bring there.
+/// A counted flow and the flow of the baseline's runs at the same place.
 struct FlowFacts {
     std::string edge;
     std::string street;  ///< May be empty.
     double counted_per_hour = 0.0;
-    std::optional<double> modelled_per_hour;  ///< Mean over the runs; nothing without a complete one.
+    std::optional<double> modelled_per_hour;  ///< Mean over the runs; nothing without a complete run.
     std::optional<double> geh;
 };
 
-/// More vehicles standing on the other approaches of a signal than at the baseline, around an EV's passage.
+/// Difference to the baseline in halted vehicles on the other approaches of a signal, around an EV's passage.
 struct RecoveryFacts {
     double offset_s = 0.0;
     Estimate halted;
@@ -182,7 +183,7 @@ struct JourneyPlace {
     double time_s = 0.0;
     double distance_m = 0.0;
 };
-/// What a signal on its route showed to it for a while.
+/// A state that a signal on the EV's route showed to it for some time.
 struct SignalSpan {
     std::string signal;
     std::string state;  ///< `green`, `yellow`, `red`.
@@ -224,35 +225,35 @@ struct ConditionFacts {
     std::string name;
     std::string title;       ///< As in the dissertation where it has the condition, else the name.
     std::string recipe;      ///< Failure, predictor and policies, in words.
-    core::Settings factors;  ///< Of the study, `failure.dark_share` -> `0.3`; those of the scenario too.
+    core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
     /// Index in the scenario of the condition that it is compared with (same traffic model). Empty for a
-    /// baseline and for EVs alone on the road, which are a floor and not a condition to judge.
+    /// baseline and for EVs alone on the road, which are a lower bound and not a condition to judge.
     std::optional<std::size_t> baseline;
     bool safety_checks_off = false;
     analysis::Objections objections;  ///< Against the baseline.
     bool has_policy = false;
-    /// What its policy asked for, over all complete runs; nothing where the records do not tell.
+    /// What its policy asked for, over all complete runs; nothing if the records do not contain it.
     std::optional<std::vector<metrics::LeaseRow>> leases;
     std::array<Outcome, measure_count> outcomes;
     std::uint64_t runs_without_horizon = 0;  ///< See analysis::ConditionSummary.
     Endings emergency;
     Endings others;
     std::uint64_t runs = 0;          ///< Completed.
-    std::uint64_t missing_runs = 0;  ///< Neither completed nor failed: the study is not at its end.
+    std::uint64_t missing_runs = 0;  ///< Neither completed nor failed: the study is incomplete.
     std::vector<FailedRun> failed;
     Distribution travel_time;
-    Estimate travel_time_median;         ///< Over all EVs; without a value where fewer than half arrived.
+    Estimate travel_time_median;         ///< Over all EVs; without a value if fewer than half arrived.
     Estimate travel_time_percentile_95;  ///< Likewise.
     std::vector<TravelTimePair> travel_time_pairs;  ///< Complete ones, in the order of the replications.
     std::optional<Precision> precision;             ///< Nothing below two pairs.
     Events events;
-    std::vector<SafetyFacts> safety;        ///< The same rows in every condition.
-    std::vector<ApproachFacts> approaches;  ///< Where most changes first; empty where nothing is compared.
+    std::vector<SafetyFacts> safety;        ///< In the order of the table.
+    std::vector<ApproachFacts> approaches;  ///< Largest changes first; empty if nothing is compared.
     std::vector<RecoveryFacts> recovery;    ///< Ascending; likewise.
     std::optional<double> recovered_after_s;
 
     bool is_compared() const { return baseline.has_value(); }
-    /// The title, with a mark where safety checks were off: as tables, legends and figures name it.
+    /// The name for tables, legends and figures: the title, with a mark if safety checks were off.
     std::string label() const { return safety_checks_off ? title + " (!)" : title; }
     const Outcome& outcome(Measure measure) const { return outcomes[static_cast<std::size_t>(measure)]; }
     Outcome& outcome(Measure measure) { return outcomes[static_cast<std::size_t>(measure)]; }
@@ -267,15 +268,15 @@ struct WideEdge {
 
 struct ScenarioFacts {
     std::string name;
-    /// Scenario of the dissertation whose published numbers stand beside; empty outside its own study.
+    /// Scenario of the dissertation whose published numbers are shown; empty in other studies.
     std::string published_as;
     std::string title;
-    std::string attribution;  ///< Whom the map data must name; may be empty.
-    std::string network_svg;  ///< Trusted markup, or empty where the folder holds no usable picture.
-    std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; empty where the folder does not tell.
+    std::string attribution;  ///< Credit that the map data requires; may be empty.
+    std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
+    std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
-    std::vector<FlowFacts> flows;            ///< In the order of the counts; empty for a scenario without.
+    std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.
     std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
 };
@@ -302,7 +303,7 @@ struct StudyFacts {
     std::vector<Sensitivity> sensitivities;
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
-    std::string command;  ///< That makes the same study again.
+    std::string command;  ///< Repeats the study.
 };
 
 }  // namespace clearway::report

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view share_field = "dark_share=";
 constexpr const char* perfect = "perfect";
 
-/// A failure as text, taken apart: the share of time dark, and what is left without it.
+/// The text of a failure, split into the share of time dark and the rest.
 struct FailureText {
     std::optional<double> dark_share;
     std::string rest;
@@ -68,7 +68,7 @@ void finish(FailureLine& line) {
     if (first != line.points.end()) line.break_even = static_cast<std::size_t>(first - line.points.begin());
 }
 
-/// The element for which `fits`, added at the end when there is none.
+/// The first element that `fits`; if there is none, `fresh` is appended.
 template <class Element, class Fits>
 Element& find_or_add(std::vector<Element>& elements, const Fits& fits, Element fresh) {
     const auto found = std::ranges::find_if(elements, fits);

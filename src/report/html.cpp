@@ -11,12 +11,15 @@ namespace clearway::report {
 
 void write_html(const StudyFacts& study, std::ostream& page) {
     const std::string title = escaped(study.title);
-    page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    page << "<!DOCTYPE html>\n"
+            "<html lang=\"en\">\n"
+            "<head>\n"
+            "<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-            "'unsafe-inline'; "
-            "img-src data:\">\n"
-            "<link rel=\"icon\" href=\"data:,\">\n<title>"
+            "'unsafe-inline'; img-src data:\">\n"
+            "<link rel=\"icon\" href=\"data:,\">\n"
+            "<title>"
          << title << "</title>\n<style>" << detail::style_sheet << "</style>\n</head>\n<body>\n<header>\n<h1>"
          << title << "</h1>\n<p class=\"lead\">" << escaped(headline(study)) << "</p>\n";
 

@@ -7,9 +7,9 @@
 
 namespace clearway::report {
 
-/// Writes the report: one self-contained HTML page without scripts and without any address to load from.
-/// Every text of `study` is escaped, but for `ScenarioFacts::network_svg`, which must be trusted markup.
-/// Written section by section, so the page is never held as a whole.
+/// Writes the report: one self-contained HTML page without scripts and external resources. Every text of
+/// `study` is escaped, but for `ScenarioFacts::network_svg`, which must be trusted markup. Written section by
+/// section, so the whole page is never held in memory.
 void write_html(const StudyFacts& study, std::ostream& page);
 
 }  // namespace clearway::report

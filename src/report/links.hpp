@@ -9,18 +9,18 @@
 
 namespace clearway::report {
 
-/// What `clearway links evaluate` found. Texts may come from files of others; printers escape them.
+/// What `clearway links evaluate` found. Texts may come from the user's files; printers escape them.
 struct LinkFacts {
     std::string title;  ///< `eval_v1`, or the scenarios.
     std::string command;
     std::string split;  ///< `test` or `validation`.
     std::uint64_t study_seed = 0;
-    std::string seeds;  ///< `replications 0 to 9; thresholds chosen on 100 to 104`.
+    std::string seeds;  ///< `study seed 1, replications 0 to 9; F1 thresholds chosen on 1000 to 1004`.
     std::vector<std::string> scenarios;
     std::vector<std::string> failures;
     std::vector<links::Exits> exits;
     std::vector<std::string> predictors;
-    std::string against;  ///< The opponent of the gains; empty without one.
+    std::string against;  ///< Predictor that gains refer to; may be empty.
     std::vector<std::pair<std::string, std::string>> provenance;  ///< Names and values, as shown.
     std::vector<links::LinkResult> results;
     std::vector<links::LinkGain> gains;
@@ -32,7 +32,7 @@ std::string links_console(const LinkFacts& facts);
 /// Everything but curves, as one JSON object. Intervals are `_low_95` and `_high_95` beside each measure.
 std::string links_json(const LinkFacts& facts);
 
-/// One row a result: the same fields as CSV.
+/// The same fields as CSV, one row per result.
 std::string links_csv(const LinkFacts& facts);
 
 /// One self-contained page, as write_html of html.hpp: tables, precision-recall, reliability and age curves.

@@ -25,7 +25,7 @@ std::string decimal(const std::optional<double>& value, int decimals) {
     return value ? number(*value, {decimals, Script::typeset}) : missing(Script::typeset);
 }
 
-/// `0.985 [0.981, 0.988]`, times `factor`.
+/// `0.985 [0.981, 0.988]`, scaled by `factor`.
 std::string with_interval(const Measured& measured, int decimals, double factor = 1.0) {
     if (!measured.value) return missing(Script::typeset);
     const NumberStyle style{decimals, Script::typeset};
@@ -52,7 +52,7 @@ std::vector<const LinkResult*> pooled(const LinkFacts& facts, links::Exits exits
     return found;
 }
 
-/// Style of each predictor that is drawn: as many as there are styles, the best by mean AP.
+/// Line style of each drawn predictor: the best by mean AP, as many as there are styles.
 std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     std::map<std::string, double> sums;
     for (const LinkResult& result : facts.results) {
@@ -69,7 +69,7 @@ std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     return series;
 }
 
-/// Failures by predictors.
+/// A table of failures by predictors.
 std::string matrix(const LinkFacts& facts, links::Exits exits, const std::string& left_out,
                    const std::function<std::string(const std::string&, const std::string&)>& cell) {
     DataTable table{{"Failure"}, {}};
@@ -154,8 +154,8 @@ std::string end_to_end_section(const LinkFacts& facts) {
     std::string html;
     for (const links::Exits exits : facts.exits) {
         DataTable table{{"Failure, predictor", "precision", "recall", "F1", "policy\u2019s links found, %",
-                         "lost: never seen, %", "outside, %", "predicted away, %", "ghosts a report",
-                         "\u00b5s a report", "vehicles"},
+                         "lost: never seen, %", "outside, %", "predicted away, %", "ghosts per report",
+                         "\u00b5s per report", "vehicles"},
                         {}};
         for (const std::string& failure : facts.failures) {
             for (const LinkResult* const result : pooled(facts, exits, failure)) {
@@ -210,15 +210,12 @@ std::string reproduction_section(const LinkFacts& facts) {
 }
 
 const char* const definitions =
-    "<p>Candidates are the pairs that may be linked, with at least one end not known, within reach of each "
-    "other by the "
-    "last reports or by dead reckoning; the rule is the same for every predictor. F1 is taken at a threshold "
-    "chosen on "
-    "other seeds. Hard pairs are those near the link radius by dead reckoning, or on which last reports and "
-    "dead "
-    "reckoning disagree. The policy\u2019s links join an emergency vehicle with one ahead on its route. "
-    "Brackets hold 95 % "
-    "percentile intervals of a bootstrap over runs within scenarios.</p>\n";
+    "<p>Candidates are the pairs that may be linked: at least one end is not known, and the two are within "
+    "reach of each other by the last reports or by dead reckoning. The rule is the same for every "
+    "predictor. F1 uses a threshold chosen on other seeds. Hard pairs are near the link radius by dead "
+    "reckoning, or last reports and dead reckoning disagree on them. The policy\u2019s links join an "
+    "emergency vehicle with a vehicle ahead on its route. Brackets hold 95 % percentile intervals of a "
+    "bootstrap over runs within scenarios.</p>\n";
 
 struct Section {
     const char* id;
@@ -237,12 +234,14 @@ std::vector<Section> sections_of(const LinkFacts& facts) {
                         })});
     if (!facts.gains.empty()) {
         const std::string against = escaped(facts.against);
-        sections.push_back({"ap-error", "Error of AP against the opponent",
-                            fmt::format("<p>How far 1 \u2212 AP lies below that of {}, %.</p>\n", against) +
-                                gains_section(facts, &LinkGain::ap_error_reduction)});
-        sections.push_back({"f1-error", "Error of F1 against the opponent",
-                            fmt::format("<p>How far 1 \u2212 F1 lies below that of {}, %.</p>\n", against) +
-                                gains_section(facts, &LinkGain::f1_error_reduction)});
+        sections.push_back(
+            {"ap-error", "Error of AP against the opponent",
+             fmt::format("<p>How much lower 1 \u2212 AP is than that of {}, %.</p>\n", against) +
+                 gains_section(facts, &LinkGain::ap_error_reduction)});
+        sections.push_back(
+            {"f1-error", "Error of F1 against the opponent",
+             fmt::format("<p>How much lower 1 \u2212 F1 is than that of {}, %.</p>\n", against) +
+                 gains_section(facts, &LinkGain::f1_error_reduction)});
     }
     sections.push_back({"hard", "AP of hard pairs", measure_section(facts, 4, [](const LinkResult& result) {
                             return result.of(LinkSubset::hard).ap;

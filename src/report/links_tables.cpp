@@ -30,7 +30,7 @@ const LinkResult* pooled(const LinkFacts& facts, links::Exits exits, const std::
     return found == facts.results.end() ? nullptr : &*found;
 }
 
-/// `.984`, `1.000`; a dash where undefined.
+/// `.984`, `1.000`; a dash if undefined.
 std::string share(const std::optional<double>& value, int decimals = 4) {
     if (!value) return "-";
     std::string text = fmt::format("{:.{}f}", *value, decimals);

@@ -17,7 +17,7 @@ namespace {
     throw core::InputError(core::Problem{
         where, what,
         "epoch,train_loss_nat,test_loss_nat and a row of numbers for each epoch; empty where not finite",
-        "Train again with clearway train, or take the folder out of training/."});
+        "Train again with clearway train, or remove the folder from training/."});
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -36,7 +36,7 @@ double loss_from(const std::string& cell, const std::string& where) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size())
-        refuse(where, fmt::format("'{}' is no number", cell));
+        refuse(where, fmt::format("'{}' is not a number", cell));
     return value;
 }
 
@@ -60,13 +60,13 @@ std::string text_of(const nlohmann::json& object, const char* name) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// What the curve hides, from the summary beside it.
+/// Adds what the curve does not show, from the summary beside it.
 void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (!std::filesystem::exists(file)) return;
     const auto summary = nlohmann::json::parse(core::read_file(file), nullptr, false);
     if (!summary.is_object()) {
         throw core::InputError(
-            core::Problem{file.string(), "is no JSON object", "", "Train again with clearway train."});
+            core::Problem{file.string(), "is not a JSON object", "", "Train again with clearway train."});
     }
     const std::string pairs = text_of(summary, "pairs");
     if (text_of(summary, "mode") == "corrected") curve.title = "Corrected, validated on unseen seeds";
@@ -84,7 +84,7 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
         curve.note +=
             fmt::format(" AUC on the test pairs: {} (chance: 0.5).", number(*auc, {2, Script::typeset}));
     } else if (pairs == "true-links") {
-        curve.note += " No AUC: without a pair that is not linked nothing can be told apart.";
+        curve.note += " No AUC: every pair is linked, so there is nothing to tell apart.";
     }
 }
 

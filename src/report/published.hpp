@@ -7,19 +7,19 @@
 
 namespace clearway::report {
 
-/// The dissertation's TABLES II to IV, each cell from one unseeded run. They stand beside results, in a
-/// column of their own, and enter no computation.
+/// The dissertation's TABLES II to IV, each cell from one unseeded run. They are shown beside the results in
+/// columns of their own and are not used in computations.
 struct PublishedTable {
     std::string_view scenario;
     std::string_view caption;  ///< `TABLE II. PERFORMANCE ON MERGE`.
     std::string_view figure;   ///< Of the network: `Fig. 1`.
 };
 
-/// The table of a scenario, or empty where the dissertation has none.
+/// The table of a scenario; empty if the dissertation has none.
 std::optional<PublishedTable> published_table(std::string_view scenario);
 
-/// The cell of a condition by its name (`baseline`, `graph_simulation`, `graph_graphsage`), s. Empty where
-/// the dissertation has none.
+/// The cell of a condition by its name (`baseline`, `graph_simulation`, `graph_graphsage`), s. Empty if the
+/// dissertation has none.
 std::optional<double> published_value(std::string_view scenario, std::string_view condition, Measure measure);
 
 /// Whether the tables of the dissertation have this column.

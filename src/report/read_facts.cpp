@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using ConditionKey = std::pair<std::string, std::string>;  // scenario, condition
 
-/// The dissertation's names for its three conditions, and ours for the controls beside them.
+/// The dissertation's names for its three conditions, and Clearway's names for the controls.
 std::string title_of(const std::string& condition) {
     static const std::map<std::string, std::string> titles = {
         {"baseline", "Baseline"},
@@ -123,10 +123,10 @@ void fill_outcomes(const analysis::ConditionSummary& summary, const analysis::Co
     }
 }
 
-/// Half widths as the replications came in. Means and sums of squares by Welford 1962.
+/// Half widths as replications were added. Means and sums of squares by Welford 1962.
 std::optional<Precision> precision_of(const std::vector<TravelTimePair>& pairs, double level,
                                       double least_relevant_s) {
-    constexpr std::size_t first_drawn = 5;  // before it t makes the curve's start hide the rest
+    constexpr std::size_t first_drawn = 5;  // with fewer, large t quantiles would dwarf the rest of the curve
     if (pairs.size() < 2) return std::nullopt;
     Precision precision;
     const std::size_t stride = pairs.size() / precision_points + 1;
@@ -327,7 +327,7 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const fs::path& file) {
     } catch (const nlohmann::json::exception& error) {
         throw core::InputError(core::Problem{file.string(), error.what(),
                                              "a list of objects with edge, street and car_lanes",
-                                             "Remove the file, or make the run folder again"});
+                                             "Remove the file, or create the run folder again"});
     }
 }
 

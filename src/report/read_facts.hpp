@@ -19,16 +19,17 @@ namespace clearway::report {
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional
 ///
-/// Reads only. EV times that differ by less than `least_relevant_s` are no effect. Throws core::InputError
-/// for a folder that is no run folder and for damaged files.
+/// Reads only. Smaller differences of EV times than `least_relevant_s` do not count. Throws core::InputError
+/// for a folder that is not a run folder and for damaged files.
 StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
 
-/// The same from results that were read and summarised before.
+/// The same from results that have been read and summarised already.
 StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary,
                     const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
-/// foreign elements, or addresses to load from. Run folders travel; a picture that fails is left out.
+/// foreign elements or external resources. Run folders may come from others, so an unsafe picture is left
+/// out.
 bool is_safe_picture(std::string_view svg);
 
 /// Reads one training folder. The title says which pairs it learned from. Throws core::InputError naming file

@@ -15,7 +15,7 @@ constexpr const char* emergency_metric = "emergency_restricted_travel_time_s";
 constexpr const char* others_metric = "others_time_loss_s";
 constexpr std::size_t fewest_rows = 2;
 
-/// The condition without what names it and what is set in it.
+/// The condition without its name, settings and factors.
 experiment::ConditionSpec recipe_of(experiment::ConditionSpec condition) {
     condition.name.clear();
     condition.settings.clear();
@@ -87,7 +87,7 @@ std::string sensitivity_table(const std::vector<Sensitivity>& all) {
     std::string text;
     auto out = std::back_inserter(text);
     for (const Sensitivity& sensitivity : all) {
-        fmt::format_to(out, "Sensitivity: {}, {}; differences to nothing set\n\n", sensitivity.scenario,
+        fmt::format_to(out, "Sensitivity: {}, {}; differences to the defaults\n\n", sensitivity.scenario,
                        sensitivity.condition);
         fmt::format_to(out, "{:<32}{:<24}{}\n{:-<80}\n", "Setting", "EV travel time, s",
                        "others' time loss, s", "");

@@ -63,8 +63,8 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 std::string without_horizon_sentence(std::uint64_t runs) {
     if (runs == 0) return {};
     return fmt::format(
-        "{} that lost emergency vehicles (EV) {} of an older version, which did not note the horizon, so EV "
-        "travel time, all, is not known there. Make the study again in a new folder.",
+        "{} that lost emergency vehicles (EV) {} of an older version, which did not record the horizon, so "
+        "EV travel time, all, is not known there. Repeat the study in a new folder.",
         counted(runs, "run"), runs == 1 ? "is" : "are");
 }
 

@@ -11,7 +11,7 @@ namespace clearway::report {
 
 using core::escaped;
 
-/// Which letters numbers are written with.
+/// The characters that numbers are written with.
 enum class Script : std::uint8_t {
     plain,    ///< ASCII, for terminals.
     typeset,  ///< Minus sign U+2212, for pages.
@@ -26,21 +26,20 @@ struct NumberStyle {
     Sign sign = Sign::negative_only;
 };
 
-/// A number with fixed decimals. Never prints a signed zero. Not finite: a dash.
+/// A number with fixed decimals. Never prints a signed zero; prints a dash if the value is not finite.
 std::string number(double value, NumberStyle style);
 
 /// `12.3 [10.1, 14.5]`; without an interval `12.3`; without a mean a dash (`-` or U+2013).
 /// `factor` scales to the printed unit.
 std::string estimate(const Estimate& estimate, NumberStyle style, double factor = 1.0);
 
-/// Text for a terminal: names come from files, and nothing in them may steer it. Control characters become
-/// `?`.
+/// Text for a terminal. Control characters become `?`, because names come from files.
 std::string printable(const std::string& text);
 
-/// What stands for a missing number.
+/// The text for a missing number.
 std::string missing(Script script);
 
-/// Decimals that suit a measure in one scenario: 0 for %, 2 where all of its means stay below 10, else 1.
+/// Decimals that suit a measure in one scenario: 0 for %, 2 if all of its means are below 10, else 1.
 int decimals_of(const ScenarioFacts& scenario, Measure measure);
 
 /// 12345 -> `12,345`.
@@ -49,10 +48,11 @@ std::string grouped(std::uint64_t count);
 /// `1 run`, `2 runs`.
 std::string counted(std::uint64_t count, std::string_view noun);
 
-/// What to do about runs of older versions that lost emergency vehicles; empty for no such run.
+/// What to do about runs of older versions that lost emergency vehicles; empty if there are none.
 std::string without_horizon_sentence(std::uint64_t runs);
 
-/// Edges of three or more lanes for cars, in a sentence without names; empty where the folder does not tell.
+/// A sentence on the edges with three or more lanes for cars, without names; empty if the folder does not
+/// list them.
 std::string wide_edges_sentence(const ScenarioFacts& scenario);
 
 }  // namespace clearway::report

@@ -27,7 +27,7 @@ std::string difference_text(const ScenarioFacts& scenario, const ConditionFacts&
     return text;
 }
 
-/// ` (-18 %)` of the baseline's mean, or nothing where that mean is missing or 0.
+/// `, -18 %` of the baseline's mean; empty if that mean is missing or 0.
 std::string relative_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure,
                           Script script) {
     const auto& difference = condition.outcome(measure).difference.mean;
@@ -98,7 +98,7 @@ std::string reasons_of(const metrics::LeaseRow& row) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// What else changed beyond doubt; for the others also that nothing is shown.
+/// Certain changes of other measures; for the others' time loss also that no effect is shown.
 std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::string text;
     const auto add = [&](Measure measure, const char* better, const char* worse, const char* none) {
@@ -174,7 +174,7 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
 
 namespace {
 
-/// What a headline says of a condition; in the order in which it says it.
+/// Index in `finding_words` of what the headline says about a condition.
 std::size_t finding_of(const ConditionFacts& condition) {
     const analysis::Objections& objections = condition.objections;
     if (objections.loses_emergency()) return 0;

@@ -8,28 +8,28 @@
 
 namespace clearway::report {
 
-/// What a paired difference shows. It follows from the 95 % interval and the least relevant difference alone.
+/// What a paired difference shows. It follows only from the 95 % interval and the least relevant difference.
 enum class Effect : std::uint8_t {
     better,
     worse,
     negligible,  ///< The mean, or the whole interval, is smaller than the least relevant difference.
     none_shown,  ///< The interval includes 0.
-    ruled_out,   ///< No claim of the above but `worse` is allowed: see analysis::Objections.
+    ruled_out,   ///< Of the above only `worse` may be claimed; see analysis::Objections.
     too_few,     ///< Fewer than `analysis::fewest_for_interval` complete pairs.
     undecided,   ///< No complete pair.
 };
 
-/// A bound of exactly 0 counts as included. Knows of no objections.
+/// A bound of exactly 0 counts as included. Objections are ignored.
 Effect effect_of(const Outcome& outcome, Better better);
-/// The same, unless objections against the condition rule it out. Everything that prints asks here.
+/// The same, unless objections against the condition rule it out. All output uses this.
 Effect effect_of(const ConditionFacts& condition, Measure measure);
 
 /// What the condition's policy asked for and what became of it, in one sentence; lane changes are named even
-/// where none was asked. Plain text.
+/// if none was asked for. Plain text.
 std::string lease_sentence(const ConditionFacts& condition);
 
-/// One sentence on a condition against the baseline: how many EVs it lost if more than the baseline, whether
-/// EVs got through sooner, by how much, and what it cost the others. Plain text, not escaped.
+/// One sentence on a condition against the baseline: objections on the side of EVs, whether EVs were faster,
+/// by how much, and what it cost the others. Plain text, not escaped.
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
 /// One sentence for the whole study, from EV travel time of every condition but the baselines. Plain text.

@@ -5,7 +5,7 @@
 namespace clearway::results {
 namespace {
 
-/// The value in the settings of an entry, where both are there.
+/// The value of a factor in the settings of an entry; nullptr if either is missing.
 const std::string* find(const std::map<std::string, core::Settings>& entries, const std::string& entry,
                         const std::string& factor) {
     const auto settings = entries.find(entry);

@@ -17,7 +17,7 @@ class FactorColumns {
     const std::vector<std::string>& names() const { return names_; }
     /// Value of each column for the runs of a condition in a scenario; empty where neither has the factor.
     std::vector<std::string> values(const std::string& scenario, const std::string& condition) const;
-    /// The same as names and values, without those that are empty.
+    /// The same as pairs of name and value, without empty values.
     core::Settings settings(const std::string& scenario, const std::string& condition) const;
 
   private:

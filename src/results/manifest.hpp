@@ -18,25 +18,25 @@ struct ScenarioEntry {
     std::string version;
     std::string title;
     std::string configuration;       ///< The effective configuration, TOML.
-    std::string configuration_hash;  ///< Of `configuration` and the files of its own.
-    std::string attribution;         ///< Whom the map data must name; may be empty.
-    core::Settings factors = {};     ///< Of the study that made it, `scenario.demand.human` -> `80`.
+    std::string configuration_hash;  ///< Of `configuration` and the scenario's own files.
+    std::string attribution;         ///< Credit that the map data requires; may be empty.
+    core::Settings factors = {};     ///< Of the study: `scenario.demand.human` -> `80`.
 
     bool operator==(const ScenarioEntry&) const = default;
 };
 
-/// How exact a study is to become, instead of a number of replications.
+/// The precision that a study must reach, in place of a number of replications.
 struct PrecisionTarget {
     std::string metric = "emergency_restricted_travel_time_s";  ///< Of metrics::RunMetrics.
     double half_width = 0.0;    ///< Of the 95 % interval, in the metric's unit; > 0.
-    std::uint32_t at_most = 0;  ///< Replications.
+    std::uint32_t at_most = 0;  ///< Largest number of replications.
 
     bool operator==(const PrecisionTarget&) const = default;
 };
 
-/// What a study is: with it and the same versions, every run can be made again.
+/// What a study is. With it and the same versions every run can be repeated.
 struct Manifest {
-    int format = 4;  ///< Of the run folder. Other formats are refused.
+    int format = 4;  ///< Format of the run folder; other formats are rejected.
     std::string study;
     std::string clearway_version;
     std::string sumo_version;
@@ -50,11 +50,11 @@ struct Manifest {
     /// Every run of the study, sorted.
     std::vector<experiment::RunKey> runs() const;
     std::size_t run_count() const { return scenarios.size() * conditions.size() * replications; }
-    /// The same one by one, for studies of which a list would be large.
+    /// The same one by one, for studies whose list would be large.
     void for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const;
 };
 
-/// Names of the parts in which two manifests differ, `seed, conditions`; empty for the same study.
+/// Names of what differs between two manifests, `seed, conditions`; empty for the same study.
 std::string differences(const Manifest& left, const Manifest& right);
 
 /// Whether `wanted` is the study of `stored` with as many replications or more.
@@ -62,8 +62,8 @@ bool continues(const Manifest& wanted, const Manifest& stored);
 
 /// Deterministic JSON with a `hash` of the rest.
 std::string to_json(const Manifest& manifest);
-/// Throws core::InputError, naming `where`, for text that is not a manifest of this format or whose hash does
-/// not fit.
+/// Throws core::InputError, naming `where`, for text that is not a manifest of this format or does not match
+/// its hash.
 Manifest manifest_from_json(const std::string& text, const std::string& where);
 /// 32 hex digits. Equal hashes: the same study.
 std::string manifest_hash(const Manifest& manifest);

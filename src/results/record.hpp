@@ -19,7 +19,7 @@ namespace clearway::results {
 /// Which vehicles of a run are read.
 enum class VehicleRows : std::uint8_t {
     all,
-    emergency,  ///< The others are most of a run, and what a report says of them stands in its metrics.
+    emergency,  ///< The others are most of a run; a report needs only their metrics.
 };
 
 /// A completed run. A function of scenario, condition, seed and versions alone: no clock time, no machine.
@@ -29,9 +29,9 @@ struct RunRecord {
     experiment::Provenance provenance;
     metrics::RunMetrics metrics;
     std::vector<metrics::VehicleRow> vehicles;
-    /// Where time was lost; empty for solo. Journeys are written and not read back: see Store::read_journeys.
+    /// Where time was lost; empty for solo. Journeys are written but not read back; see Store::read_journeys.
     metrics::TrafficTables traffic;
-    /// By policy, then action. Nothing in a record of a version that kept totals alone.
+    /// By policy, then action. Nothing in a record of a version which kept only totals.
     std::optional<std::vector<metrics::LeaseRow>> leases = {};
 
     bool operator==(const RunRecord&) const = default;
@@ -59,9 +59,9 @@ struct RunTiming {
 enum class ErrorCause : std::uint8_t {
     simulator,   ///< SUMO reported an error.
     signal,      ///< The process was killed, usually by an assertion or a bad access inside SUMO.
-    time_limit,  ///< It ran into the wall time limit.
-    memory,      ///< It held more memory than its limit.
-    bad_input,   ///< The scenario does not work out; never tried again.
+    time_limit,  ///< It exceeded the wall time limit.
+    memory,      ///< It exceeded the memory limit.
+    bad_input,   ///< The scenario is invalid; never tried again.
     other,
 };
 constexpr core::Spellings<ErrorCause, 6> spellings(ErrorCause) {
@@ -87,7 +87,7 @@ struct RunError {
     int signal = 0;
     int attempts = 1;
     std::string log_tail;  ///< Last lines of SUMO's log and of the worker's.
-    std::string command;   ///< Makes the same run again, for a shell.
+    std::string command;   ///< Shell command that repeats the run.
 
     bool operator==(const RunError&) const = default;
 };

@@ -7,7 +7,7 @@
 
 namespace clearway::results {
 
-/// A cell in which two records of a run differ, as it stands in the CSV files.
+/// A cell in which two records of a run differ, as in the CSV files.
 struct CellDifference {
     std::string table;   ///< `provenance`, `metrics` or `vehicles`.
     std::string row;     ///< Of `vehicles`: `3 (h17)`, counted from 1; else empty.

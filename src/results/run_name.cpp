@@ -37,7 +37,7 @@ std::optional<Parts> parts_of(const std::string& name) {
                 path.filename().string()};
     if (parts.scenario.empty() || parts.condition.empty()) return std::nullopt;
     if (parts.folder.empty()) parts.folder = ".";
-    // A shell completes the folders of a run's own files, FOLDER/runs/SCENARIO/CONDITION/00007.
+    // Shell completion leads to a run's own files, FOLDER/runs/SCENARIO/CONDITION/00007.
     const bool is_below = parts.folder.filename() == "runs" || parts.folder.filename() == "recordings";
     if (!is_run_folder(parts.folder) && is_below) {
         parts.folder = parts.folder.parent_path();
@@ -77,8 +77,8 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     if (!parts || !is_run_folder(parts->folder))
         throw core::InputError(
             {where,
-             parts ? fmt::format("`{}` is no run: {} is no run folder", name, parts->folder.string())
-                   : fmt::format("`{}` is no run", name),
+             parts ? fmt::format("`{}` is not a run: {} is not a run folder", name, parts->folder.string())
+                   : fmt::format("`{}` is not a run", name),
              run_name_form, "for example runs/city-1a2b3c/city/corridor/0"});
     NamedRun run{Store::open(parts->folder), {parts->scenario, parts->condition, 0}};
     const Manifest& manifest = run.store.manifest();
@@ -104,7 +104,7 @@ fs::path recording_named(const std::string& name, const std::string& where) {
         throw core::InputError(
             {where,
              fmt::format("{} has no recording {}", run_name(run.store.folder(), run.key), recording.string()),
-             "a recorded run", "Give the command that made it again, with --record"});
+             "a recorded run", "Repeat the command that made it, with --record"});
     return fs::absolute(recording).lexically_normal();
 }
 

@@ -7,24 +7,24 @@
 
 namespace clearway::results {
 
-/// How a run is named wherever one is asked for or told of.
+/// How a run is named in arguments and messages.
 inline constexpr const char* run_name_form = "FOLDER/SCENARIO/CONDITION/N";
 
 /// `runs/mine/city/corridor/7`.
 std::string run_name(const std::filesystem::path& folder, const experiment::RunKey& key);
 
-/// A run of a run folder; it may be missing there.
+/// A run of a study in its run folder; it need not be complete.
 struct NamedRun {
     Store store;
     experiment::RunKey key;
 };
 
-/// The run that `name` means. Throws core::InputError, saying `where` (an option or argument), for what is no
-/// such name, and for a folder, scenario, condition or replication that is not there, with the nearest.
+/// The run that `name` means. Throws core::InputError, naming `where` (an option or argument), for text that
+/// is not a run's name, and for an unknown folder, scenario, condition or replication, with the nearest name.
 NamedRun run_named(const std::string& name, const std::string& where);
 
-/// The recording of a run, which is given by its name or as the file itself. Throws core::InputError as
-/// above, and for a run that was not recorded.
+/// The recording of a run, given by the run's name or as the file itself. Throws core::InputError as above,
+/// and for a run that was not recorded.
 std::filesystem::path recording_named(const std::string& name, const std::string& where);
 
 }  // namespace clearway::results

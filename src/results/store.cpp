@@ -25,14 +25,14 @@ namespace fs = std::filesystem;
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* part_suffix = ".part";
 
-/// Without waiting for the disk: for what may be lost with the power.
+/// Writes without flushing: for data that may be lost in a power failure.
 void write_unflushed(const fs::path& file, const std::string& content) {
     std::ofstream stream(file, std::ios::binary);
     stream << content;
     if (!stream.flush()) throw core::write_error(file, errno);
 }
 
-/// A folder that is being filled; goes with this object unless it was put in place.
+/// A folder that is being filled; removed with this object unless it was put in place.
 class PartFolder {
   public:
     explicit PartFolder(const fs::path& target)
@@ -51,8 +51,8 @@ class PartFolder {
     const fs::path& path() const { return part_; }
 
     /// False when the target exists. rename(2) never replaces a folder that is not empty, on any file system.
-    /// The folder around it is not flushed here (8 ms each, against runs of 70 ms) but once a unit, by
-    /// Store::flush: a rename that is lost with the power is a run to do again.
+    /// The parent folder is flushed once per unit by Store::flush, not here: that takes 8 ms, runs take about
+    /// 70 ms, and a rename lost in a power failure only means that a run is repeated.
     bool put_in_place() {
         if (::rename(part_.c_str(), target_.c_str()) != 0) {
             if (errno == EEXIST || errno == ENOTEMPTY) return false;
@@ -85,7 +85,7 @@ void require_same(const fs::path& file, const std::string& content, const experi
                     file.string(), to_text(key)));
 }
 
-/// Throws core::InputError, naming what differs, where a folder's study cannot become the wanted one.
+/// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
 void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
     if (continues(wanted, stored)) return;
     const std::string differing = differences(stored, wanted);
@@ -101,7 +101,7 @@ void require_continues(const Manifest& wanted, const Manifest& stored, const fs:
                             "Choose another folder with --out, or ask for the same study to resume it"});
 }
 
-/// `target`, or with `.2`, `.3`, ... behind it, whichever is not there yet.
+/// `target`, with `.2`, `.3`, ... appended if it exists already.
 fs::path free_place(const fs::path& target) {
     fs::path place = target;
     for (int number = 2; fs::exists(place); ++number)
@@ -300,8 +300,8 @@ std::optional<RunRecord> Store::read(const experiment::RunKey& key, VehicleRows 
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
         problems.back().cure =
-            "This record is damaged. The command that made the study (command.txt), given again, sets it "
-            "aside and makes the run anew";
+            "This record is damaged. Repeat the command that made the study (command.txt): it sets the "
+            "record aside and makes the run again";
         throw core::InputError(std::move(problems));
     }
 }
@@ -365,7 +365,7 @@ void Store::remove_leftovers() const {
     }
     for (const fs::path& leftover : leftovers)
         fs::remove_all(leftover, error);
-    fs::remove(folder_ / "work", error);  // Goes only when it is empty.
+    fs::remove(folder_ / "work", error);  // Removed only if it is empty.
 }
 
 }  // namespace clearway::results

@@ -30,7 +30,7 @@ std::string text_at(sqlite3_stmt* row, int column) {
     return {text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
 }
 
-/// `results.sqlite` of a run folder, read only and of this version.
+/// Opens `results.sqlite` of a run folder read-only and checks that it is of this version.
 Database open_database(const Store& store) {
     Database database(store.folder() / "results.sqlite", SQLITE_OPEN_READONLY, fail);
     std::string format;
@@ -56,14 +56,14 @@ std::vector<std::string> names_in(const Database& database) {
     return names;
 }
 
-/// Whether the column's whole numbers have a sign: those of factors have, while others are never negative and
-/// seeds use all of their 64 bits.
+/// Whether the column's integers are signed. Those of factors are; others are never negative, and seeds use
+/// all 64 bits.
 bool is_signed(sqlite3_stmt* row, int column) {
     const char* const type = sqlite3_column_decltype(row, column);
     return type != nullptr && std::string_view(type) == "NUMERIC";
 }
 
-/// A cell; empty text for what is not available.
+/// A cell; empty text for a missing value.
 std::string csv_cell_at(sqlite3_stmt* row, int column) {
     switch (sqlite3_column_type(row, column)) {
         case SQLITE_NULL:

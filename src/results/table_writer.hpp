@@ -7,7 +7,7 @@
 namespace clearway::results {
 
 /// Writes `runs.csv`, `vehicles.csv`, `leases.csv` and `results.sqlite` of a run folder run by run, so that
-/// no more than one need be in memory. Equal runs give equal bytes. Nothing is replaced before `finish`.
+/// only one run is in memory at a time. Equal runs give equal bytes. Nothing is replaced before `finish`.
 class TableWriter {
   public:
     /// Throws core::EnvironmentError, as the other members do.
@@ -16,7 +16,7 @@ class TableWriter {
     TableWriter(const TableWriter&) = delete;
     TableWriter& operator=(const TableWriter&) = delete;
 
-    // Once for each run of the manifest, in its order (Manifest::for_each_run).
+    // Call one of these for each run of the manifest, in its order (Manifest::for_each_run).
     void add(const RunRecord& run);
     void add(const RunError& error);
     void add_missing(const experiment::RunKey& key);
@@ -28,7 +28,7 @@ class TableWriter {
     std::unique_ptr<Files> files_;
 };
 
-/// How many runs of a study are there.
+/// Number of runs of a study by state.
 struct RunCounts {
     std::size_t complete = 0;
     std::size_t failed = 0;

@@ -16,7 +16,7 @@ std::string key_cells(const experiment::RunKey& key) {
     return fmt::format("{},{},{}", csv_text(key.scenario), csv_text(key.condition), key.replication);
 }
 
-/// The lines of `runs.csv`, without ends.
+/// The lines of `runs.csv`, without newlines.
 class RunLines {
   public:
     explicit RunLines(const Manifest& manifest) : factors_(manifest) {}
@@ -71,7 +71,7 @@ std::string vehicles_header() {
     return "scenario,condition,replication," + detail::vehicle_header();
 }
 
-/// `leases.csv`: a line for each action asked and carried out or not, and one for each reason of refusal.
+/// `leases.csv`: a line for each count of each action, and one for each reason of refusal.
 std::string leases_header() {
     return "scenario,condition,replication,policy,action,outcome,reason,leases";
 }
@@ -90,7 +90,7 @@ void append_leases(const RunRecord& run, std::string& text) {
     }
 }
 
-/// Gives every run of a study, in the manifest's order, to a writer of tables.
+/// Passes every run of a study, in the manifest's order, to a writer of tables.
 template <class Writer>
 void write_all(const Results& results, Writer& writer) {
     // All three lists are sorted, and together they are the manifest's runs.

@@ -131,7 +131,7 @@ TEST_F(SmallStudy, ObjectsToCollisionsAndLossesOfOthersBeyondTheirInterval) {
     EXPECT_TRUE(objections.not_inserted);
     EXPECT_FALSE(objections.teleported);
     EXPECT_THAT(other_objections(objections),
-                testing::StartsWith("more other vehicles not inserted (+20.0 a run ["));
+                testing::StartsWith("more other vehicles not inserted (+20.0 per run ["));
     for (RunRecord& run : results_.runs)
         run.metrics.emergency_collisions = run.key.condition == "treated" && run.key.replication == 0 ? 1 : 0;
     EXPECT_FALSE(scenario().find("treated")->objections.collisions) << "one may be chance";

@@ -98,7 +98,7 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     };
     refused({"--set", "preempt_signals.leed_s=12"}, "Did you mean 'lead_s'?");
     refused({"--set", "preempt_signals.lead_s=99"}, "99 is out of range (allowed: 0 to 60)");
-    refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is no assignment");
+    refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is not an assignment");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
     refused({"--model", "none.weights"}, "none.weights is not a file");
     write("net.weights", "no weights");
@@ -147,7 +147,7 @@ TEST_F(BadInputTest, a_policy_part_that_is_there_twice_is_refused) {
     const Ended ended =
         clearway({"run", "line", "--out", "out", "--policy", "clear_lane", "corridor", "clear_lane"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, HasSubstr("`clear_lane` is there twice"));
+    EXPECT_THAT(ended.err, HasSubstr("`clear_lane` is given twice"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 

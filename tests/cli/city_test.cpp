@@ -127,7 +127,7 @@ TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {
               0);
     const Ended written = clearway({"trajectories", "out/line/baseline/0", "--out", "ways"});
     EXPECT_EQ(written.code, 0) << written.err;
-    EXPECT_THAT(written.err, HasSubstr("no map projection"));
+    EXPECT_THAT(written.err, HasSubstr("no known map projection"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "ways/trajectories.geojson"));
     const Ended missing = clearway({"trajectories", "out/line/baseline/7"});
     EXPECT_EQ(missing.code, 3);

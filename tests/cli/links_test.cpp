@@ -150,7 +150,7 @@ TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refus
     };
     EXPECT_THAT(message({"--set", "link_threshold=2"}),
                 AllOf(HasSubstr("2 is out of range"), HasSubstr("0 to 1")));
-    EXPECT_THAT(message({"--set", "link_threshold=high"}), HasSubstr("`high` is no number"));
+    EXPECT_THAT(message({"--set", "link_threshold=high"}), HasSubstr("`high` is not a number"));
     EXPECT_THAT(message({"--set", "link_threshold"}), HasSubstr("NAME=VALUE"));
     EXPECT_THAT(message({"--predictor", "none", "--set", "last_seen.link_threshold=0.5"}),
                 HasSubstr("last_seen"));

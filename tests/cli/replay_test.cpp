@@ -222,7 +222,7 @@ TEST_F(ReplayTest, verify_tells_where_a_run_differs) {
     EXPECT_EQ(ended.code, 7) << ended.err << ended.out;
     EXPECT_THAT(ended.out, AllOf(HasSubstr("different  out/line/baseline/0"),
                                  HasSubstr("provenance: trace_hash: stored "), HasSubstr("vehicles row 1 ("),
-                                 HasSubstr("recordings part at "), HasSubstr(" s, snapshot: ")));
+                                 HasSubstr("recordings first differ at "), HasSubstr(" s, snapshot: ")));
 }
 
 TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {

@@ -179,7 +179,7 @@ TEST_F(ShownRunTest, what_cannot_be_shown_is_told) {
     refused({}, {.environment = {{"DISPLAY", ":4711"}, {"PATH", folder() / "bin"}}}, 4,
             "sumo-gui is not installed");
     refused({"--condition", "baseline", "--policy", "corridor"}, {}, 3, "baseline, corridor at once");
-    refused({"--gui-settings-file", "none.xml"}, {}, 3, "none.xml is no file");
+    refused({"--gui-settings-file", "none.xml"}, {}, 3, "none.xml is not a file");
     refused({"--gui-delay", "-1"}, {}, 2, "0 to 60000");
     const Ended alone = clearway({"run", "line", "--gui-delay", "5", "--out", "out"});
     EXPECT_EQ(alone.code, 2);

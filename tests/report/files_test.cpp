@@ -59,7 +59,7 @@ TEST(Losses, of_a_corrected_training_are_named_so) {
     folder.write("summary.json", R"({"mode":3,"pairs":null,"test":"x"})");
     EXPECT_EQ(read_losses(folder.path()).note, "");
     folder.write("summary.json", "[1");
-    EXPECT_THAT(error_of(folder), HasSubstr("is no JSON object"));
+    EXPECT_THAT(error_of(folder), HasSubstr("is not a JSON object"));
 }
 
 TEST(Losses, that_are_damaged_are_refused_with_file_and_line) {
@@ -69,7 +69,7 @@ TEST(Losses, that_are_damaged_are_refused_with_file_and_line) {
     folder.write("losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,0.7,0.75\n1,0.6\n");
     EXPECT_THAT(error_of(folder), HasSubstr("losses.csv:3: 2 cells"));
     folder.write("losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,<b>,0.75\n");
-    EXPECT_THAT(error_of(folder), HasSubstr("losses.csv:2: '<b>' is no number"));
+    EXPECT_THAT(error_of(folder), HasSubstr("losses.csv:2: '<b>' is not a number"));
 }
 
 TEST(Picture, of_a_network_is_safe) {

@@ -86,12 +86,12 @@ TEST(Sensitivities, are_printed_within_80_columns_and_drawn_in_the_page) {
     study.sensitivities = all;
     std::ostringstream page;
     write_html(study, page);
-    EXPECT_THAT(page.str(), HasSubstr("Sensitivity to each number"));
+    EXPECT_THAT(page.str(), HasSubstr("Sensitivity to each setting"));
     EXPECT_THAT(page.str(), HasSubstr("class=\"beam s1\""));
     EXPECT_THAT(page.str(), ContainsRegex("class=.beam s1. x=.[1-9][0-9.]*. y=.[0-9.]+. width=.[1-9]"));
     std::ostringstream empty;
     write_html(StudyFacts{}, empty);
-    EXPECT_THAT(empty.str(), Not(HasSubstr("Sensitivity to each number")));
+    EXPECT_THAT(empty.str(), Not(HasSubstr("Sensitivity to each setting")));
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     condition.objections.not_inserted = analysis::Estimate{20, 8.0, 1.0, analysis::Interval{6.0, 10.0}};
     const std::string text = verdict(scenario, condition, Script::plain);
     EXPECT_THAT(text, Not(HasSubstr("lose less time")));
-    EXPECT_THAT(text, HasSubstr("; more other vehicles not inserted (+8.0 a run [6.0, 10.0])"));
+    EXPECT_THAT(text, HasSubstr("; more other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
 }
 
 TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {

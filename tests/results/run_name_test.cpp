@@ -50,7 +50,7 @@ TEST_F(RunName, OfNoRunIsRefusedWithTheNearest) {
                 AllOf(HasSubstr("Did you mean `alpha`?"), HasSubstr("Did you mean `treated`?"),
                       HasSubstr("`7` is not in this study"), HasSubstr("0 to 1")));
     for (const char* const word : {"", "7", "alpha/7", "nowhere/alpha/treated/0"})
-        EXPECT_THAT(error_of(word), AllOf(HasSubstr("is no run"), HasSubstr(run_name_form))) << word;
+        EXPECT_THAT(error_of(word), AllOf(HasSubstr("is not a run"), HasSubstr(run_name_form))) << word;
     for (const char* const number : {"x", "-1", "1x", "99999999999"})
         EXPECT_THAT(error_of(name("alpha/treated/" + std::string(number))),
                     HasSubstr("is not in this study"));

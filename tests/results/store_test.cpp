@@ -116,7 +116,7 @@ TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
         FAIL();
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("run.json: hash"),
-                                                 testing::HasSubstr("sets it aside")));
+                                                 testing::HasSubstr("sets the record aside")));
     }
 }
 

@@ -12,18 +12,18 @@
 
 namespace clearway::analysis::detail {
 
-/// Complete runs of one condition in one scenario, by replication; nullptr where there is none.
+/// Complete runs of one condition in one scenario, by replication; nullptr if there is none.
 using Runs = std::vector<const results::RunRecord*>;
 
-/// A number of an emergency vehicle that arrived.
+/// A metric of an emergency vehicle that arrived.
 using VehicleNumber = std::optional<double> metrics::VehicleRow::*;
 
 /// Means of one replication over the emergency vehicles that arrived in each of its runs.
 struct CommonMeans {
-    std::vector<double> means;  ///< One a run.
+    std::vector<double> means;  ///< One per run.
     std::size_t left_out = 0;   ///< Emergency vehicles that did not arrive in every run.
 };
-/// Nothing when a run is missing or no emergency vehicle arrived in all.
+/// Nothing when a run is missing or no emergency vehicle arrived in all runs.
 std::optional<CommonMeans> common_means(std::span<const results::RunRecord* const> runs,
                                         VehicleNumber number);
 

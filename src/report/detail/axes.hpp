@@ -25,7 +25,7 @@ struct Range {
 /// Graphics Gems, 1990, without his loose labelling) that lie within a range.
 struct Ticks {
     std::vector<double> values;
-    int decimals = 0;  ///< That tell neighbours apart.
+    int decimals = 0;  ///< Enough to tell neighbouring values apart.
 };
 Ticks nice_ticks(Range range, int wanted);
 /// Powers of ten within 10^exponents, at most seven.
@@ -34,7 +34,7 @@ Ticks decade_ticks(Range exponents);
 /// The range with a margin on both sides, wide enough to be drawn when all of its values are equal.
 Range padded(Range range, double share);
 
-/// How an axis spaces its values: evenly, or a decade as wide as the next.
+/// How an axis spaces its values: evenly, or with the same width for each decade.
 enum class Scale { linear, logarithmic };
 
 /// An axis of a figure: what it shows and where.
@@ -54,13 +54,14 @@ struct Axis {
     }
 };
 
-/// A figure of the report: one shared geometry, frame, grid and set of line styles. Its text has the size of
-/// the page's small text when 400 units are 400 px, and is still legible at 320 px. All text is escaped here.
+/// A figure of the report. All figures share one geometry, frame, grid and set of line styles. Its text has
+/// the size of the page's small text when 400 units are 400 px, and is still legible at 320 px. All text is
+/// escaped here.
 class Plot {
   public:
     static constexpr double width = 400.0;
 
-    /// `height` includes the labels of the axes. `title` names the figure for those who cannot see it.
+    /// `height` includes the labels of the axes. `title` names the figure for screen readers.
     Plot(const std::string& title, double height, Axis x, Axis y);
 
     const Axis& x() const { return x_; }
@@ -75,14 +76,14 @@ class Plot {
     void point(double value, double y, std::size_t series);
     /// A filled bar between two values of x, at height `y` in figure units.
     void beam(std::pair<double, double> bounds, double y, std::size_t series);
-    /// A level line between two values of x at a value of y, in a style of its own.
+    /// A horizontal line between two values of x at a value of y, with the CSS class `style`.
     void stripe(std::pair<double, double> bounds, double value, const char* style);
     void vertical(double value);
     /// A vertical interval at `x`.
     void whisker(double x, std::pair<double, double> bounds, std::size_t series);
-    /// A line across the figure at a value of y.
+    /// A horizontal line across the figure at a value of y.
     void horizontal(double value);
-    /// A thin polyline, for many that together make a picture.
+    /// A thin polyline, for figures with many lines.
     void hair(const std::vector<std::pair<double, double>>& points, std::size_t series);
     /// The area between two bounds of y over x: (x, low, high).
     void band(const std::vector<std::array<double, 3>>& bounds, std::size_t series);
@@ -101,7 +102,7 @@ class Plot {
     std::string svg_;
 };
 
-/// Number of line styles; further series start again.
+/// Number of line styles; further series reuse them.
 inline constexpr std::size_t palette_size = 7;
 
 /// A short piece of line in the style of `series`, for legends.

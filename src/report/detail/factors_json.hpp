@@ -6,7 +6,7 @@
 
 namespace clearway::report::detail {
 
-/// `{"failure.dark_share": 0.3, "condition.failure": "B5"}`: numbers where the values are some.
+/// `{"failure.dark_share": 0.3, "condition.failure": "B5"}`: values that are numbers become JSON numbers.
 inline nlohmann::ordered_json factors_json(const core::Settings& factors) {
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
     for (const auto& [name, value] : factors) {

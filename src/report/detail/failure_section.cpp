@@ -1,4 +1,5 @@
-// Benefit against failure: what is left of a policy when vehicles go dark, with the links behind it.
+// Benefit against failure: what is left of a policy's benefit when vehicles go dark, and the believed links
+// behind it.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -17,7 +18,8 @@ constexpr double right_edge = 388.0;
 constexpr double height = 250.0;
 constexpr double label_space = 44.0;
 constexpr double percent = 100.0;
-constexpr double line_offset = 1.2;  ///< Between neighbouring lines, percent, so that no bar hides another.
+/// Shift between neighbouring lines, percent, so that no bar hides another.
+constexpr double line_offset = 1.2;
 
 using Member = std::optional<analysis::Estimate> FailurePoint::*;
 
@@ -28,7 +30,7 @@ void include(const analysis::Estimate& estimate, Range& range) {
     range.include(estimate.interval->high);
 }
 
-/// One estimate over the share of time dark, a line for each repair.
+/// One estimate over the share of time dark, with one line per repair.
 std::string drawing(const FailureCurve& curve, Member member, const std::string& label) {
     Range shares;
     Range values;
@@ -75,7 +77,7 @@ std::string cell(const std::optional<analysis::Estimate>& estimate, NumberStyle 
 }
 
 DataTable data_of(const FailureCurve& curve) {
-    DataTable table{{"Repair", "dark, %", "EV time loss, difference, s", "pairs", "link F1"}, {}};
+    DataTable table{{"Repair", "dark, %", "EV travel time, difference, s", "pairs", "link F1"}, {}};
     for (const FailureLine& line : curve.lines) {
         for (const FailurePoint& point : line.points) {
             table.rows.push_back(
@@ -126,13 +128,12 @@ DataTable break_even_table(const StudyFacts& study) {
 
 std::string failure_section(const StudyFacts& study) {
     std::string html =
-        "<p>What is left of a policy\u2019s benefit when vehicles are dark a share of the time, and how well "
-        "their "
-        "links were believed meanwhile (F1 end to end: links of vehicles never seen count as missed). Below "
-        "0 "
-        "EVs lose less time than without the policy. The bars are 95 % intervals of the paired differences; "
-        "lines stand a little beside each other so that none hides another. "
-        "Break-even is the first share at which the interval reaches 0.</p>\n<div class=\"figures\">\n";
+        "<p>What is left of a policy\u2019s benefit when vehicles are dark for a share of the time, and how "
+        "accurate the believed links were meanwhile (F1 end to end: links of vehicles never seen count as "
+        "missed). Below 0, EVs are faster than without the policy. The bars are 95 % intervals of the "
+        "paired differences; the lines are shifted a little so that none hides another. Break-even is the "
+        "first share at which the interval reaches 0.</p>\n"
+        "<div class=\"figures\">\n";
     for (const FailureCurve& curve : study.failure_curves) {
         html += figure_of(curve);
     }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array forest_measures = {Measure::emergency_restricted_time, Measure::emergency_waiting_time,
                                         Measure::other_time_loss};
-constexpr double forest_right = 250.0;  // the numbers stand beside the drawing
+constexpr double forest_right = 250.0;  // the numbers are to the right of the drawing
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
 
@@ -82,7 +82,7 @@ std::vector<std::pair<double, double>> steps(const Distribution& distribution, d
     return points;
 }
 
-/// Seconds within which `share` of all EVs arrived; a dash where fewer did.
+/// Seconds within which `share` of all EVs arrived; a dash if fewer did.
 std::string seconds_at(const Distribution& distribution, double share) {
     for (const SharePoint& point : distribution.points) {
         if (point.share >= share - 1e-9) return number(point.seconds, typeset(1));
@@ -111,7 +111,7 @@ DataTable distribution_data(const ScenarioFacts& scenario) {
 std::string distribution_note(const ScenarioFacts& scenario) {
     std::string note =
         "Share of all EVs of the demand, so a curve that ends below 1 shows EVs that did not arrive. "
-        "Replications are pooled; the intervals under Data come from drawing whole replications.";
+        "Replications are pooled; the intervals under Data come from resampling whole replications.";
     const bool thinned =
         std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
                     [](const auto& one) { return one.travel_time.arrived > one.travel_time.points.size(); });
@@ -123,7 +123,7 @@ std::string distribution_note(const ScenarioFacts& scenario) {
 }
 
 std::vector<std::pair<double, double>> zipped(const std::vector<double>& x, const std::vector<double>& y) {
-    // Long trainings: no more points than the figure has units.
+    // For long trainings: about as many points as the figure has units.
     const std::size_t stride = std::max<std::size_t>(1, x.size() / 400);
     std::vector<std::pair<double, double>> points;
     for (std::size_t row = 0; row < x.size(); row += stride) {
@@ -135,8 +135,8 @@ std::vector<std::pair<double, double>> zipped(const std::vector<double>& x, cons
     return points;
 }
 
-/// From 0 when the losses are of one size; by decades, down to the smallest that is told from 0, when the
-/// largest is more than a hundred times the last: the curve would be a line along the bottom.
+/// Linear from 0, or logarithmic down to `smallest` if the largest loss is more than a hundred times the
+/// last, because most of the curve would then lie along the bottom.
 Axis loss_axis(const LossCurve& curve) {
     constexpr double smallest = 1e-4;
     Range losses;

@@ -17,7 +17,7 @@ inline NumberStyle typeset(int decimals, Sign sign = Sign::negative_only) {
 }
 
 // Each function returns a whole <figure>: caption, drawing, legend and the data behind it in <details>. Empty
-// text where there is nothing to draw.
+// text if there is nothing to draw.
 
 /// Paired differences with 95 % intervals: EV travel time, emergency waiting time and the others' time loss
 /// on one axis in seconds, so that gain and cost can be compared by eye.
@@ -34,11 +34,11 @@ std::string precision_figure(const ScenarioFacts& scenario);
 /// Whether each condition has enough replications for the least relevant difference.
 DataTable precision_table(const ScenarioFacts& scenario);
 
-/// Time lost on each approach against the baseline, where most changes first.
+/// Time lost on each approach compared with the baseline, the largest changes first.
 std::string approach_figure(const ScenarioFacts& scenario, const ConditionFacts& condition);
-/// Vehicles that stand on the other approaches around an EV's passage.
+/// Halted vehicles on the other approaches around an EV's passage.
 std::string recovery_figure(const ScenarioFacts& scenario);
-/// Time and distance of an EV with the signals on its route, a figure for each of the scenario's journeys.
+/// Time and distance of an EV with the signals on its route, one figure per journey of the scenario.
 std::string journey_figures(const ScenarioFacts& scenario);
 
 /// Train and test loss over epochs (Fig. 4).

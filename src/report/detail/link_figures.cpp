@@ -16,9 +16,9 @@ constexpr double left_edge = 52.0;
 constexpr double right_edge = 388.0;
 constexpr double bottom_edge = height - 44.0;
 constexpr double top_edge = 26.0;
-/// Below it the share of true links in a bin says little.
+/// With fewer pairs the share of true links in a bin is too uncertain.
 constexpr std::uint64_t fewest_pairs = 100;
-/// Points nearer than this, in units of the figure, are one.
+/// Points closer than this, in figure units, are left out.
 constexpr double least_step = 1.5;
 
 using Points = std::vector<std::pair<double, double>>;
@@ -41,7 +41,7 @@ std::string legend_of(const std::vector<DrawnResult>& drawn) {
     return legend(entries);
 }
 
-/// Leaves out points that fall on the last one drawn.
+/// Leaves out points too close to the last one drawn.
 Points thinned(const Points& points, const Axis& x, const Axis& y) {
     Points kept;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -108,7 +108,8 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
     }
     if (!any) return {};
     return to_html(Figure{"Precision over recall", plot.finish(), legend_of(drawn),
-                          "The quarter where both are above 0.5; a predictor without a line stays below it.",
+                          "Only the quarter where both are above 0.5 is shown; a predictor without a line "
+                          "stays below it.",
                           data});
 }
 
@@ -132,8 +133,8 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
     }
     if (data.rows.empty()) return {};
     return to_html(Figure{"Reliability", plot.finish(), legend_of(drawn),
-                          fmt::format("Perfect calibration is 0. {} bins of one width; those with fewer than "
-                                      "{} pairs are left out.",
+                          fmt::format("Perfect calibration is 0. {} bins of equal width; those with fewer "
+                                      "than {} pairs are left out.",
                                       links::calibration_bins, fewest_pairs),
                           data});
 }

@@ -7,15 +7,15 @@
 
 namespace clearway::report::detail {
 
-/// What is drawn of one failure: the pooled results of some predictors, with the style of each.
+/// Pooled result of a predictor under one failure, with the index of its line style.
 struct DrawnResult {
     const links::LinkResult* result = nullptr;
     std::size_t series = 0;
 };
 
-// Each function returns a whole <figure> with the data behind it. Empty text where there is nothing to draw.
+// Each function returns a whole <figure> with the data behind it. Empty text if there is nothing to draw.
 
-/// Precision over recall, the quarter where both are above 0.5.
+/// Precision over recall, where both are above 0.5.
 std::string precision_recall_figure(const std::vector<DrawnResult>& drawn);
 
 /// Share of true links minus stated probability, by stated probability.

@@ -26,10 +26,10 @@ struct Figure {
 };
 std::string to_html(const Figure& figure);
 
-/// Legend of the given series: markup from style index and escaped name.
+/// A legend as markup. Each entry is a style index and a name, which is escaped here.
 std::string legend(const std::vector<std::pair<std::size_t, std::string>>& entries);
 
-/// The title as markup, escaped, with a mark where safety checks were off.
+/// The title as markup, escaped, with a mark if safety checks were off.
 std::string condition_label(const ConditionFacts& condition);
 
 }  // namespace clearway::report::detail

@@ -11,9 +11,9 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr std::size_t drawn_pairs = 60;  // of each condition; more lines are one grey area
+constexpr std::size_t drawn_pairs = 60;  // per condition; more lines merge into a grey area
 
-/// Every so manieth pair, so that `drawn_pairs` are shown at most.
+/// Evenly spaced pairs, at most `drawn_pairs`.
 std::vector<TravelTimePair> thinned(const std::vector<TravelTimePair>& pairs) {
     const std::size_t stride = (pairs.size() + drawn_pairs - 1) / drawn_pairs;
     std::vector<TravelTimePair> shown;
@@ -54,7 +54,7 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
     return table;
 }
 
-/// Only where nothing is shown do more replications promise something.
+/// A number only if no effect is shown: otherwise more replications are not needed.
 std::string replications_needed(const ConditionFacts& condition) {
     const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
     if (!condition.precision || !open) return missing(Script::typeset);
@@ -118,7 +118,7 @@ std::string precision_figure(const ScenarioFacts& scenario) {
         }
     }
     if (replications.empty()) return {};
-    constexpr double least_width = 5.0;  // so that the marks are whole numbers
+    constexpr double least_width = 5.0;  // so that the ticks are whole numbers
     replications.high = std::max(replications.high, replications.low + least_width);
     constexpr double height = 270.0;
     widths.high *= 1.05;
@@ -142,7 +142,7 @@ std::string precision_figure(const ScenarioFacts& scenario) {
         plot.line(points, row);
         entries.emplace_back(row, condition.label());
     }
-    const std::string note = fmt::format("The level line: the least difference that counts, {} s.",
+    const std::string note = fmt::format("The level line is the smallest difference that counts, {} s.",
                                          number(scenario.least_relevant_s, typeset(1)));
     return to_html(Figure{scenario.name, plot.finish(), legend(entries), note, std::move(data)});
 }

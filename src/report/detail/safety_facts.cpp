@@ -24,13 +24,13 @@ constexpr std::array rows = {
     Row{"others_red_passages", "Others past a red signal"},
     Row{"others_hard_brakings", "Hard brakings of others (3.4 m/s\u00b2)"},
     Row{"others_jerk_mps3", "Jerk of others, root mean square, m/s\u00b3"},
-    Row{"signal_throughput_per_hour", "Vehicles past stop lines of signals, an hour"},
+    Row{"signal_throughput_per_hour", "Vehicles past stop lines of signals, per hour"},
     Row{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
     Row{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
-    Row{"worst_approach_delay_s", "Time lost on the worst approach, s a vehicle"},
+    Row{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
 };
 
-/// Where there are pedestrians.
+/// Shown only if there are pedestrians.
 constexpr std::array pedestrian_rows = {
     Row{"pedestrian_collisions", "Collisions with a pedestrian"},
     Row{"emergency_pedestrian_collisions", "Collisions of an EV with a pedestrian"},

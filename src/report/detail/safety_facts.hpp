@@ -8,10 +8,11 @@
 
 namespace clearway::report::detail {
 
-/// An estimate as tables print it; without a mean where there is none.
+/// An estimate as tables print it; without a mean if there is none.
 Estimate estimate_from(const std::optional<analysis::Estimate>& estimate);
 
-/// Safety, comfort and flow of a condition, always the same rows. Empty without a complete run.
+/// Safety, comfort and flow of a condition, with further rows if there are pedestrians. Empty without a
+/// complete run.
 std::vector<SafetyFacts> safety_of(const analysis::ConditionSummary& summary);
 
 }  // namespace clearway::report::detail

@@ -13,7 +13,7 @@ NumberStyle style_of(const Estimate& value, Sign sign = Sign::negative_only) {
 }
 
 DataTable table_of(const ConditionFacts& condition) {
-    DataTable table{{"", "a run [95 %]", "against the baseline [95 %]", "per 1,000 vehicle-km"}, {}};
+    DataTable table{{"", "per run [95 %]", "against the baseline [95 %]", "per 1,000 vehicle-km"}, {}};
     for (const SafetyFacts& row : condition.safety) {
         const NumberStyle with_sign = style_of(row.value, Sign::always);
         table.rows.push_back(
@@ -29,10 +29,9 @@ DataTable table_of(const ConditionFacts& condition) {
 std::string safety_section(const StudyFacts& study) {
     std::string html =
         "<p>What happens between vehicles, and how the traffic of the others flows. Time to collision and "
-        "the "
-        "deceleration to avoid a crash are those of vehicles that follow each other on one lane within 100 m "
-        "of an EV; like red passages, braking, jerk and queues they count from a minute before the first EV "
-        "on. Queues and passages of stop lines are taken while demand departs.</p>\n";
+        "the deceleration to avoid a crash are those of vehicles that follow each other on one lane within "
+        "100 m of an EV. Like red passages, braking, jerk and queues, they are counted from a minute before "
+        "the first EV. Queues and passages of stop lines are measured while demand departs.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         html += fmt::format("<h3>{}</h3>\n", escaped(scenario.name));
         for (const ConditionFacts& condition : scenario.conditions) {

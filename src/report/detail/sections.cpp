@@ -75,7 +75,7 @@ constexpr std::array<Section, 15> all_sections = {{
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
     {"failure", "Benefit against failure", has_failure_curves, failure_section},
-    {"sensitivity", "Sensitivity to each number", has_sensitivities, sensitivity_section},
+    {"sensitivity", "Sensitivity to each setting", has_sensitivities, sensitivity_section},
     {"cost", "Cost to the others", has_approaches, cost_section},
     {"safety", "Safety, comfort and flow", has_safety, safety_section},
     {"journeys", "An EV's journey", has_journeys, journeys_section},
@@ -89,7 +89,7 @@ constexpr std::array<Section, 15> all_sections = {{
 
 constexpr std::size_t shown_failures = 50;  // of each condition; the rest is counted
 
-/// One figure a scenario, side by side where there is room.
+/// One figure per scenario, side by side if there is room.
 std::string figures_of(const StudyFacts& study, std::string (*figure)(const ScenarioFacts&)) {
     std::string html;
     for (const ScenarioFacts& scenario : study.scenarios) {
@@ -177,20 +177,20 @@ std::string verdict_section(const StudyFacts& study) {
                             escaped(scenario.name), counted(scenario.replications, "replication"), entries);
     }
     return html +
-           "</div>\n<p class=\"note\">Differences are paired: condition and baseline share seed, demand, "
-           "drivers and "
-           "sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
-           "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is the "
-           "restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
-           "horizon. Whatever the means say, a condition that loses more EVs than its baseline, has them "
-           "collide more often, or ran without safety checks is not called a help. Fewer than five "
+           "</div>\n"
+           "<p class=\"note\">Differences are paired: condition and baseline share seed, demand, drivers "
+           "and sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
+           "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is "
+           "the restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
+           "horizon. Whatever the means are, a condition is not called a help if it loses more EVs than its "
+           "baseline, if its EVs collide more often, or if it ran without safety checks. Fewer than five "
            "replications give no interval and no effect: too few seeds.</p>\n";
 }
 
 std::string forest_section(const StudyFacts& study) {
     return "<p>Mean of the paired differences with its 95 % interval. Left of the line a condition takes "
-           "less time than "
-           "the baseline, right of it more. Gain of the EVs and cost to the others share one axis.</p>\n" +
+           "less time than the baseline, right of it more. The gain of the EVs and the cost to the others "
+           "share one axis.</p>\n" +
            figures_of(study, forest_figure);
 }
 
@@ -206,29 +206,26 @@ std::string cost_section(const StudyFacts& study) {
             costs += approach_figure(scenario, condition);
     }
     const std::string recovery = figures_of(study, recovery_figure);
-    return "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a signal "
-           "(where a "
-           "network has none, on each edge), from a minute before the first EV on, against the baseline of "
-           "the same "
-           "replication. With many approaches, one interval in twenty excludes 0 by chance.</p>\n"
+    return "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a "
+           "signal (on each edge if a network has no signals), from a minute before the first EV, compared "
+           "with the baseline of the same replication. With many approaches, one interval in twenty "
+           "excludes 0 by chance.</p>\n"
            "<div class=\"figures\">\n" +
            costs + "</div>\n" + (recovery.empty() ? recovery : "<h3>Recovery after an EV</h3>\n" + recovery);
 }
 
 std::string journeys_section(const StudyFacts& study) {
-    return "<p>One EV of one replication on its way, under the baseline and the conditions that help most. A "
-           "slope is "
-           "a speed, a level piece of the vehicle\u2019s line a halt. One run shows how, not how much: for "
-           "that see "
-           "the tables.</p>\n" +
+    return "<p>The journey of one EV in one replication, under the baseline and the conditions that help "
+           "most. The slope of the vehicle\u2019s line is its speed, and a level piece is a stop. One run "
+           "shows how a policy works; for how much it gains see the tables.</p>\n" +
            figures_of(study, journey_figures);
 }
 
 std::string precision_section(const StudyFacts& study) {
     std::string html =
-        "<p>Half the width of the 95 % interval of the EV travel time difference, as replications came in. "
-        "Where the curve is below the line, differences as small as the line can be told from none. Where an "
-        "effect is shown, n is enough; where none is, the last column says how many replications would tell "
+        "<p>Half the width of the 95 % interval of the EV travel time difference, as replications were "
+        "added. Where the curve is below the line, differences as small as the line can be detected. If an "
+        "effect is shown, n is enough; if none is, the last column gives the number of replications needed "
         "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n" +
         figures_of(study, precision_figure);
     for (const ScenarioFacts& scenario : study.scenarios)
@@ -238,11 +235,9 @@ std::string precision_section(const StudyFacts& study) {
 
 std::string calibration_section(const StudyFacts& study) {
     std::string html =
-        "<p>Flows of the baseline, without EVs and while demand departs, against flows that were counted on "
-        "the road. "
-        "GEH = \u221a(2 (m \u2212 c)\u00b2 / (m + c)) of hourly flows; below 5 a flow counts as met, and the "
-        "usual "
-        "criterion asks that of 85 % of the places.</p>\n";
+        "<p>Flows of the baseline, without EVs and while demand departs, compared with flows counted on the "
+        "road. GEH = \u221a(2 (m \u2212 c)\u00b2 / (m + c)) of hourly flows; below 5 a flow counts as "
+        "matched, and the usual criterion requires this at 85 % of the places.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         if (scenario.flows.empty()) continue;
         DataTable table{{"Place", "counted, veh/h", "modelled, veh/h", "GEH"}, {}};
@@ -271,11 +266,9 @@ std::string networks_section(const StudyFacts& study) {
 std::string training_section(const StudyFacts& study) {
     std::string html =
         "<p>Train and test loss over the epochs (the dissertation\u2019s Fig. 4). Its text does not say "
-        "whether the "
-        "list of pairs holds only true links, so the network as published is trained on both readings. A "
-        "list of true "
-        "links alone gives a low loss whatever the network learns: the constant answer 1 reaches it "
-        "too.</p>\n"
+        "whether the list of pairs holds only true links, so the network as published is trained both ways. "
+        "A list of true links alone gives a low loss whatever the network learns: the constant answer 1 "
+        "reaches it too.</p>\n"
         "<div class=\"figures\">\n";
     for (const LossCurve& curve : study.curves) {
         html += loss_figure(curve);
@@ -285,10 +278,10 @@ std::string training_section(const StudyFacts& study) {
 
 std::string outcomes_section(const StudyFacts& study) {
     std::string html =
-        "<p>How every vehicle of the demand ended, over all completed runs. Means over arrived EVs leave out "
-        "the others of this table. The second table counts the actions that policies asked for, those that "
-        "were refused because they could not be carried out safely, and what went wrong on the road; the "
-        "third says which actions, and why they were refused.</p>\n";
+        "<p>How every vehicle of the demand ended, over all completed runs. Means over arrived EVs leave "
+        "out all other EVs in this table. The second table counts the actions that policies asked for, "
+        "those that were refused because they could not be carried out safely, and what went wrong on the "
+        "road; the third lists the actions and the reasons for refusals.</p>\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
         DataTable table{{"Condition", "EVs", "arrived", "running at end", "teleported", "not inserted",
                          "removed", "others", "arrived", "runs", "failed", "missing"},

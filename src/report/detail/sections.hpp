@@ -7,7 +7,7 @@
 
 namespace clearway::report::detail {
 
-/// A section of the report. It is left out, in the navigation too, where it does not apply.
+/// A section of the report. It is left out, also in the navigation, if it does not apply.
 struct Section {
     const char* id;
     const char* title;

@@ -1,4 +1,4 @@
-// Sensitivity: a tornado chart of every number that was turned alone.
+// Sensitivity: a tornado chart of every setting that was varied alone.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr double chart_left = 26.0;
-constexpr double chart_right = 262.0;  // the numbers stand beside the drawing
+constexpr double chart_right = 262.0;  // the numbers are to the right of the drawing
 constexpr double level_height = 17.0;
 constexpr double heading_height = 20.0;
 
@@ -91,9 +91,10 @@ DataTable data_of(const Sensitivity& sensitivity) {
 
 std::string sensitivity_section(const StudyFacts& study) {
     std::string html =
-        "<p>Each number of a condition turned alone, against the same condition with nothing set: paired "
-        "differences with 95 % intervals. Below 0 is a gain. The number that moves emergency vehicles most "
-        "stands first.</p>\n<div class=\"figures\">\n";
+        "<p>Each setting of a condition varied alone, compared with the same condition at its defaults: "
+        "paired differences with 95 % intervals. Below 0 is a gain. The setting with the largest effect on "
+        "emergency vehicles comes first.</p>\n"
+        "<div class=\"figures\">\n";
     for (const Sensitivity& sensitivity : study.sensitivities) {
         const std::string caption = fmt::format("{}, {}", sensitivity.scenario, sensitivity.condition);
         html += to_html(

@@ -46,7 +46,8 @@ std::string published_cell(const ScenarioFacts& scenario, const ConditionFacts& 
     return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, {1, Script::typeset}) : "");
 }
 
-/// Conditions down, measures across; a column of published numbers after each measure that has them.
+/// Rows are conditions and columns are measures, with a column of published numbers after each measure that
+/// has them.
 std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure> columns,
                           bool with_published) {
     std::string titles = "<tr class=\"group\"><th scope=\"col\">Condition</th>";
@@ -74,7 +75,7 @@ std::string p_value(const std::optional<double>& p) {
     return *p < 0.001 ? "< 0.001" : number(*p, {3, Script::typeset});
 }
 
-/// All that is known of the paired differences of a measure.
+/// All statistics of the paired differences of a measure.
 DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
     DataTable table{{info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d",
                      "p (t)", "p (Holm)", "p (Wilcoxon)", "pairs", "incomplete", "EVs left out"},
@@ -106,13 +107,11 @@ std::string statistics_of(const ScenarioFacts& scenario) {
     }
     if (html.empty()) return html;
     return "<details><summary>Statistics of the paired differences</summary>\n" + html +
-           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences over "
-           "their "
-           "standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted over the rows "
-           "of the "
-           "table; of counts that is Wilcoxon\u2019s p. Incomplete: replications without a value in both "
-           "conditions; "
-           "EVs left out: did not arrive in both.</p></details>\n";
+           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences "
+           "over their standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted "
+           "over the rows of the table; for counts this is Wilcoxon\u2019s p. Incomplete: replications "
+           "without a value in both conditions; EVs left out: those that did not arrive in "
+           "both.</p></details>\n";
 }
 
 std::string definitions() {
@@ -134,14 +133,13 @@ std::string tables_section(const StudyFacts& study) {
     constexpr std::array event_columns = {Measure::depart_delay, Measure::collisions, Measure::teleports,
                                           Measure::unfinished};
     std::string html =
-        "<p>Each cell: mean over the replications, its 95 % interval, and below the paired difference to the "
-        "baseline, in "
-        "colour where its interval excludes 0 and the difference is large enough to count (blue better, "
-        "orange worse).";
+        "<p>Each cell: mean over the replications, its 95 % interval, and below them the paired difference "
+        "to the baseline, coloured if its interval excludes 0 and the difference is large enough to count "
+        "(blue: better, orange: worse).";
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         html +=
             " The columns <em>published</em> repeat the dissertation: one unseeded run on networks of its "
-            "own; they are no results of this study.";
+            "own; they are not results of this study.";
     html += "</p>\n";
     html += definitions();
     for (const ScenarioFacts& scenario : study.scenarios) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t drawn_journeys = 4;  // conditions of a scenario
 
-/// Journeys of one run by vehicle, times counted from the vehicle's first moment.
+/// Journeys of one run by vehicle, with times counted from the vehicle's first record.
 std::map<std::string, JourneyFacts> journeys_of(const std::vector<metrics::JourneyRow>& rows) {
     std::map<std::string, JourneyFacts> journeys;
     for (const metrics::JourneyRow& row : rows) {
@@ -28,7 +28,7 @@ std::map<std::string, JourneyFacts> journeys_of(const std::vector<metrics::Journ
         const double end_s = journey.places.back().time_s - start_s;
         for (JourneyPlace& place : journey.places)
             place.time_s -= start_s;
-        std::map<std::string, std::size_t> open;  // Signal and stop line -> its span that still lasts.
+        std::map<std::string, std::size_t> open;  // Signal and stop line -> index of the latest span.
         for (const metrics::JourneyRow& row : rows) {
             if (row.signal.empty() || row.vehicle != vehicle) continue;
             const std::string key = row.signal + '@' + std::to_string(row.distance_m);
@@ -42,7 +42,7 @@ std::map<std::string, JourneyFacts> journeys_of(const std::vector<metrics::Journ
     return journeys;
 }
 
-/// Conditions that are shown: the baseline and those with the greatest effect on the EVs.
+/// Conditions that are shown: the baseline and those that help the EVs most.
 std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenario) {
     std::vector<const ConditionFacts*> compared;
     for (const ConditionFacts& condition : scenario.conditions) {
@@ -60,7 +60,7 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
     return shown;
 }
 
-/// The vehicle that all journeys share and that passes most signals; empty where there is none.
+/// The vehicle that occurs in all runs and passes the most signals; empty if there is none.
 std::string common_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs) {
     std::string best;
     std::size_t most = 0;
@@ -83,7 +83,7 @@ std::string common_vehicle(const std::vector<std::map<std::string, JourneyFacts>
 std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario) {
     const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
     if (conditions.empty()) return {};
-    constexpr std::uint32_t looked_at = 3;  // as many as runs keep journeys of
+    constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
     for (std::uint32_t replication = 0;
          replication < std::min<std::uint64_t>(looked_at, scenario.replications); ++replication) {
         std::vector<std::map<std::string, JourneyFacts>> runs;
@@ -132,7 +132,7 @@ std::map<std::string, std::string> streets_in(const std::filesystem::path& file)
     } catch (const nlohmann::json::exception& error) {
         throw core::InputError(core::Problem{file.string(), error.what(),
                                              "an object of edges and their street names",
-                                             "Remove the file, or make the run folder again"});
+                                             "Remove the file, or create the run folder again"});
     }
 }
 

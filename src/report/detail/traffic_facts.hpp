@@ -11,15 +11,15 @@
 namespace clearway::report::detail {
 
 /// One emergency vehicle's journey in the first replication that kept it, under the baseline and the
-/// conditions that help most: the vehicle with most signals on its way. Empty where nothing was kept.
+/// conditions that help most: the vehicle with the most signals on its route. Empty if no journeys were kept.
 std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario);
 
-/// Counted flows of the file against the mean flows of a condition's runs; empty where the file is missing.
+/// Counted flows from the file, each with the mean flow of a condition's runs; empty if the file is missing.
 /// Throws core::InputError for a damaged one.
 std::vector<FlowFacts> flows_in(const std::filesystem::path& file, const results::Results& results,
                                 const std::string& scenario, const std::string& condition);
 
-/// Street names by edge; empty where the file is missing. Throws core::InputError for a damaged one.
+/// Street names by edge; empty if the file is missing. Throws core::InputError for a damaged one.
 std::map<std::string, std::string> streets_in(const std::filesystem::path& file);
 
 }  // namespace clearway::report::detail

@@ -12,9 +12,9 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr std::size_t drawn_approaches = 8;  // those where most changes; all are in the data
-constexpr double cost_left = 26.0;           // half of a label of three digits is left of it
-constexpr double cost_right = 250.0;         // the numbers stand beside the drawing
+constexpr std::size_t drawn_approaches = 8;  // those with the largest changes; the data list more
+constexpr double cost_left = 26.0;           // leaves room for half a label of three digits
+constexpr double cost_right = 250.0;         // the numbers are to the right of the drawing
 constexpr double cost_row_height = 34.0;
 constexpr std::size_t listed_approaches = 100;
 
@@ -22,7 +22,7 @@ std::string name_of(const ApproachFacts& approach) {
     return approach.street.empty() ? approach.edge : fmt::format("{} ({})", approach.street, approach.edge);
 }
 
-/// The start of a long name, cut between characters, for a label that must not leave its figure.
+/// The start of a long name, cut between characters, so that the label stays within its figure.
 std::string shortened(const std::string& name) {
     constexpr std::size_t longest = 52;
     if (name.size() <= longest) return name;
@@ -37,8 +37,8 @@ std::string signed_number(const std::optional<double>& value, int decimals) {
 }
 
 DataTable approach_data(const ConditionFacts& condition) {
-    DataTable table{{"Approach", "time lost, s a run [95 %]", "human-driven", "automated", "time stood",
-                     "baseline, s a run", "vehicles a run", "a vehicle, s"},
+    DataTable table{{"Approach", "time lost, s per run [95 %]", "human-driven", "automated", "waiting time",
+                     "baseline, s per run", "vehicles per run", "per vehicle, s"},
                     {}};
     for (const ApproachFacts& approach : condition.approaches) {
         if (table.rows.size() == listed_approaches) break;
@@ -53,8 +53,7 @@ DataTable approach_data(const ConditionFacts& condition) {
     return table;
 }
 
-/// A rectangle's worth of a signal's state: a level line of a style of its own, so that it does not need
-/// colour.
+/// How a signal's state is drawn: a level line whose style differs in more than colour.
 struct SignalStyle {
     const char* state;
     const char* style;
@@ -111,7 +110,8 @@ std::string journey_figure(const ScenarioFacts& scenario, const JourneyFacts& jo
         points.emplace_back(place.time_s, place.distance_m);
     plot.line(points, 1);
     const std::string note = fmt::format(
-        "Replication {}, vehicle {}. Level lines are stop lines on its route and what they show to it.",
+        "Replication {}, vehicle {}. Level lines are the stop lines on its route, in the state that is "
+        "shown to it.",
         journey.replication, journey.vehicle);
     return to_html(Figure{title, plot.finish(), signal_legend(), note, journey_data(journey)});
 }
@@ -133,7 +133,7 @@ std::string approach_figure(const ScenarioFacts& scenario, const ConditionFacts&
     const double height = static_cast<double>(shown) * cost_row_height + 12.0 + label_space;
     const std::string title = fmt::format("{}: {}", scenario.name, condition.label());
     Plot plot(fmt::format("{}: time lost by approach against the baseline", title), height,
-              {padded(range, 0.06), "time lost against the baseline, s a run", cost_left, cost_right},
+              {padded(range, 0.06), "time lost against the baseline, s per run", cost_left, cost_right},
               {{}, "", 6.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);
@@ -150,10 +150,10 @@ std::string approach_figure(const ScenarioFacts& scenario, const ConditionFacts&
             plot.point(*difference.mean, top + 22.0, 1);
         }
     }
-    std::string note = "Time lost on the approach a run, summed over the vehicles that are no EVs.";
+    std::string note = "Time lost on the approach per run, summed over all vehicles that are not EVs.";
     if (condition.approaches.size() > shown)
-        note +=
-            fmt::format(" The {} of {} approaches where most changes.", shown, condition.approaches.size());
+        note += fmt::format(" Shown are the {} of {} approaches with the largest changes.", shown,
+                            condition.approaches.size());
     return to_html(Figure{title, plot.finish(), "", note, approach_data(condition)});
 }
 
@@ -170,15 +170,15 @@ std::string recovery_figure(const ScenarioFacts& scenario) {
     if (offsets.empty() || offsets.high <= offsets.low) return {};
     constexpr double height = 270.0;
     Plot plot(
-        fmt::format("{}: vehicles that stand on the other approaches after an EV", scenario.name), height,
+        fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name), height,
         {offsets, "time after the EV passed, s", left_edge, right_edge},
-        {padded(halted, 0.08), "more vehicles standing than at the baseline", height - label_space, 26.0});
+        {padded(halted, 0.08), "more halted vehicles than in the baseline", height - label_space, 26.0});
     plot.grid_x();
     plot.grid_y();
     plot.horizontal(0.0);
     plot.vertical(0.0);
     std::vector<std::pair<std::size_t, std::string>> entries;
-    DataTable data{{"Condition, s after the EV", "more vehicles standing [95 %]"}, {}};
+    DataTable data{{"Condition, s after the EV", "more halted vehicles [95 %]"}, {}};
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
         if (condition.recovery.empty()) continue;
@@ -198,8 +198,9 @@ std::string recovery_figure(const ScenarioFacts& scenario) {
     }
     return to_html(
         Figure{scenario.name, plot.finish(), legend(entries),
-               "Vehicles that stand on the signal's other approaches, around each passage of an EV, against "
-               "the passages of the baseline. Recovered: from then on no interval lies above 0 for 30 s.",
+               "Halted vehicles on the signal's other approaches around each passage of an EV, compared "
+               "with the passages of the baseline. Recovered: from then on no interval lies above 0 for 30 "
+               "s.",
                std::move(data)});
 }
 

@@ -23,7 +23,7 @@ namespace {
                     code == SQLITE_FULL ? ". Free some space there and give the same command again" : ""));
 }
 
-/// Fills one row after the other; values go to the columns in their order.
+/// Inserts row after row; values fill the columns from left to right.
 class Inserter {
   public:
     Inserter(Database& database, const std::string& sql)
@@ -34,7 +34,7 @@ class Inserter {
                                           static_cast<int>(text.size()), SQLITE_TRANSIENT));
     }
     void add(double number) { database_.check(sqlite3_bind_double(statement_.get(), ++column_, number)); }
-    /// SQLite's integers have a sign; seeds above 2^63 keep their bits.
+    /// SQLite's integers are signed; seeds above 2^63 keep their bits.
     void add(std::uint64_t number) {
         database_.check(sqlite3_bind_int64(statement_.get(), ++column_, static_cast<sqlite3_int64>(number)));
     }
@@ -89,7 +89,7 @@ std::string columns() {
     return text;
 }
 
-/// `(?, ?, ?)` for the key, some words, and the members of field tables.
+/// `(?, ?, ?)`: placeholders for the key, `words` texts, and the members of field tables.
 template <class... Structs>
 std::string places(int words) {
     int count = 3 + words;
@@ -114,7 +114,7 @@ void write_study(Database& database, const Manifest& manifest) {
     }
 }
 
-/// `, "failure.dark_share" NUMERIC`: numbers where the values look so, texts otherwise.
+/// `, "failure.dark_share" NUMERIC`: numbers if the values look like numbers, else text.
 std::string columns(const FactorColumns& factors) {
     std::string text;
     for (std::string name : factors.names()) {
@@ -141,11 +141,11 @@ void create_tables(Database& database, const FactorColumns& factors) {
         fmt::format("CREATE TABLE errors ({}, outcome TEXT, cause TEXT, message TEXT)", key_columns));
 }
 
-/// An empty database in which a study begins.
+/// A new database with the study's metadata and empty tables.
 Database begin_database(const std::filesystem::path& file, const Manifest& manifest) {
     std::filesystem::remove(file);
     Database database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, fail);
-    // A damaged part is thrown away whole, so it needs no journal; the file is flushed once, at the end.
+    // An unfinished file is thrown away as a whole, so it needs no journal.
     database.execute("PRAGMA journal_mode = OFF");
     database.execute("BEGIN");
     write_study(database, manifest);

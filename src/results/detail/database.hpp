@@ -8,8 +8,8 @@
 namespace clearway::results::detail {
 
 /// Writes a study into one SQLite file, run by run: tables `study` (key, value), `runs`, `vehicles`,
-/// `errors`, with the columns of the CSV files. Written aside and renamed by `finish`; without it nothing
-/// remains. All members throw core::EnvironmentError.
+/// `errors`, with the columns of the CSV files. The database is a temporary file until `finish` renames it;
+/// without `finish` it is removed. All members throw core::EnvironmentError.
 class DatabaseWriter {
   public:
     DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest);

@@ -27,18 +27,18 @@ void read_key(core::ObjectReader& reader, experiment::RunKey& key) {
     reader.read("replication", key.replication);
 }
 
-/// Of everything else in `run.json`.
+/// Holds the hash of everything else in `run.json`.
 constexpr const char* hash_key = "hash";
 
-/// The text of `run.json` as it was before its hash, which stands last, was added: what the hash is of. Cut
-/// out instead of written again from the parsed object, which would take longer than all else of reading.
+/// The text of `run.json` without its last entry, the hash: the text which was hashed. The entry is cut out,
+/// because writing the parsed object again would take longer than the rest of reading.
 std::string without_hash(const std::string& text) {
     const std::string before = fmt::format(",\n  \"{}\": \"", hash_key);
     const std::size_t at = text.rfind(before);
     return at == std::string::npos ? text : text.substr(0, at) + "\n}\n";
 }
 
-/// What follows the four words that stand first in a line.
+/// First column after the four words at the start of a row.
 constexpr std::size_t first_number = 4;
 
 metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
@@ -65,8 +65,8 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
 
 constexpr const char* restricted_key = "emergency_restricted_travel_time_s";
 
-/// Records of versions without restricted times name no horizon: only where every emergency vehicle arrived
-/// it does not matter.
+/// Records of versions without restricted times do not state the horizon. It is not needed if every emergency
+/// vehicle arrived.
 std::optional<double> restricted_time_of_old(const std::string& vehicles_csv, const std::string& where) {
     const auto vehicles = vehicles_from_csv(vehicles_csv, where, VehicleRows::emergency);
     const auto arrived = [](const metrics::VehicleRow& vehicle) {
@@ -91,7 +91,7 @@ core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
     core::Json rows = core::Json::array();
     for (const metrics::LeaseRow& lease : leases) {
         core::Json row;
-        row["part"] = lease.policy;
+        row["policy"] = lease.policy;
         row["action"] = lease.action;
         core::write_fields(row, lease);
         row["refused"] = lease.refused;
@@ -109,7 +109,7 @@ std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json&
     for (const core::Json& row : *found) {
         metrics::LeaseRow& lease = leases.emplace_back();
         core::ObjectReader reader(row, where + ": leases", problems);
-        reader.read("part", lease.policy);
+        reader.read("policy", lease.policy);
         reader.read("action", lease.action);
         reader.read_fields(lease);
         reader.read("refused", lease.refused);

@@ -19,7 +19,7 @@ using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
 /// An open SQLite file.
 class Database {
   public:
-    /// Must throw: `code` is SQLite's, `reason` its words.
+    /// Must throw. `code` is SQLite's result code, `reason` its message.
     using Fail = void (*)(const std::filesystem::path& file, int code, const std::string& reason);
 
     /// `flags` are those of sqlite3_open_v2. Every error of this and all other members goes to `fail`.

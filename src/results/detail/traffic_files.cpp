@@ -13,7 +13,7 @@ using metrics::ApproachRow;
 using metrics::JourneyRow;
 using metrics::RecoveryRow;
 
-/// The words that stand before the numbers of a row.
+/// The words before the numbers of a row.
 std::string words_of(const ApproachRow& row) {
     return fmt::format("{},{}", core::csv_text(row.edge), traffic::name(row.vehicle_class));
 }
@@ -26,7 +26,7 @@ using Cells = std::vector<std::string_view>;
 
 std::size_t read_words(const Cells& cells, ApproachRow& row) {
     const auto vehicle_class = core::value_from<traffic::VehicleClass>(cells.at(1));
-    if (!vehicle_class) throw std::runtime_error(fmt::format("\"{}\" is no class", cells[1]));
+    if (!vehicle_class) throw std::runtime_error(fmt::format("\"{}\" is not a class", cells[1]));
     row.edge = cells[0];
     row.vehicle_class = *vehicle_class;
     return 2;

@@ -9,12 +9,12 @@
 
 namespace clearway::results::detail {
 
-/// The tables of a run as CSV texts of one JSON object: they stay with the run's other numbers in one file,
-/// which is written, flushed and compared as a whole. Nothing for tables that are all empty.
+/// The tables of a run as CSV texts in one JSON object. They stay in one file with the run's other numbers,
+/// which is written, flushed and compared as a whole. Null if all tables are empty.
 core::Json traffic_to_json(const metrics::TrafficTables& tables);
 
-/// Approaches and recovery; journeys are left where they are, for they are large and few readers want them.
-/// Throws core::InputError, naming `where`.
+/// Approaches and recovery. Journeys are not read, because they are large and few readers want them. Throws
+/// core::InputError, naming `where`.
 metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where);
 std::vector<metrics::JourneyRow> journeys_from_json(const core::Json& run, const std::string& where);
 
