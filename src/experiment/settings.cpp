@@ -179,6 +179,13 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     return known->table.check({{field, value}}, where + component + ".");
 }
 
+bool reads_links(const ConditionSpec& condition) {
+    return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
+        return entry.reads_links &&
+               std::ranges::find(condition.policies, entry.name) != condition.policies.end();
+    });
+}
+
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where) {
     std::vector<core::Problem> problems;
     const std::vector<std::string> present = components_of(condition);

@@ -37,6 +37,9 @@ void set_model(ConditionSpec& condition, const std::string& file, const std::str
 /// or has changed since it was given.
 std::string checked_model(const ConditionSpec& condition);
 
+/// Whether a policy of the condition acts on believed links, and not on believed places alone.
+bool reads_links(const ConditionSpec& condition);
+
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
 /// condition does not have, a value of the wrong type or out of range, a model that its predictor does not
 /// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves

@@ -41,6 +41,7 @@ struct PolicyEntry {
     std::string summary;  ///< One line for `clearway list`.
     /// Names of the policies whose settings it has: its own name, or those of the policies it combines.
     std::vector<std::string> components;
+    bool reads_links = false;   ///< Whether believed links decide anything, and not places alone.
     core::SettingsTable table;  ///< Its own settings.
     /// Settings are named with their component, `preempt_signals.lead_s`; those of other components are
     /// ignored.

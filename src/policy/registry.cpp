@@ -15,12 +15,16 @@
 namespace clearway::policy {
 namespace {
 
+/// What of a believed graph a policy acts on.
+enum class Reads { places, links };
+
 /// A policy whose constructor takes the context and, if it has settings, a `Config`.
 template <class Kind, class... Config>
-PolicyEntry entry(const std::string& name, const char* summary) {
+PolicyEntry entry(const std::string& name, const char* summary, Reads reads = Reads::places) {
     return {name,
             summary,
             {name},
+            reads == Reads::links,
             core::settings_table<Config...>(),
             [name](const PolicyContext& context, const core::Settings& settings) -> std::unique_ptr<Policy> {
                 std::tuple<Config...> config;
@@ -36,7 +40,11 @@ PolicyEntry entry(const std::string& name, const char* summary) {
 /// A policy that combines others and has no settings of its own.
 template <class Kind>
 PolicyEntry combination(const char* name, const char* summary, std::vector<std::string> components) {
-    return {name, summary, std::move(components), core::settings_table<>(),
+    return {name,
+            summary,
+            std::move(components),
+            false,
+            core::settings_table<>(),
             [](const PolicyContext& context, const core::Settings& settings) -> std::unique_ptr<Policy> {
                 return std::make_unique<Kind>(context, settings);
             }};
@@ -46,10 +54,10 @@ PolicyEntry combination(const char* name, const char* summary, std::vector<std::
 
 const std::vector<PolicyEntry>& policies() {
     static const std::vector<PolicyEntry> entries = {
-        entry<Listing55, Listing55Config>("listing_5_5",
-                                          "The dissertation's listing 5.5 as published, defects included"),
+        entry<Listing55, Listing55Config>(
+            "listing_5_5", "The dissertation's listing 5.5 as published, defects included", Reads::links),
         entry<Dissertation, DissertationConfig>(
-            "dissertation", "The dissertation's policy as described in 4.3, made workable"),
+            "dissertation", "The dissertation's policy as described in 4.3, made workable", Reads::links),
         entry<PreemptSignals, PreemptSignalsConfig>(
             "preempt_signals", "Green for the emergency vehicle's approach on its arrival"),
         entry<RecoverSignals, RecoverSignalsConfig>("recover_signals",

@@ -44,7 +44,8 @@ FailureText take_apart(std::string_view text) {
 }
 
 FailurePoint point_of(double dark_share, const analysis::ConditionSummary& condition) {
-    FailurePoint point{dark_share, std::nullopt, condition.metric("links_f1").estimate, {}};
+    FailurePoint point{dark_share, std::nullopt, std::nullopt, {}};
+    if (experiment::reads_links(condition.condition)) point.link_f1 = condition.metric("links_f1").estimate;
     const auto& comparison = condition.metric(analysis::primary_metric).comparison;
     if (comparison) point.travel_time = comparison->difference;
     point.objections = condition.objections;

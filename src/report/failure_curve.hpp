@@ -14,7 +14,8 @@ struct FailurePoint {
     /// Restricted mean EV travel time of the condition minus that of the baseline, s: below 0 is a benefit,
     /// unless there are objections.
     std::optional<analysis::Estimate> travel_time;
-    /// F1 of the believed links end to end: links of vehicles never seen count as missed.
+    /// F1 of the believed links end to end: links of vehicles never seen count as missed. Empty where the
+    /// policy acts on places alone, because links then explain nothing.
     std::optional<analysis::Estimate> link_f1;
     analysis::Objections objections;
 };
@@ -42,7 +43,7 @@ struct FailureCurve {
 /// policy with failure `perfect` becomes the line `perfect`, the same at every share.
 std::vector<FailureCurve> failure_curves(const analysis::Summary& summary);
 
-/// Table for a terminal of 100 columns; empty text without curves.
+/// Table for a terminal of 80 columns; empty text without curves.
 std::string failure_table(const std::vector<FailureCurve>& curves);
 
 }  // namespace clearway::report
