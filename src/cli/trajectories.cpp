@@ -31,8 +31,8 @@ core::ExitCode write(const Arguments& arguments) {
     const scenario::SumoRun run{.seed = core::StudySeed{recording.info().provenance.study_seed},
                                 .replication = core::Replication{key.replication},
                                 .lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
-                                                     ? scenario::LateralModel::sublane
-                                                     : scenario::LateralModel::lanes,
+                                                     ? traffic::LateralModel::sublane
+                                                     : traffic::LateralModel::lane,
                                 .bluelight = condition.bluelight};
     const std::filesystem::path run_folder = file.parent_path().parent_path().parent_path().parent_path();
     const std::filesystem::path scenario_folder =

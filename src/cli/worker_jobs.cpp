@@ -55,8 +55,11 @@ class JobList : public core::TaskList {
             logs_[end.id] = job.log;
             return;
         }
-        if (!interrupted) report_failure(job, end.exit);
-        remove_work(job);
+        if (interrupted) {
+            remove_work(job);
+        } else {
+            report_failure(job, end.exit);
+        }
     }
 
     void tick(std::span<const std::size_t>) override { progress_.update(done_, failed_); }

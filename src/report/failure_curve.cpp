@@ -129,15 +129,6 @@ void add_perfect(const analysis::ScenarioSummary& scenario, FailureCurve& curve)
     }
 }
 
-std::string interval_text(const std::optional<analysis::Estimate>& estimate, NumberStyle style) {
-    if (!estimate) return missing(style.script);
-    std::string text = number(estimate->mean, style);
-    if (estimate->interval && estimate->n >= analysis::fewest_for_interval)
-        text += fmt::format(" [{}, {}]", number(estimate->interval->low, style),
-                            number(estimate->interval->high, style));
-    return text;
-}
-
 }  // namespace
 
 std::vector<FailureCurve> failure_curves(const analysis::Summary& summary) {
@@ -168,8 +159,8 @@ std::string failure_table(const std::vector<FailureCurve>& curves) {
                 const FailurePoint& point = line.points[at];
                 fmt::format_to(out, "{:<22}{:>4.0f} %  {:<20}{:<20}{}{}\n", at == 0 ? line.repair : "",
                                100.0 * point.dark_share,
-                               interval_text(point.travel_time, {.decimals = 1, .sign = Sign::always}),
-                               interval_text(point.link_f1, {.decimals = 3}), benefit_word(point),
+                               estimate(point.travel_time, {.decimals = 1, .sign = Sign::always}),
+                               estimate(point.link_f1, {.decimals = 3}), benefit_word(point),
                                line.break_even == at ? "*" : "");
             }
         }

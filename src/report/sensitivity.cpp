@@ -11,7 +11,6 @@
 namespace clearway::report {
 namespace {
 
-constexpr const char* emergency_metric = "emergency_restricted_travel_time_s";
 constexpr const char* others_metric = "others_time_loss_s";
 constexpr std::size_t fewest_rows = 2;
 
@@ -44,21 +43,11 @@ Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
         if (condition.condition.settings.size() != 1 || recipe_of(condition.condition) != recipe) continue;
         const auto& [setting, value] = *condition.condition.settings.begin();
         row_of(result, setting)
-            .levels.push_back({value, difference(condition, reference, emergency_metric),
+            .levels.push_back({value, difference(condition, reference, analysis::primary_metric),
                                difference(condition, reference, others_metric)});
     }
     std::ranges::stable_sort(result.rows, std::ranges::greater(), &SensitivityRow::reach_s);
     return result;
-}
-
-std::string interval_text(const std::optional<analysis::Estimate>& estimate) {
-    const NumberStyle style{.decimals = 1, .sign = Sign::always};
-    if (!estimate) return missing(style.script);
-    std::string text = number(estimate->mean, style);
-    if (estimate->interval)
-        text += fmt::format(" [{}, {}]", number(estimate->interval->low, style),
-                            number(estimate->interval->high, style));
-    return text;
 }
 
 }  // namespace
@@ -86,6 +75,7 @@ std::vector<Sensitivity> sensitivities(const analysis::Summary& summary) {
 std::string sensitivity_table(const std::vector<Sensitivity>& all) {
     std::string text;
     auto out = std::back_inserter(text);
+    const NumberStyle style{.decimals = 1, .sign = Sign::always};
     for (const Sensitivity& sensitivity : all) {
         fmt::format_to(out, "Sensitivity: {}, {}; differences to the defaults\n\n", sensitivity.scenario,
                        sensitivity.condition);
@@ -94,8 +84,8 @@ std::string sensitivity_table(const std::vector<Sensitivity>& all) {
         for (const SensitivityRow& row : sensitivity.rows) {
             fmt::format_to(out, "{}\n", row.setting);
             for (const SensitivityLevel& level : row.levels)
-                fmt::format_to(out, "  {:<30}{:<24}{}\n", level.value, interval_text(level.emergency),
-                               interval_text(level.others));
+                fmt::format_to(out, "  {:<30}{:<24}{}\n", level.value, estimate(level.emergency, style),
+                               estimate(level.others, style));
         }
         text += '\n';
     }

@@ -7,6 +7,14 @@
 
 namespace clearway::report {
 
+std::string estimate(const std::optional<analysis::Estimate>& estimate, NumberStyle style) {
+    if (!estimate) return missing(style.script);
+    const std::string mean = number(estimate->mean, style);
+    if (!estimate->interval || estimate->n < analysis::fewest_for_interval) return mean;
+    return fmt::format("{} [{}, {}]", mean, number(estimate->interval->low, style),
+                       number(estimate->interval->high, style));
+}
+
 std::string printable(const std::string& text) {
     std::string result;
     for (const char letter : text) {

@@ -33,6 +33,9 @@ std::string number(double value, NumberStyle style);
 /// `factor` scales to the printed unit.
 std::string estimate(const Estimate& estimate, NumberStyle style, double factor = 1.0);
 
+/// The same of an estimate of the analysis, whose interval is printed only when it has enough pairs.
+std::string estimate(const std::optional<analysis::Estimate>& estimate, NumberStyle style);
+
 /// Text for a terminal. Control characters become `?`, because names come from files.
 std::string printable(const std::string& text);
 

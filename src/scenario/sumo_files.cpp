@@ -53,7 +53,7 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
     for (std::size_t row = 1; row < prepared.route_files.size(); ++row)  // after traffic.rou.xml
         routes += "," + prepared.route_files[row].filename().string();
     const std::string lateral =
-        run.lateral_model == LateralModel::sublane
+        run.lateral_model == traffic::LateralModel::sublane
             ? fmt::format("    <lateral-resolution value=\"{}\"/>\n", sublane_resolution_m)
             : "";
     const std::string additional = copied(prepared.additional_files, folder);

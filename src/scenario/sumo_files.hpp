@@ -6,20 +6,18 @@
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
 #include "scenario/prepare.hpp"
+#include "traffic/command.hpp"
 
 namespace clearway::scenario {
 
 /// Width of the strips of the sublane model, in which vehicles move sideways, m. As in SUMO's own examples.
 inline constexpr const char* sublane_resolution_m = "0.5";
 
-/// SUMO's model of lateral movement.
-enum class LateralModel : std::uint8_t { lanes, sublane };
-
 /// A run, as far as SUMO files can describe it.
 struct SumoRun {
     core::StudySeed seed;
     core::Replication replication;
-    LateralModel lateral_model = LateralModel::lanes;
+    traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< For every emergency vehicle.
 };
 

@@ -67,24 +67,16 @@ std::string drawing(const FailureCurve& curve, Member member, const std::string&
     return plot.finish();
 }
 
-std::string cell(const std::optional<analysis::Estimate>& estimate, NumberStyle style) {
-    if (!estimate) return missing(Script::typeset);
-    std::string text = number(estimate->mean, style);
-    if (estimate->interval)
-        text += fmt::format(" [{}, {}]", number(estimate->interval->low, style),
-                            number(estimate->interval->high, style));
-    return text;
-}
-
 DataTable data_of(const FailureCurve& curve) {
     DataTable table{{"Repair", "dark, %", "EV travel time, difference, s", "pairs", "link F1"}, {}};
     for (const FailureLine& line : curve.lines) {
         for (const FailurePoint& point : line.points) {
             table.rows.push_back(
                 {line.repair, number(percent * point.dark_share, {.decimals = 0, .script = Script::typeset}),
-                 cell(point.travel_time, {.decimals = 2, .script = Script::typeset, .sign = Sign::always}),
+                 estimate(point.travel_time,
+                          {.decimals = 2, .script = Script::typeset, .sign = Sign::always}),
                  point.travel_time ? grouped(point.travel_time->n) : missing(Script::typeset),
-                 cell(point.link_f1, {.decimals = 3, .script = Script::typeset})});
+                 estimate(point.link_f1, {.decimals = 3, .script = Script::typeset})});
         }
     }
     return table;
@@ -117,7 +109,7 @@ DataTable break_even_table(const StudyFacts& study) {
             table.rows.push_back(
                 {name, first == 0 ? missing(Script::typeset) : dark(line.points[first - 1]),
                  ends ? dark(line.points[first]) : missing(Script::typeset),
-                 ends ? cell(line.points[first].link_f1, {.decimals = 3, .script = Script::typeset})
+                 ends ? estimate(line.points[first].link_f1, {.decimals = 3, .script = Script::typeset})
                       : missing(Script::typeset)});
         }
     }

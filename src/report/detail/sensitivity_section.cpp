@@ -17,16 +17,9 @@ constexpr double chart_left = 26.0;
 constexpr double chart_right = 262.0;  // the numbers are to the right of the drawing
 constexpr double level_height = 17.0;
 constexpr double heading_height = 20.0;
+constexpr NumberStyle signed_tenths{.decimals = 1, .script = Script::typeset, .sign = Sign::always};
 
 using Member = std::optional<analysis::Estimate> SensitivityLevel::*;
-
-std::string words(const std::optional<analysis::Estimate>& estimate) {
-    if (!estimate) return missing(Script::typeset);
-    const NumberStyle style = typeset(1, Sign::always);
-    if (!estimate->interval) return number(estimate->mean, style);
-    return fmt::format("{} [{}, {}]", number(estimate->mean, style), number(estimate->interval->low, style),
-                       number(estimate->interval->high, style));
-}
 
 void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
     if (!estimate) return;
@@ -38,7 +31,7 @@ void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
 
 void draw(Plot& plot, const SensitivityLevel& level, Member member, double y) {
     plot.text(chart_left, y + 4.0, level.value, Plot::Anchor::start, "label");
-    plot.text(right_edge, y + 4.0, words(level.*member), Plot::Anchor::end, "value");
+    plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
     const std::optional<analysis::Estimate>& estimate = level.*member;
     if (!estimate) return;
     plot.beam({0.0, estimate->mean}, y, 1);
@@ -81,7 +74,8 @@ DataTable data_of(const Sensitivity& sensitivity) {
         {"Setting", "value", "EV travel time, s [95 %]", "others\u2019 time loss, s [95 %]", "pairs"}, {}};
     for (const SensitivityRow& row : sensitivity.rows) {
         for (const SensitivityLevel& level : row.levels)
-            table.rows.push_back({row.setting, level.value, words(level.emergency), words(level.others),
+            table.rows.push_back({row.setting, level.value, estimate(level.emergency, signed_tenths),
+                                  estimate(level.others, signed_tenths),
                                   level.emergency ? grouped(level.emergency->n) : missing(Script::typeset)});
     }
     return table;
