@@ -3,45 +3,86 @@
 #include <fmt/format.h>
 
 namespace clearway::core {
+namespace {
 
-StrictTable::StrictTable(const toml::table& table, std::string path, std::string file,
-                         std::vector<core::Problem>& problems)
-    : table_(table), path_(std::move(path)), file_(std::move(file)), problems_(problems) {}
+const char* type_word(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::string:
+            return "text";
+        case toml::node_type::integer:
+        case toml::node_type::floating_point:
+            return "a number";
+        case toml::node_type::boolean:
+            return "a truth value";
+        case toml::node_type::array:
+            return "an array";
+        case toml::node_type::table:
+            return "a table";
+        default:
+            return "another type";
+    }
+}
+
+}  // namespace
+
+StrictTable::StrictTable(const toml::table& table, std::string path, TomlReading& reading)
+    : table_(table), path_(std::move(path)), reading_(reading) {}
 
 const toml::node* StrictTable::find(const std::string& key) {
     known_.insert(key);
-    return table_.get(key);
+    const toml::node* const node = table_.get(key);
+    if (node != nullptr) reading_.origins[full(key)] = where(key);
+    return node;
+}
+
+std::string StrictTable::place(const toml::source_region& source, const std::string& name) const {
+    if (source.begin.line == 0) return fmt::format("{}: {}", reading_.file, name);
+    return fmt::format("{}:{}:{}: {}", reading_.file, source.begin.line, source.begin.column, name);
 }
 
 std::string StrictTable::where(const std::string& key) const {
-    const toml::node* node = table_.get(key);
-    const toml::source_position place = (node != nullptr ? node->source() : table_.source()).begin;
-    return fmt::format("{}:{}:{}: {}", file_, place.line, place.column,
-                       path_.empty() ? key : path_ + "." + key);
+    const auto found = table_.find(key);
+    if (found == table_.end()) return place(table_.source(), full(key));
+    const toml::source_region& source = found->first.source();
+    return place(source, full(key)) + (source.begin.line == 0 ? ", set by a factor" : "");
 }
 
 void StrictTable::problem(const std::string& key, std::string what, std::string allowed, std::string cure) {
-    problems_.push_back({where(key), std::move(what), std::move(allowed), std::move(cure)});
+    reading_.problems.push_back({where(key), std::move(what), std::move(allowed), std::move(cure)});
+}
+
+void StrictTable::wrong_type(const toml::node& node, const std::string& key, const char* wanted) {
+    problem(key, fmt::format("is {}", type_word(node)), wanted, "");
+}
+
+std::optional<std::string> StrictTable::any_text(const std::string& key) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return std::nullopt;
+    auto value = node->value_exact<std::string>();
+    if (!value) wrong_type(*node, key, "text");
+    return value;
+}
+
+void StrictTable::text_or_empty(const std::string& key, std::string& target) {
+    if (const auto value = any_text(key)) target = *value;
 }
 
 void StrictTable::text(const std::string& key, std::string& target) {
-    const toml::node* node = find(key);
-    if (node == nullptr) return;
-    if (const auto value = node->value_exact<std::string>(); value && !value->empty()) {
-        target = *value;
-    } else {
-        problem(key, value ? "is empty" : "is not text", "text in quotes", "");
-    }
+    const auto value = any_text(key);
+    if (!value) return;
+    if (value->empty()) return problem(key, "is empty", "text in quotes", "");
+    target = *value;
 }
 
 void StrictTable::texts(const std::string& key, std::vector<std::string>& target) {
     const toml::node* node = find(key);
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
-    if (array == nullptr) return problem(key, "is not a list", "a list of quoted texts", "");
+    if (array == nullptr) return wrong_type(*node, key, "an array of texts");
+    target.clear();
     for (const toml::node& element : *array) {
         const auto value = element.value_exact<std::string>();
-        if (!value) return problem(key, "holds something other than text", "a list of quoted texts", "");
+        if (!value) return wrong_type(element, key, "an array of texts");
         target.push_back(*value);
     }
 }
@@ -49,32 +90,44 @@ void StrictTable::texts(const std::string& key, std::vector<std::string>& target
 void StrictTable::number(const std::string& key, std::optional<double>& target) {
     const toml::node* node = find(key);
     if (node == nullptr) return;
-    if (!node->is_number()) return problem(key, "is not a number", "a number", "");
+    if (!node->is_number()) return wrong_type(*node, key, "a number");
     target = node->value<double>();
 }
 
-std::optional<std::int64_t> StrictTable::whole_number(const std::string& key, std::uint64_t minimum,
-                                                      std::uint64_t maximum) {
+std::optional<double> StrictTable::number_within(const std::string& key, double minimum, double maximum) {
+    std::optional<double> value;
+    number(key, value);
+    if (!value || (*value >= minimum && *value <= maximum)) return value;
+    problem(key, fmt::format("{} is out of range", *value), fmt::format("{} to {}", minimum, maximum), "");
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> StrictTable::whole_number(const std::string& key, std::int64_t minimum,
+                                                      std::int64_t maximum) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    const std::string allowed = fmt::format("{} to {}", minimum, maximum);
     const auto value = node->value_exact<std::int64_t>();
     if (!value) {
-        problem(key, "is not a whole number", allowed, "");
+        wrong_type(*node, key, "a whole number");
         return std::nullopt;
     }
-    if (*value < 0 || static_cast<std::uint64_t>(*value) < minimum ||
-        static_cast<std::uint64_t>(*value) > maximum) {
-        problem(key, fmt::format("{} is {}", *value, *value < 0 ? "negative" : "out of range"), allowed, "");
-        return std::nullopt;
-    }
-    return value;
+    if (*value >= minimum && *value <= maximum) return value;
+    problem(key, fmt::format("{} is {}", *value, *value < 0 ? "negative" : "out of range"),
+            fmt::format("{} to {}", minimum, maximum), "");
+    return std::nullopt;
 }
 
 const toml::table* StrictTable::table(const std::string& key) {
     const toml::node* node = find(key);
-    if (node != nullptr && !node->is_table()) problem(key, "is not a table", "[" + key + "]", "");
-    return node == nullptr ? nullptr : node->as_table();
+    if (node == nullptr) return nullptr;
+    if (!node->is_table()) wrong_type(*node, key, "a table");
+    return node->as_table();
+}
+
+std::optional<StrictTable> StrictTable::below(const std::string& key) {
+    const toml::table* const found = table(key);
+    if (found == nullptr) return std::nullopt;
+    return StrictTable(*found, full(key), reading_);
 }
 
 std::vector<const toml::table*> StrictTable::tables(const std::string& key) {
@@ -83,11 +136,21 @@ std::vector<const toml::table*> StrictTable::tables(const std::string& key) {
     if (node == nullptr) return result;
     const toml::array* array = node->as_array();
     if (array == nullptr || !array->is_array_of_tables()) {
-        problem(key, "is not a list of tables", "[[" + key + "]]", "");
+        wrong_type(*node, key, "an array of tables, [[...]]");
         return result;
     }
     for (const toml::node& element : *array)
         result.push_back(element.as_table());
+    return result;
+}
+
+std::vector<StrictTable> StrictTable::rows(const std::string& key) {
+    std::vector<StrictTable> result;
+    for (const toml::table* row : tables(key)) {
+        const std::string name = fmt::format("{}[{}]", full(key), result.size());
+        reading_.origins[name] = place(row->source(), name);
+        result.emplace_back(*row, name, reading_);
+    }
     return result;
 }
 
@@ -96,11 +159,8 @@ void StrictTable::finish() {
     for (const auto& [name, node] : table_) {
         const std::string key(name.str());
         if (known_.contains(key)) continue;
-        const std::string near = core::nearest(key, valid);
-        std::string list;
-        for (const std::string& word : valid)
-            list += (list.empty() ? "" : ", ") + word;
-        problem(key, "unknown key", list,
+        const std::string near = nearest(key, valid);
+        problem(key, "unknown key", fmt::format("{}", fmt::join(valid, ", ")),
                 near.empty() ? "Remove it" : fmt::format("Did you mean '{}'?", near));
     }
 }
@@ -110,9 +170,15 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const toml::source_position place = error.source().begin;
-        throw core::InputError({fmt::format("{}:{}:{}", file, place.line, place.column),
-                                std::string(error.description()), "a TOML file", "Correct this line"});
+        throw InputError({fmt::format("{}:{}:{}", file, place.line, place.column),
+                          std::string(error.description()), "a TOML file", "Correct this line"});
     }
+}
+
+void set_value(toml::table& table, const std::string& key, const std::string& value) {
+    const toml::table parsed = toml::parse("value = " + value);
+    table.erase(key);  // also forgets its place in the file
+    parsed.get("value")->visit([&](const auto& node) { table.insert(key, node); });
 }
 
 }  // namespace clearway::core

@@ -15,21 +15,18 @@ using Problems = std::vector<core::Problem>;
 
 constexpr std::uint32_t most_seeds = 100000;
 
-SeedRange read_range(core::StrictTable& seeds, const std::string& key, const std::string& file,
-                     Problems& problems) {
+SeedRange read_range(core::StrictTable& seeds, const std::string& key) {
     SeedRange range;
-    const toml::table* const table = seeds.table(key);
-    if (table == nullptr) return range;
-    core::StrictTable reader(*table, "seeds." + key, file, problems);
-    reader.integer<std::uint32_t>("first", 0, std::numeric_limits<std::int32_t>::max(), range.first);
-    reader.integer<std::uint32_t>("count", 1, most_seeds, range.count);
-    reader.finish();
+    auto reader = seeds.below(key);
+    if (!reader) return range;
+    reader->integer<std::uint32_t>("first", 0, std::numeric_limits<std::int32_t>::max(), range.first);
+    reader->integer<std::uint32_t>("count", 1, most_seeds, range.count);
+    reader->finish();
     return range;
 }
 
-void read_scenario(const toml::table& table, const std::string& file, Problems& problems,
-                   LinkBenchmark& benchmark) {
-    core::StrictTable reader(table, "scenario", file, problems);
+void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBenchmark& benchmark) {
+    core::StrictTable reader(table, "scenario", reading);
     std::string name;
     std::string configuration;
     scenario::Options options;
@@ -49,7 +46,7 @@ void read_scenario(const toml::table& table, const std::string& file, Problems& 
         }
         benchmark.scenarios.push_back(std::move(config));
     } catch (const core::InputError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        reading.problems.insert(reading.problems.end(), error.problems().begin(), error.problems().end());
     }
 }
 
@@ -79,34 +76,32 @@ std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& v
 }
 
 LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const toml::table table = core::parse_toml(core::read_file(file), name);
-    Problems problems;
-    core::StrictTable root(table, "", name, problems);
+    core::TomlReading reading{file.string(), {}, {}};
+    const toml::table table = core::parse_toml(core::read_file(file), reading.file);
+    core::StrictTable root(table, "", reading);
     LinkBenchmark benchmark;
     benchmark.name = file.stem().string();
     root.text("name", benchmark.name);
     root.texts("failures", benchmark.failures);
     root.words<Exits>("exits", benchmark.exits);
-    if (const toml::table* const seeds = root.table("seeds")) {
-        core::StrictTable reader(*seeds, "seeds", name, problems);
-        reader.integer<std::uint64_t>("study_seed", 0, std::numeric_limits<std::int64_t>::max(),
-                                      benchmark.study_seed);
-        benchmark.test = read_range(reader, "test", name, problems);
-        benchmark.validation = read_range(reader, "validation", name, problems);
-        reader.finish();
+    if (auto reader = root.below("seeds")) {
+        reader->integer<std::uint64_t>("study_seed", 0, std::numeric_limits<std::int64_t>::max(),
+                                       benchmark.study_seed);
+        benchmark.test = read_range(*reader, "test");
+        benchmark.validation = read_range(*reader, "validation");
+        reader->finish();
     }
     const Problems of_seeds = problems_of(benchmark.test, benchmark.validation, root.where("seeds"));
-    problems.insert(problems.end(), of_seeds.begin(), of_seeds.end());
+    reading.problems.insert(reading.problems.end(), of_seeds.begin(), of_seeds.end());
     for (const toml::table* const one : root.tables("scenario"))
-        read_scenario(*one, name, problems, benchmark);
+        read_scenario(*one, reading, benchmark);
     if (benchmark.scenarios.empty())
         root.problem("scenario", "the benchmark has no scenario", "[[scenario]]", "");
     if (benchmark.failures.empty())
         root.problem("failures", "the benchmark has no failure", "names of `clearway list`", "");
     if (benchmark.exits.empty()) root.problem("exits", "is missing", "known, unknown", "");
     root.finish();
-    if (!problems.empty()) throw core::InputError(std::move(problems));
+    if (!reading.problems.empty()) throw core::InputError(std::move(reading.problems));
     return benchmark;
 }
 

@@ -3,124 +3,101 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <toml++/toml.h>
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/strict_table.hpp"
 #include "scenario/detail/checks.hpp"
 #include "scenario/detail/library.hpp"
-#include "scenario/detail/toml_reader.hpp"
 
 namespace clearway::scenario {
 
 namespace {
 
-using detail::Reading;
-using detail::TableReader;
+using core::StrictTable;
 
 template <class Struct>
-void read_subtable(TableReader& parent, const std::string& key, Reading& reading, Struct& target) {
-    const toml::table* table = parent.table(key);
-    if (table == nullptr) return;
-    TableReader reader(*table, parent.full(key), reading);
-    reader.read(target);
-    reader.finish();
+void read_subtable(StrictTable& parent, const std::string& key, Struct& target) {
+    if (auto reader = parent.below(key)) {
+        reader->read(target);
+        reader->finish();
+    }
 }
 
 template <class Struct>
-void read_subtable(TableReader& parent, const std::string& key, Reading& reading,
-                   std::optional<Struct>& target) {
-    if (parent.table(key) != nullptr) read_subtable(parent, key, reading, target.emplace());
+void read_subtable(StrictTable& parent, const std::string& key, std::optional<Struct>& target) {
+    if (parent.table(key) != nullptr) read_subtable(parent, key, target.emplace());
 }
 
 template <class Struct>
-void read_list(TableReader& parent, const std::string& key, Reading& reading, std::vector<Struct>& target) {
-    std::size_t number = 0;
-    for (const toml::table* table : parent.tables(key)) {
-        const std::string name = fmt::format("{}[{}]", parent.full(key), number++);
-        reading.origins[name] = reading.place(table->source(), name);
-        TableReader reader(*table, name, reading);
+void read_list(StrictTable& parent, const std::string& key, std::vector<Struct>& target) {
+    for (StrictTable& reader : parent.rows(key)) {
         reader.read(target.emplace_back());
         reader.finish();
     }
 }
 
-void read_kinds(TableReader& root, Reading& reading, ScenarioConfig& config) {
-    const toml::table* table = root.table("kinds");
-    if (table == nullptr) return;
-    TableReader kinds(*table, "kinds", reading);
-    read_subtable(kinds, "traffic", reading, config.traffic_kinds);
-    read_subtable(kinds, "emergency", reading, config.emergency_kinds);
-    kinds.finish();
+void read_kinds(StrictTable& root, ScenarioConfig& config) {
+    auto kinds = root.below("kinds");
+    if (!kinds) return;
+    read_subtable(*kinds, "traffic", config.traffic_kinds);
+    read_subtable(*kinds, "emergency", config.emergency_kinds);
+    kinds->finish();
 }
 
-void read_road(TableReader& root, Reading& reading, RoadCondition& road) {
-    const toml::table* table = root.table("road");
-    if (table == nullptr) return;
-    TableReader reader(*table, "road", reading);
-    reader.read(road);
-    if (const toml::table* stretches = reader.table("stretch")) {
-        TableReader named(*stretches, "road.stretch", reading);
-        for (const auto& [key, node] : *stretches) {
+void read_road(StrictTable& root, RoadCondition& road) {
+    auto reader = root.below("road");
+    if (!reader) return;
+    reader->read(road);
+    if (auto named = reader->below("stretch")) {
+        for (const auto& [key, node] : *reader->table("stretch")) {
             const std::string name(key.str());
-            const toml::table* stretch = named.table(name);
-            if (stretch == nullptr) continue;
-            TableReader members(*stretch, named.full(name), reading);
+            auto members = named->below(name);
+            if (!members) continue;
             road.stretches.emplace_back().name = name;
-            members.read(road.stretches.back());
-            members.texts("edges", road.stretches.back().edges);
-            members.finish();
+            members->read(road.stretches.back());
+            members->texts("edges", road.stretches.back().edges);
+            members->finish();
         }
     }
-    reader.finish();
+    reader->finish();
 }
 
-void read_measured(TableReader& root, Reading& reading, ScenarioConfig& config) {
-    const toml::table* table = root.table("measured");
-    if (table == nullptr) return;
+void read_measured(StrictTable& root, ScenarioConfig& config) {
+    auto reader = root.below("measured");
+    if (!reader) return;
     Measured& measured = config.measured.emplace();
-    TableReader reader(*table, "measured", reading);
-    reader.read(measured);
-    reader.texts("routes", measured.routes);
-    reader.texts("additional", measured.additional);
-    reader.texts("persons", measured.persons);
-    read_list(reader, "type", reading, measured.types);
-    read_subtable(reader, "own_types", reading, measured.own_types);
-    reader.finish();
+    reader->read(measured);
+    reader->texts("routes", measured.routes);
+    reader->texts("additional", measured.additional);
+    reader->texts("persons", measured.persons);
+    read_list(*reader, "type", measured.types);
+    read_subtable(*reader, "own_types", measured.own_types);
+    reader->finish();
 }
 
-void read_root(const toml::table& table, Reading& reading, ScenarioConfig& config) {
-    TableReader root(table, "", reading);
-    root.text("name", config.name);
-    root.text("version", config.version);
-    root.text("title", config.title);
-    read_subtable(root, "network", reading, config.network);
-    read_subtable(root, "time", reading, config.time);
-    read_subtable(root, "demand", reading, config.demand);
-    read_subtable(root, "dense", reading, config.dense);
-    read_subtable(root, "limits", reading, config.limits);
-    read_subtable(root, "drivers", reading, config.drivers);
-    read_subtable(root, "siren", reading, config.siren);
-    read_road(root, reading, config.road);
-    read_subtable(root, "pedestrians", reading, config.pedestrians);
-    read_kinds(root, reading, config);
-    read_subtable(root, "trips", reading, config.trips);
-    read_list(root, "flow", reading, config.flows);
-    read_list(root, "emergency_trip", reading, config.emergency_trips);
-    read_list(root, "emergency_site", reading, config.emergency_sites);
-    read_measured(root, reading, config);
+void read_root(const toml::table& table, core::TomlReading& reading, ScenarioConfig& config) {
+    StrictTable root(table, "", reading);
+    root.text_or_empty("name", config.name);
+    root.text_or_empty("version", config.version);
+    root.text_or_empty("title", config.title);
+    read_subtable(root, "network", config.network);
+    read_subtable(root, "time", config.time);
+    read_subtable(root, "demand", config.demand);
+    read_subtable(root, "dense", config.dense);
+    read_subtable(root, "limits", config.limits);
+    read_subtable(root, "drivers", config.drivers);
+    read_subtable(root, "siren", config.siren);
+    read_road(root, config.road);
+    read_subtable(root, "pedestrians", config.pedestrians);
+    read_kinds(root, config);
+    read_subtable(root, "trips", config.trips);
+    read_list(root, "flow", config.flows);
+    read_list(root, "emergency_trip", config.emergency_trips);
+    read_list(root, "emergency_site", config.emergency_sites);
+    read_measured(root, config);
     root.finish();
-}
-
-toml::table parse(const std::filesystem::path& file, const std::string& shown) {
-    const std::string text = core::read_file(file);
-    try {
-        return toml::parse(text, shown);
-    } catch (const toml::parse_error& error) {
-        throw core::InputError(core::Problem{
-            fmt::format("{}:{}:{}", shown, error.source().begin.line, error.source().begin.column),
-            std::string(error.description()), "a TOML file", "correct this line"});
-    }
 }
 
 /// Sets a dotted key to `value`, which is TOML text.
@@ -137,10 +114,7 @@ void set_key(toml::table& root, const std::string& dotted, const std::string& va
         table = next;
         begin = dot + 1;
     }
-    const toml::table parsed = toml::parse("value = " + value);
-    const std::string last = dotted.substr(begin);
-    table->erase(last);  // also forgets its place in the file
-    parsed.get("value")->visit([&](const auto& node) { table->insert(last, node); });
+    core::set_value(*table, dotted.substr(begin), value);
 }
 
 }  // namespace
@@ -164,9 +138,8 @@ ScenarioConfig load(const std::string& name_or_path, const Options& options) {
     const std::filesystem::path file = detail::scenario_file(name_or_path);
     ScenarioConfig config;
     config.folder = file.parent_path().empty() ? "." : file.parent_path();
-    Reading reading;
-    reading.file = file.string();
-    toml::table table = parse(file, reading.file);
+    core::TomlReading reading{file.string(), {}, {}};
+    toml::table table = core::parse_toml(core::read_file(file), reading.file);
     for (const auto& [key, value] : options.settings)
         set_key(table, key, value);
     read_root(table, reading, config);

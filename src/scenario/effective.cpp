@@ -9,7 +9,6 @@
 #include "core/files.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/library.hpp"
-#include "scenario/detail/toml_reader.hpp"
 
 namespace clearway::scenario {
 

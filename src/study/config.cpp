@@ -20,6 +20,7 @@ namespace clearway::study {
 namespace {
 
 using core::StrictTable;
+using core::TomlReading;
 using Problems = std::vector<core::Problem>;
 
 constexpr std::uint32_t most_replications = 100000;
@@ -45,9 +46,9 @@ const std::vector<std::string> override_keys = {"variant",
                                                 "friction",
                                                 "pedestrians_per_hour"};
 
-scenario::Options read_overrides(const toml::table& table, const std::string& file, Problems& problems) {
+scenario::Options read_overrides(const toml::table& table, TomlReading& reading) {
     scenario::Options options;
-    StrictTable reader(table, "overrides", file, problems);
+    StrictTable reader(table, "overrides", reading);
     reader.word<scenario::Variant>("variant", options.variant);
     reader.number("density", options.density);
     reader.number("automated_share", options.automated_share);
@@ -69,37 +70,35 @@ scenario::Options read_overrides(const toml::table& table, const std::string& fi
 
 /// The overrides with a combination of factors applied.
 scenario::Options options_with(const toml::table& overrides, const detail::Assignment& assignment,
-                               const std::string& file, Problems& problems) {
+                               TomlReading& reading) {
     toml::table changed = overrides;
     core::Settings settings;
     for (const auto& [factor, value] : assignment) {
         if (std::ranges::find(override_keys, factor->key) == override_keys.end()) {
             settings[factor->key] = value->toml;
         } else {
-            const toml::table parsed = toml::parse("value = " + value->toml);
-            parsed.get("value")->visit(
-                [&, key = factor->key](const auto& node) { changed.insert_or_assign(key, node); });
+            core::set_value(changed, factor->key, value->toml);
         }
     }
-    scenario::Options options = read_overrides(changed, file, problems);
+    scenario::Options options = read_overrides(changed, reading);
     options.settings = settings;
     return options;
 }
 
 /// Reads settings and model of a condition whose failure and predictor have been read.
-void read_settings(StrictTable& reader, const std::filesystem::path& file, Problems& problems,
-                   experiment::ConditionSpec& condition) {
+void read_settings(StrictTable& reader, TomlReading& reading, experiment::ConditionSpec& condition) {
     if (const toml::table* const table = reader.table("set")) {
-        for (const auto& [name, value] : detail::read_settings(*table, file.string(), problems))
+        for (const auto& [name, value] : detail::read_settings(*table, reading.file, reading.problems))
             experiment::set(condition, name, value);
     }
     std::string model;
     reader.text("model", model);
     if (model.empty()) return;
     try {
-        experiment::set_model(condition, (file.parent_path() / model).string(), reader.where("model"));
+        const std::filesystem::path folder = std::filesystem::path(reading.file).parent_path();
+        experiment::set_model(condition, (folder / model).string(), reader.where("model"));
     } catch (const core::InputError& error) {
-        append(problems, error);
+        append(reading.problems, error);
     }
 }
 
@@ -116,11 +115,9 @@ void read_policies(StrictTable& reader, const toml::table& table, std::vector<st
     reader.problem("parts", "is now called policy", "policy = [\"corridor\"]", "Rename the key");
 }
 
-experiment::ConditionSpec read_condition(const toml::table& table, const std::filesystem::path& path,
-                                         Problems& problems) {
+experiment::ConditionSpec read_condition(const toml::table& table, TomlReading& reading) {
     experiment::ConditionSpec condition;
-    const std::string file = path.string();
-    StrictTable reader(table, "condition", file, problems);
+    StrictTable reader(table, "condition", reading);
     reader.text("name", condition.name);
     reader.text("failure", condition.failure);
     reader.text("predictor", condition.predictor);
@@ -128,25 +125,24 @@ experiment::ConditionSpec read_condition(const toml::table& table, const std::fi
     reader.word<experiment::TrafficModel>("traffic_model", condition.traffic_model);
     reader.word<traffic::SafetyChecks>("safety_checks", condition.safety_checks);
     reader.word<traffic::BlueLight>("bluelight", condition.bluelight);
-    read_settings(reader, path, problems, condition);
+    read_settings(reader, reading, condition);
     reader.finish();
     if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");
     return condition;
 }
 
-void read_conditions(StrictTable& root, const std::filesystem::path& file, Problems& problems,
-                     StudyConfig& config) {
+void read_conditions(StrictTable& root, TomlReading& reading, StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("conditions", names);
     for (const std::string& name : names) {
         try {
             config.conditions.push_back(experiment::built_in_condition(name, root.where("conditions")));
         } catch (const core::InputError& error) {
-            append(problems, error);
+            append(reading.problems, error);
         }
     }
     for (const toml::table* table : root.tables("condition"))
-        config.conditions.push_back(read_condition(*table, file, problems));
+        config.conditions.push_back(read_condition(*table, reading));
     if (names.empty() && config.conditions.empty())
         root.problem("conditions", "the study has no condition", "names of `clearway list`, or [[condition]]",
                      "");
@@ -170,17 +166,11 @@ void add_scenario(const std::string& path, const scenario::Options& options, con
     }
 }
 
-struct Reading {
-    const std::filesystem::path& file;
-    const detail::Factors& factors;
-};
-
 /// Adds a `[[scenario]]`: a scenario under a name of its own, with overrides in addition to those of the
 /// study.
-// NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and two lists to fill
+// NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and what it fills
 void add_own_scenario(const toml::table& table, toml::table overrides, const detail::Assignment& assignment,
-                      const Reading& reading, Problems& problems, StudyConfig& config) {
-    const std::string file = reading.file.string();
+                      const detail::Factors& factors, TomlReading& reading, StudyConfig& config) {
     std::string from;
     std::string name;
     toml::table source;
@@ -190,7 +180,7 @@ void add_own_scenario(const toml::table& table, toml::table overrides, const det
             (is_own ? source : overrides).insert_or_assign(key, value);
         });
     }
-    StrictTable reader(source, "scenario", file, problems);
+    StrictTable reader(source, "scenario", reading);
     reader.text("from", from);
     reader.text("name", name);
     reader.finish();
@@ -200,14 +190,14 @@ void add_own_scenario(const toml::table& table, toml::table overrides, const det
         return;
     }
     const std::size_t before = config.scenarios.size();
-    add_scenario(resolve(from, reading.file), options_with(overrides, assignment, file, problems), "",
-                 problems, config);
+    add_scenario(resolve(from, reading.file), options_with(overrides, assignment, reading), "",
+                 reading.problems, config);
     if (config.scenarios.size() > before)
-        config.scenarios.back().name = name + detail::name_of(assignment, reading.factors);
+        config.scenarios.back().name = name + detail::name_of(assignment, factors);
 }
 
-void read_scenarios(StrictTable& root, const std::filesystem::path& file, const detail::Factors& factors,
-                    Problems& problems, StudyConfig& config) {
+void read_scenarios(StrictTable& root, const detail::Factors& factors, TomlReading& reading,
+                    StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("scenarios", names);
     const std::vector<const toml::table*> own = root.tables("scenario");
@@ -217,12 +207,12 @@ void read_scenarios(StrictTable& root, const std::filesystem::path& file, const 
     const toml::table* const given = root.table("overrides");
     const toml::table overrides = given == nullptr ? toml::table{} : *given;
     for (const detail::Assignment& assignment : detail::combinations(factors, detail::Subject::scenarios)) {
-        const scenario::Options options = options_with(overrides, assignment, file.string(), problems);
+        const scenario::Options options = options_with(overrides, assignment, reading);
         for (const std::string& name : names)
-            add_scenario(resolve(name, file), options, detail::name_of(assignment, factors), problems,
-                         config);
+            add_scenario(resolve(name, reading.file), options, detail::name_of(assignment, factors),
+                         reading.problems, config);
         for (const toml::table* table : own)
-            add_own_scenario(*table, overrides, assignment, {file, factors}, problems, config);
+            add_own_scenario(*table, overrides, assignment, factors, reading, config);
         for (const scenario::ScenarioConfig& scenario : config.scenarios) {
             if (!assignment.empty())
                 config.scenario_factors.try_emplace(scenario.name, detail::factors_of(assignment));
@@ -282,27 +272,26 @@ std::vector<std::string> metric_names() {
     return names;
 }
 
-void read_precision(StrictTable& root, const std::string& file, Problems& problems, StudyConfig& config) {
-    const toml::table* const table = root.table("precision");
-    if (table == nullptr) return;
+void read_precision(StrictTable& root, StudyConfig& config) {
+    auto reader = root.below("precision");
+    if (!reader) return;
     results::PrecisionTarget& target = config.precision.emplace();
     target.at_most = most_replications;
-    StrictTable reader(*table, "precision", file, problems);
-    reader.text("metric", target.metric);
+    reader->text("metric", target.metric);
     std::optional<double> half_width;
-    reader.number("half_width", half_width);
-    reader.integer<std::uint32_t>("at_most", least_replications, most_replications, target.at_most);
-    reader.finish();
+    reader->number("half_width", half_width);
+    reader->integer<std::uint32_t>("at_most", least_replications, most_replications, target.at_most);
+    reader->finish();
     const std::vector<std::string> names = metric_names();
     if (std::ranges::find(names, target.metric) == names.end()) {
         const std::string near = core::nearest(target.metric, names);
-        reader.problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
-                       near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+        reader->problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
+                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
     }
     if (!half_width || !(*half_width > 0.0) || !std::isfinite(*half_width))
-        reader.problem("half_width",
-                       half_width ? fmt::format("{} is not positive", *half_width) : "is missing",
-                       "a number above 0, in the metric's unit", "");
+        reader->problem("half_width",
+                        half_width ? fmt::format("{} is not positive", *half_width) : "is missing",
+                        "a number above 0, in the metric's unit", "");
     target.half_width = half_width.value_or(0.0);
     if (root.has("replications"))
         root.problem("replications", "is given together with [precision]", "one of them", "Remove one");
@@ -330,10 +319,9 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
 }
 
 /// Always reads [quick], so that its errors show early; applies it only if it is wanted.
-void read_quick(StrictTable& root, const std::string& file, Extent extent, Problems& problems,
-                StudyConfig& config) {
-    const toml::table* table = root.table("quick");
-    if (table == nullptr) {
+void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
+    auto reader = root.below("quick");
+    if (!reader) {
         if (extent == Extent::quick)
             root.problem("quick", "the file does not say what --quick runs", "a table [quick]",
                          "Add one, or run the whole study");
@@ -341,11 +329,10 @@ void read_quick(StrictTable& root, const std::string& file, Extent extent, Probl
     }
     StudyConfig quick = config;
     quick.name += "-quick";
-    StrictTable reader(*table, "quick", file, problems);
-    reader.integer<std::uint32_t>("replications", 1, most_replications, quick.replications);
-    keep_named(reader, "scenarios", quick.scenarios);
-    keep_named(reader, "conditions", quick.conditions);
-    reader.finish();
+    reader->integer<std::uint32_t>("replications", 1, most_replications, quick.replications);
+    keep_named(*reader, "scenarios", quick.scenarios);
+    keep_named(*reader, "conditions", quick.conditions);
+    reader->finish();
     if (extent == Extent::quick) config = std::move(quick);
 }
 
@@ -373,25 +360,25 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
 }
 
 StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
-    const std::string name = file.string();
-    const toml::table table = core::parse_toml(core::read_file(file), name);
-    Problems problems;
-    StrictTable root(table, "", name, problems);
+    TomlReading reading{file.string(), {}, {}};
+    const toml::table table = core::parse_toml(core::read_file(file), reading.file);
+    StrictTable root(table, "", reading);
     StudyConfig config;
     config.name = file.stem().string();
     root.text("name", config.name);
     root.integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(), config.seed);
     root.integer<std::uint32_t>("replications", 1, most_replications, config.replications);
-    read_precision(root, name, problems, config);
+    read_precision(root, config);
     const toml::table* const factor_table = root.table("factors");
     detail::Factors factors;
-    if (factor_table != nullptr) factors = detail::read_factors(*factor_table, name, problems);
-    read_scenarios(root, file, factors, problems, config);
-    read_conditions(root, file, problems, config);
-    read_quick(root, name, extent, problems, config);
-    vary_conditions(factors, problems, config);
+    if (factor_table != nullptr)
+        factors = detail::read_factors(*factor_table, reading.file, reading.problems);
+    read_scenarios(root, factors, reading, config);
+    read_conditions(root, reading, config);
+    read_quick(root, extent, config);
+    vary_conditions(factors, reading.problems, config);
     root.finish();
-    if (!problems.empty()) throw core::InputError(problems);
+    if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }
 

@@ -162,6 +162,7 @@ scenarios = ["merg"]
 conditions = ["base line"]
 [overrides]
 variant = "denser"
+density = "much"
 [[condition]]
 failure = "B20"
 polcy = ["dissertation"]
@@ -172,7 +173,8 @@ polcy = ["dissertation"]
     EXPECT_THAT(message, HasSubstr("-3 is negative"));
     EXPECT_THAT(message, HasSubstr("merge"));
     EXPECT_THAT(message, HasSubstr("'baseline'"));
-    EXPECT_THAT(message, HasSubstr("\"denser\" is not known"));
+    EXPECT_THAT(message, HasSubstr("study.toml:6:1: overrides.variant: \"denser\" is not known"));
+    EXPECT_THAT(message, HasSubstr("overrides.density: is text (allowed: a number)"));
     EXPECT_THAT(message, HasSubstr("Did you mean 'policy'?"));
     EXPECT_THAT(message, HasSubstr("condition.name"));
 }

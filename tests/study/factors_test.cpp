@@ -182,7 +182,7 @@ TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {
     EXPECT_THAT(problems("[factors]\nscenario.demand.human = [-4]\n"),
                 testing::AllOf(HasSubstr("-4 is negative"), HasSubstr("set by a factor")));
     EXPECT_THAT(problems("[factors]\nscenario.variant = [\"denser\"]\n"),
-                HasSubstr("\"denser\" is not known"));
+                HasSubstr("overrides.variant, set by a factor: \"denser\" is not known"));
 }
 
 TEST_F(Factors, NeedAConditionToVary) {

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "scenario/detail/toml_reader.hpp"
 #include "traffic/vehicle.hpp"
 
 namespace clearway::scenario::detail {
@@ -32,10 +31,8 @@ void set(const char* option, const char* field_name, std::optional<double> value
                 target.*field.member = *value;
                 return;
             }
-            problems.push_back({option, fmt::format("{} is out of range", number_text(*value)),
-                                fmt::format("{} to {} {}", number_text(field.minimum),
-                                            number_text(field.maximum), field.unit),
-                                ""});
+            problems.push_back({option, fmt::format("{} is out of range", *value),
+                                fmt::format("{} to {} {}", field.minimum, field.maximum, field.unit), ""});
         }
     });
 }
@@ -66,8 +63,7 @@ std::string nearest_hint(const std::string& word, const std::vector<std::string>
 /// for the share.
 void apply_share(double share, ScenarioConfig& config, Problems& problems) {
     if (!(share >= 0.0 && share <= 1.0)) {
-        problems.push_back(
-            {"--av-share", fmt::format("{} is out of range", number_text(share)), "0 to 1", ""});
+        problems.push_back({"--av-share", fmt::format("{} is out of range", share), "0 to 1", ""});
         return;
     }
     if (config.measured) {
@@ -127,18 +123,17 @@ void check_time(const ScenarioConfig& config, Problems& problems) {
     const Times& time = config.time;
     if (time.warm_up_s > time.window_s && config.demand.emergency > 0)
         problems.push_back({config.where("time.warm_up_s"),
-                            fmt::format("{} is after the last departure", number_text(time.warm_up_s)),
-                            fmt::format("0 to {} (time.window_s)", number_text(time.window_s)),
+                            fmt::format("{} is after the last departure", time.warm_up_s),
+                            fmt::format("0 to {} (time.window_s)", time.window_s),
                             "emergency vehicles depart in [warm_up_s, window_s]"});
     if (time.horizon_s < time.window_s)
         problems.push_back({config.where("time.horizon_s"),
-                            fmt::format("{} is before the last departure", number_text(time.horizon_s)),
-                            fmt::format("{} (time.window_s) or more", number_text(time.window_s)), ""});
+                            fmt::format("{} is before the last departure", time.horizon_s),
+                            fmt::format("{} (time.window_s) or more", time.window_s), ""});
     if (config.dense && config.dense->warm_up_s > config.dense->window_s)
-        problems.push_back(
-            {config.where("dense.warm_up_s"),
-             fmt::format("{} is after the last departure", number_text(config.dense->warm_up_s)),
-             fmt::format("0 to {} (dense.window_s)", number_text(config.dense->window_s)), ""});
+        problems.push_back({config.where("dense.warm_up_s"),
+                            fmt::format("{} is after the last departure", config.dense->warm_up_s),
+                            fmt::format("0 to {} (dense.window_s)", config.dense->window_s), ""});
 }
 
 void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
@@ -146,14 +141,13 @@ void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
         const EmergencyTrip& trip = config.emergency_trips[row];
         const std::string key = fmt::format("emergency_trip[{}]", row);
         if (trip.depart_s < config.time.warm_up_s || trip.depart_s > config.time.horizon_s)
-            problems.push_back(
-                {config.where(key + ".depart_s"),
-                 fmt::format(
-                     "{} is {}", number_text(trip.depart_s),
-                     trip.depart_s < config.time.warm_up_s ? "before the warm-up ends" : "after the horizon"),
-                 fmt::format("{} (time.warm_up_s) to {} (time.horizon_s)", number_text(config.time.warm_up_s),
-                             number_text(config.time.horizon_s)),
-                 "move the departure, or change the warm-up"});
+            problems.push_back({config.where(key + ".depart_s"),
+                                fmt::format("{} is {}", trip.depart_s,
+                                            trip.depart_s < config.time.warm_up_s ? "before the warm-up ends"
+                                                                                  : "after the horizon"),
+                                fmt::format("{} (time.warm_up_s) to {} (time.horizon_s)",
+                                            config.time.warm_up_s, config.time.horizon_s),
+                                "move the departure, or change the warm-up"});
         bool known = false;
         core::for_each_field<EmergencyKinds>([&](const auto& field) { known |= trip.kind == field.name; });
         if (!known)
@@ -184,8 +178,8 @@ void check_density(const ScenarioConfig& config, Problems& problems) {
     constexpr double largest = 100.0;
     if (config.demand.density > largest)
         problems.push_back({config.where("demand.density"),
-                            fmt::format("all factors together are {}", number_text(config.demand.density)),
-                            fmt::format("0 to {}", number_text(largest)), "lower --density"});
+                            fmt::format("all factors together are {}", config.demand.density),
+                            fmt::format("0 to {}", largest), "lower --density"});
 }
 
 void check_measured(const ScenarioConfig& config, Problems& problems) {
@@ -199,10 +193,9 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
             {config.where("demand.human"), "counts vehicles together with [measured]", "0",
              "measured demand brings its own vehicles; use density and measured.automated_share"});
     if (config.demand.density > 1.0)
-        problems.push_back(
-            {config.where("demand.density"),
-             fmt::format("{} multiplies measured vehicles", number_text(config.demand.density)), "0 to 1",
-             "measured demand can be thinned, not multiplied"});
+        problems.push_back({config.where("demand.density"),
+                            fmt::format("{} multiplies measured vehicles", config.demand.density), "0 to 1",
+                            "measured demand can be thinned, not multiplied"});
     if (measured.routes.empty())
         problems.push_back({config.where("measured.routes"), "is missing or empty", "route files", "set it"});
     for (const std::string& path : measured.routes)
@@ -267,9 +260,8 @@ void check_drivers(const ScenarioConfig& config, Problems& problems) {
     if (drivers.speed_factor_minimum > drivers.speed_factor_mean ||
         drivers.speed_factor_mean > drivers.speed_factor_maximum)
         problems.push_back({config.where("drivers.speed_factor_mean"),
-                            fmt::format("{} is outside [{}, {}]", number_text(drivers.speed_factor_mean),
-                                        number_text(drivers.speed_factor_minimum),
-                                        number_text(drivers.speed_factor_maximum)),
+                            fmt::format("{} is outside [{}, {}]", drivers.speed_factor_mean,
+                                        drivers.speed_factor_minimum, drivers.speed_factor_maximum),
                             "minimum <= mean <= maximum", ""});
     if (sum_of_weights(config.traffic_kinds) <= 0.0)
         problems.push_back({config.where("kinds.traffic"), "all weights are 0", "one above 0", ""});
