@@ -11,6 +11,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario {
 
@@ -58,13 +59,6 @@ std::string without_newer(std::string_view classes) {
 bool lists(std::string_view classes, std::string_view wanted) {
     return without(classes, wanted) != without(classes, std::span<const std::string_view>());
 }
-
-struct TextWriter : pugi::xml_writer {
-    std::string text;
-    void write(const void* data, std::size_t size) override {
-        text.append(static_cast<const char*>(data), size);
-    }
-};
 
 bool is_internal(pugi::xml_node edge) {
     return std::string_view(edge.attribute("function").value()) == "internal";
@@ -173,9 +167,7 @@ void NetworkDocument::begin_programs_at(double begin_s) {
 }
 
 std::string NetworkDocument::text() const {
-    TextWriter writer;
-    document_.save(writer, "    ", pugi::format_indent, pugi::encoding_utf8);
-    return std::move(writer.text);
+    return detail::document_text(document_);
 }
 
 }  // namespace clearway::scenario

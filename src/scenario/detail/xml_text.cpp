@@ -19,4 +19,10 @@ std::string element_text(pugi::xml_node element) {
     return std::move(writer.text);
 }
 
+std::string document_text(const pugi::xml_document& document) {
+    TextWriter writer;
+    document.save(writer, "    ", pugi::format_indent, pugi::encoding_utf8);
+    return std::move(writer.text);
+}
+
 }  // namespace clearway::scenario::detail
