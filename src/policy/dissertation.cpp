@@ -72,7 +72,7 @@ Dissertation::Dissertation(const PolicyContext& context, DissertationConfig conf
     : context_(context), config_(config) {}
 
 void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    if (belief.link_count() == 0 || belief.link_count() < config_.min_edges) return;
+    if (!config_.has_sufficient_edges(belief)) return;
     const View view(context_.network, belief);
     LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
@@ -84,8 +84,7 @@ void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic
         OneEmergency one(view, config_, emergency, write);
         for (const traffic::BelievedLink& link : belief.links_of(row)) {
             const traffic::BelievedVehicle& neighbour = belief.vehicles[link.neighbour];
-            if (link.probability >= config_.link_threshold &&
-                neighbour.vehicle_class == traffic::VehicleClass::automated)
+            if (config_.counts(link) && neighbour.vehicle_class == traffic::VehicleClass::automated)
                 one.ask(neighbour);
         }
     }

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <cstddef>
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "policy/detail/edge_rule.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of Dissertation.
-struct DissertationConfig {
-    std::size_t min_edges = 1;
-    double link_threshold = 0.5;
+struct DissertationConfig : detail::EdgeRule {
     double slow_factor = 0.8;
     double slowest_mps = 5.0;
     double beside_behind_m = 10.0;
@@ -22,11 +20,7 @@ struct DissertationConfig {
     static constexpr auto fields() {
         using C = DissertationConfig;
         using core::Field;
-        return std::make_tuple(
-            Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
-                  "4.3: \"sufficient edges\", no number given"},
-            Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
-                  "A link counts if its probability is at least this", "even odds"},
+        const auto own = std::make_tuple(
             Field{"slow_factor", "1", &C::slow_factor, 0.1, 1.0,
                   "A vehicle alongside slows down to this share of the emergency vehicle's speed",
                   "the listing's factor"},
@@ -41,6 +35,7 @@ struct DissertationConfig {
                   "the link radius"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+        return std::tuple_cat(EdgeRule::fields(), own);
     }
 };
 

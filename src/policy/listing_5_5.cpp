@@ -25,7 +25,7 @@ bool is_linked_to(const Links& links, traffic::VehicleClass wanted,
     const View& view = links.view;
     return std::ranges::any_of(view.belief().links_of(links.row), [&](const traffic::BelievedLink& link) {
         const traffic::BelievedVehicle& other = view.belief().vehicles[link.neighbour];
-        return link.probability >= links.config.link_threshold && other.vehicle_class == wanted &&
+        return links.config.counts(link) && other.vehicle_class == wanted &&
                (!lane.exists() || other.state.lane == lane);
     });
 }
@@ -50,7 +50,7 @@ bool can_change_in_graph(const Links& links, std::uint32_t number) {
     const core::LaneIndex lane = view.network().lane_of(edge, number);
     return std::ranges::none_of(view.belief().links_of(links.row), [&](const traffic::BelievedLink& link) {
         const traffic::MotionState& other = view.belief().vehicles[link.neighbour].state;
-        return link.probability >= links.config.link_threshold && other.lane == lane &&
+        return links.config.counts(link) && other.lane == lane &&
                std::abs(other.lane_position_m - vehicle.state.lane_position_m) < links.config.room_m;
     });
 }
@@ -95,7 +95,7 @@ Listing55::Listing55(const PolicyContext& context, Listing55Config config)
 void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
     LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
-    if (belief.link_count() >= config_.min_edges && belief.link_count() > 0) {
+    if (config_.has_sufficient_edges(belief)) {
         for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
             const traffic::BelievedVehicle& vehicle = belief.vehicles[row];
             const Links links{view, config_, row};

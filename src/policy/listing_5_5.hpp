@@ -1,18 +1,16 @@
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "policy/detail/edge_rule.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of Listing55.
-struct Listing55Config {
-    std::size_t min_edges = 1;
-    double link_threshold = 0.5;
+struct Listing55Config : detail::EdgeRule {
     double raise_above = 0.5;
     double lower_below = -0.5;
     double raise_factor = 1.1;
@@ -24,11 +22,7 @@ struct Listing55Config {
     static constexpr auto fields() {
         using C = Listing55Config;
         using core::Field;
-        return std::make_tuple(
-            Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
-                  "4.3: \"sufficient edges\", no number given"},
-            Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
-                  "A link counts if its probability is at least this", "even odds"},
+        const auto own = std::make_tuple(
             Field{"raise_above", "1", &C::raise_above, -1.0, 1.0,
                   "A vehicle whose score is above this is told to drive faster",
                   "listing 5.5; scores are -1, 0 and 1"},
@@ -45,6 +39,7 @@ struct Listing55Config {
                   "assumed: a car's length and two gaps"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lane change that is not renewed; at least two periods", "as the prototype"});
+        return std::tuple_cat(EdgeRule::fields(), own);
     }
 };
 
