@@ -43,13 +43,7 @@ class BeliefTables {
         rows_.count(one);
         code_value(time_s_, now.time);
         code_all_vehicles(now, known);
-        bool has_signals = now.signals.state != observation.signals.state;
-        has_signals_(has_signals);
-        if (has_signals) {
-            signals_.code(now.signals);
-        } else if constexpr (File::reading) {
-            now.signals = observation.signals;
-        }
+        signals_.code(now.signals, observation.signals, has_signals_);
         bool has_links = !now.first_link.empty();
         has_links_(has_links);
         bool both_ways = false;
@@ -64,15 +58,7 @@ class BeliefTables {
 
     template <class Belief>
     void code_all_vehicles(Belief& now, const KnownStates& known) {
-        std::size_t all = now.vehicles.size() + now.own_states.size();
-        vehicles_.count(all);
-        auto own = static_cast<std::uint32_t>(now.own_states.size());
-        own_states_(own);
-        if constexpr (File::reading) {
-            if (own > all) throw std::runtime_error("there are more own states than rows");
-            now.vehicles.resize(all - own);
-            now.own_states.resize(own);
-        }
+        code_lengths<File>(vehicles_, own_states_, now);
         code_vehicles(now.vehicles, known);
         code_vehicles(now.own_states, known);
     }

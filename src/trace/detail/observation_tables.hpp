@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "trace/detail/roster_tables.hpp"
 #include "trace/detail/snapshot_tables.hpp"
@@ -51,13 +50,7 @@ class ObservationTables {
             range_m_(link.range_m);
             range_sigma_m_(link.range_sigma_m);
         });
-        bool has_signals = now.signals.state != snapshot.signals.state;
-        has_signals_(has_signals);
-        if (has_signals) {
-            signals_.code(now.signals);
-        } else if constexpr (File::reading) {
-            now.signals = snapshot.signals;
-        }
+        signals_.code(now.signals, snapshot.signals, has_signals_);
     }
 
   private:
@@ -66,15 +59,7 @@ class ObservationTables {
 
     template <class Observation>
     void code_vehicles(Observation& now, KnownStates& known) {
-        std::size_t all = now.vehicles.size() + now.own_states.size();
-        vehicles_.count(all);
-        auto own = static_cast<std::uint32_t>(now.own_states.size());
-        own_states_(own);
-        if constexpr (File::reading) {
-            if (own > all) throw std::runtime_error("there are more own states than rows");
-            now.vehicles.resize(all - own);
-            now.own_states.resize(own);
-        }
+        code_lengths<File>(vehicles_, own_states_, now);
         code_reports(now.vehicles, known, [&](std::uint32_t vehicle, std::int64_t row, const auto& state) {
             known.remember_report(vehicle, row, state);
         });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "trace/detail/enumerations.hpp"
@@ -21,6 +22,17 @@ class SignalTable {
     void code(Signals& signals) {
         list<File>(rows_, signals.state, [&](auto& state) { names_.code_text(state_, state); });
     }
+    /// Only signals that differ from `usual` are stored; `differ` says whether these do.
+    template <class Signals>
+    void code(Signals& signals, const traffic::SignalStates& usual, ColumnOf<File, bool>& differ) {
+        bool is_stored = signals.state != usual.state;
+        differ(is_stored);
+        if (is_stored) {
+            code(signals);
+        } else if constexpr (File::reading) {
+            signals = usual;
+        }
+    }
 
   private:
     Names& names_;
@@ -30,6 +42,20 @@ class SignalTable {
         {"state", "",
          "Row in /texts: SUMO's letter of each link. One row per signal, in the order of the network"}};
 };
+
+/// Codes the lengths of the two lists that share `rows`: vehicles, then own states.
+template <class File, class Lists>
+void code_lengths(typename File::Rows& rows, ColumnOf<File, std::uint32_t>& own_states, Lists& now) {
+    std::size_t all = now.vehicles.size() + now.own_states.size();
+    rows.count(all);
+    auto own = static_cast<std::uint32_t>(now.own_states.size());
+    own_states(own);
+    if constexpr (File::reading) {
+        if (own > all) throw std::runtime_error("there are more own states than rows");
+        now.vehicles.resize(all - own);
+        now.own_states.resize(own);
+    }
+}
 
 /// The true states of all vehicles on the road.
 template <class File>
