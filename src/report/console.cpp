@@ -112,25 +112,13 @@ bool is_about_emergency(const MeasureInfo& measure) {
 }
 
 std::string effect_word(const ConditionFacts& condition, Measure measure) {
-    switch (effect_of(condition, measure)) {
-        case Effect::better:
-            return "better";
-        case Effect::worse:
-            return "worse";
-        case Effect::negligible:
-            return "negligible";
-        case Effect::none_shown:
-            return "none shown";
-        case Effect::ruled_out: {
-            if (is_about_emergency(info(measure)) || condition.objections.unchecked)
-                return analysis::emergency_objection_word(condition.objections);
-            return "others lost";
-        }
-        case Effect::too_few:
-        case Effect::undecided:
-            break;
-    }
-    return "";
+    const Effect effect = effect_of(condition, measure);
+    if (effect == Effect::too_few || effect == Effect::undecided) return "";
+    if (effect == Effect::none_shown) return "none shown";
+    if (effect != Effect::ruled_out) return std::string(core::name(effect));
+    if (is_about_emergency(info(measure)) || condition.objections.unchecked)
+        return analysis::emergency_objection_word(condition.objections);
+    return "others lost";
 }
 
 void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {

@@ -21,26 +21,6 @@ Json to_json(const Estimate& estimate, const char* count_name) {
             {count_name, estimate.count}};
 }
 
-const char* effect_name(Effect effect) {
-    switch (effect) {
-        case Effect::better:
-            return "better";
-        case Effect::worse:
-            return "worse";
-        case Effect::negligible:
-            return "negligible";
-        case Effect::none_shown:
-            return "none_shown";
-        case Effect::ruled_out:
-            return "ruled_out";
-        case Effect::too_few:
-            return "too_few_seeds";
-        case Effect::undecided:
-            break;
-    }
-    return "undecided";
-}
-
 Json to_json(const Endings& endings) {
     return {{"arrived", endings.arrived},
             {"running_at_end", endings.running},
@@ -115,7 +95,7 @@ Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition)
         Json entry = to_json(outcome.value, "replications");
         if (condition.is_compared()) {
             entry["difference"] = to_json(outcome.difference, "pairs");
-            entry["effect"] = effect_name(effect_of(condition, measure.measure));
+            entry["effect"] = core::name(effect_of(condition, measure.measure));
             if (outcome.paired) entry["paired"] = to_json(*outcome.paired);
         }
         if (is_published(measure.measure)) {

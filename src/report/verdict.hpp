@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/spellings.hpp"
 #include "report/facts.hpp"
 #include "report/text.hpp"
 
@@ -18,6 +19,16 @@ enum class Effect : std::uint8_t {
     too_few,     ///< Fewer than `analysis::fewest_for_interval` complete pairs.
     undecided,   ///< No complete pair.
 };
+/// The words of JSON.
+constexpr core::Spellings<Effect, 7> spellings(Effect) {
+    return {{{Effect::better, "better"},
+             {Effect::worse, "worse"},
+             {Effect::negligible, "negligible"},
+             {Effect::none_shown, "none_shown"},
+             {Effect::ruled_out, "ruled_out"},
+             {Effect::too_few, "too_few_seeds"},
+             {Effect::undecided, "undecided"}}};
+}
 
 /// A bound of exactly 0 counts as included. Objections are ignored.
 Effect effect_of(const Outcome& outcome, Better better);
