@@ -1,7 +1,6 @@
 #include "prediction/common_neighbours.hpp"
 
 #include <algorithm>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,10 +22,6 @@ class CommonNeighbours final : public PairwisePredictor {
     std::string_view name() const override { return "common_neighbours"; }
 
   private:
-    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        detail::believe_last_seen(scene.tracks, beliefs);
-    }
-
     void score(const Scene& scene, const std::vector<RowBelief>&,
                std::vector<float>& probabilities) override {
         if (scene.candidates.size() == 0) return;

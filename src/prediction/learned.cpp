@@ -28,9 +28,6 @@ class GraphSageAsPublished final : public PairwisePredictor {
     std::string_view name() const override { return "graphsage_as_published"; }
 
   private:
-    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        detail::believe_last_seen(scene.tracks, beliefs);
-    }
     void score(const Scene& scene, const std::vector<RowBelief>&,
                std::vector<float>& probabilities) override {
         if (scene.candidates.size() == 0) return;

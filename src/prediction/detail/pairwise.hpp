@@ -43,7 +43,10 @@ class PairwisePredictor : public Predictor {
 
   private:
     /// Writes one belief per row; `beliefs` has the right size and default values.
-    virtual void believe(const Scene& scene, std::vector<RowBelief>& beliefs) = 0;
+    /// By default, every vehicle is where it was last seen.
+    virtual void believe(const Scene& scene, std::vector<RowBelief>& beliefs) {
+        believe_last_seen(scene.tracks, beliefs);
+    }
     /// Writes one probability per candidate; `probabilities` has the right size and holds zeros.
     virtual void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                        std::vector<float>& probabilities) = 0;
