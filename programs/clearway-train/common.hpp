@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,9 +15,11 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "metrics/link_quality.hpp"
 #include "training/output_folder.hpp"
+#include "training/outputs.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -63,6 +67,23 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
         options.push_back(option->group(group));
     });
     return options;
+}
+
+/// The sample files, and the hash of the content of each. Throws core::InputError where two are the same.
+template <class Read>
+auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& read) {
+    std::vector<decltype(read(paths.front()))> files;
+    std::vector<std::string> hashes;
+    for (const std::filesystem::path& path : paths) {
+        files.push_back(read(path));
+        if constexpr (requires { files.back().content_hash; }) {
+            hashes.push_back(files.back().content_hash);
+        } else {
+            hashes.push_back(core::content_hash(core::read_file(path)));
+        }
+    }
+    require_distinct(paths, hashes);
+    return std::pair(std::move(files), std::move(hashes));
 }
 
 /// Three decimals, or `undefined`.

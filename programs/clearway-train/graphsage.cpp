@@ -66,13 +66,7 @@ void print_closing(const RepairResult& result) {
 
 core::ExitCode train(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = samples::find_graph_samples(arguments.data);
-    std::vector<samples::RepairSampleFile> files;
-    std::vector<std::string> hashes;
-    for (const std::filesystem::path& path : paths) {
-        files.push_back(samples::read_repair_samples(path));
-        hashes.push_back(files.back().content_hash);
-    }
-    require_distinct(paths, hashes);
+    const auto [files, hashes] = read_distinct(paths, samples::read_repair_samples);
     const Checkpoint checkpoint{arguments.out, core::content_hash(fmt::format("{}", fmt::join(hashes, "")))};
     const OutputFolder folder(arguments.out, identity_of(arguments.config, checkpoint.data_hash));
     const RepairResult result = train_repair(files, arguments.config, checkpoint,

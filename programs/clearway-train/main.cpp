@@ -205,13 +205,7 @@ core::ExitCode run_as_published(const Arguments& arguments) {
 
 core::ExitCode run_corrected(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = samples::find_graph_samples(arguments.data);
-    std::vector<samples::GraphSampleFile> files;
-    std::vector<std::string> hashes;
-    for (const std::filesystem::path& path : paths) {
-        files.push_back(samples::read_graph_samples(path));
-        hashes.push_back(files.back().content_hash);
-    }
-    require_distinct(paths, hashes);
+    const auto files = read_distinct(paths, samples::read_graph_samples).first;
     const RunDescription run{arguments.data, hash_of_files(paths), arguments.config.training};
     const OutputFolder folder(arguments.out, identity_of(arguments.config, run));
     const CorrectedResult result =
@@ -224,13 +218,7 @@ core::ExitCode run_corrected(const Arguments& arguments) {
 
 core::ExitCode run_logistic(const Arguments& arguments) {
     const std::vector<std::filesystem::path> paths = samples::find_pair_samples(arguments.data);
-    std::vector<samples::PairSampleFile> files;
-    std::vector<std::string> hashes;
-    for (const std::filesystem::path& path : paths) {
-        files.push_back(samples::read_pair_samples(path));
-        hashes.push_back(core::content_hash(core::read_file(path)));
-    }
-    require_distinct(paths, hashes);
+    const auto files = read_distinct(paths, samples::read_pair_samples).first;
     LogisticConfig config = arguments.logistic;
     config.seed = arguments.config.training.seed;
     const std::string data_hash = hash_of_files(paths);
