@@ -1,5 +1,4 @@
 // A SUMO that the user has started, from the command line.
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -10,8 +9,6 @@ namespace clearway::cli {
 namespace {
 
 using test::WaitingSumo;
-using testing::AllOf;
-using testing::HasSubstr;
 
 /// A user with a simulation of SUMO: the shipped crossing with cars on all arms, and an ambulance of vClass
 /// emergency.

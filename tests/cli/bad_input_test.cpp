@@ -1,14 +1,9 @@
 // What is wrong in the user's files, and what the machine refuses.
-#include <gmock/gmock.h>
 
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class BadInputTest : public UserTest {
   protected:

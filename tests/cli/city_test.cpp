@@ -2,7 +2,6 @@
 #include <csignal>
 #include <cstdlib>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "scenario_import/town.hpp"
@@ -10,10 +9,6 @@
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 class CityTest : public UserTest {};
 

@@ -2,17 +2,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 class DatasetTest : public UserTest {
   protected:

@@ -4,15 +4,10 @@
 #include <cstdlib>
 #include <thread>
 
-#include <gmock/gmock.h>
-
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 class DiskTest : public UserTest {
   protected:

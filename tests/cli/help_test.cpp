@@ -2,7 +2,6 @@
 #include <regex>
 #include <sstream>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -10,11 +9,6 @@
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 const std::vector<std::string> every_verb = {
     "reproduce", "run",     "study", "status", "submit", "merge",  "report", "compare", "results", "replay",

@@ -1,7 +1,6 @@
 // Judging predictors, from the command line to the files.
 #include <algorithm>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -9,11 +8,6 @@
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 class LinksTest : public UserTest {
   protected:

@@ -3,7 +3,6 @@
 #include <sstream>
 #include <tuple>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -12,10 +11,6 @@
 namespace clearway::cli {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 using testing::StartsWith;
 
 const std::string recording = "out/recordings/line/mine/00000.h5";

@@ -5,18 +5,12 @@
 #include <sstream>
 #include <thread>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 class RunTest : public UserTest {
   protected:

@@ -4,16 +4,12 @@
 #include <cstdlib>
 #include <thread>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 class ShardsTest : public UserTest {
   protected:

@@ -6,18 +6,12 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include "core/files.hpp"
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// A screen in memory, with a number that nobody else has.
 class Screen {

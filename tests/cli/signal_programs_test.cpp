@@ -1,6 +1,5 @@
 // Runs under signal programs that stand in additional files of SUMO, not in the network.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <zlib.h>
 
 #include "core/files.hpp"
@@ -8,8 +7,6 @@
 
 namespace clearway::cli {
 namespace {
-
-using testing::HasSubstr;
 
 class SignalProgramsTest : public UserTest {
   protected:

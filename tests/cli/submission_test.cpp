@@ -2,15 +2,12 @@
 #include <cstdlib>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "user.hpp"
 
 namespace clearway::cli {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int replications = 20;
 constexpr int runs = 2 * replications;

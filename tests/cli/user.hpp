@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "core/process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::cli {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 /// How a program ended and what it said.
 struct Ended {
