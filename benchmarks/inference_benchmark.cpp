@@ -16,8 +16,8 @@
 #include "core/random.hpp"
 #include "prediction/features.hpp"
 #include "prediction/graphsage.hpp"
+#include "prediction/nets.hpp"
 #include "prediction/predictor.hpp"
-#include "prediction/weights.hpp"
 
 namespace {
 
@@ -29,34 +29,6 @@ constexpr std::uint32_t lanes = 3;
 
 double draw(std::uint64_t subject, std::uint64_t counter) {
     return core::KeyedRandom({1}, {0}).uniform(core::Purpose::demand, subject, counter);
-}
-
-/// A net of the published sizes or others, with random parameters: values do not change the cost.
-prediction::Weights random_net(const prediction::FeatureSchema& features, std::uint32_t hidden,
-                               std::uint32_t output) {
-    prediction::Weights weights;
-    weights.architecture = prediction::GraphSageNet::architecture;
-    weights.features = features;
-    weights.dimensions = {{"input", features.width}, {"hidden", hidden}, {"output", output}};
-    std::uint64_t counter = 0;
-    const auto add = [&](const std::string& name, std::vector<std::uint32_t> shape) {
-        std::vector<float> values(static_cast<std::size_t>(shape[0]) * (shape.size() > 1 ? shape[1] : 1));
-        for (float& value : values) {
-            value = static_cast<float>(draw(0, ++counter) - 0.5);
-        }
-        weights.tensors.push_back({name, std::move(shape), std::move(values)});
-    };
-    add("graphsage.conv1.lin_l.weight", {hidden, features.width});
-    add("graphsage.conv1.lin_l.bias", {hidden});
-    add("graphsage.conv1.lin_r.weight", {hidden, features.width});
-    add("graphsage.conv2.lin_l.weight", {output, hidden});
-    add("graphsage.conv2.lin_l.bias", {output});
-    add("graphsage.conv2.lin_r.weight", {output, hidden});
-    add("nn.fc1.weight", {hidden, output});
-    add("nn.fc1.bias", {hidden});
-    add("nn.fc2.weight", {1, hidden});
-    add("nn.fc2.bias", {1});
-    return weights;
 }
 
 std::string road_text(double length_m) {
@@ -164,7 +136,7 @@ void net_alone(benchmark::State& state, std::uint32_t inputs, std::uint32_t hidd
     prediction::MessageGraph messages;
     prediction::ObservedMessages().build(scene, rules, messages);
     const prediction::FeatureSchema schema{"benchmark", 1, inputs};
-    prediction::GraphSageNet net(random_net(schema, hidden, output), schema, kernel);
+    prediction::GraphSageNet net(prediction::testing::random_net(schema, hidden, output), schema, kernel);
     std::vector<float> features(scene.tracks.size() * inputs);
     for (std::size_t at = 0; at < features.size(); ++at) {
         features[at] = static_cast<float>(draw(at, 4));

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "core/process.hpp"
+#include "sumo/network_names.hpp"
 #include "sumo/session.hpp"
 
 namespace {
@@ -27,26 +28,6 @@ constexpr double end_s = 700.0;
 std::filesystem::path city() {
     const char* home = std::getenv("SUMO_HOME");
     return std::filesystem::path(home == nullptr ? "/usr/share/sumo" : home) / "tools/game/DRT/osm.net.xml";
-}
-
-/// The id of an `element` that starts in a line, or empty.
-std::string id_of(const std::string& element, const std::string& line) {
-    const std::string start = "<" + element + " id=\"";
-    const std::size_t at = line.find(start);
-    if (at == std::string::npos) return {};
-    const std::size_t from = at + start.size();
-    return line.substr(from, line.find('"', from) - from);
-}
-
-sumo::Names read_names(const std::filesystem::path& network) {
-    sumo::Names names;
-    std::ifstream file(network);
-    for (std::string line; std::getline(file, line);) {
-        if (const std::string id = id_of("edge", line); !id.empty()) names.edges.push_back(id);
-        if (const std::string id = id_of("lane", line); !id.empty()) names.lanes.push_back(id);
-        if (const std::string id = id_of("tlLogic", line); !id.empty()) names.signals.push_back(id);
-    }
-    return names;
 }
 
 /// Random trips until `end_s`, `per_second` of them each second; those without a way are left out.
@@ -83,7 +64,7 @@ void read_city(benchmark::State& state) {
     sumo::SessionConfig config;
     config.network = city();
     config.folder = folder;
-    config.names = read_names(city());
+    config.names = test::read_names(city());
     config.route_files = {random_routes(folder, config.names, static_cast<double>(state.range(0)) / 10.0)};
     double total_s = 0.0;
     double simulator_s = 0.0;

@@ -11,12 +11,14 @@
 
 #include "results/detail/record_files.hpp"
 #include "results/store.hpp"
+#include "results/synthetic.hpp"
 #include "study/plan.hpp"
 #include "study/shard.hpp"
 
 namespace {
 
 using namespace clearway;
+using results::synthetic::vehicle;
 
 study::Plan plan_of(std::uint32_t replications) {
     study::StudyConfig config;
@@ -29,22 +31,6 @@ study::Plan plan_of(std::uint32_t replications) {
         if (config.conditions.size() > 1) config.conditions.back().policies = {"corridor"};
     }
     return study::make_plan(config, {"0.1.0", "1.15.0"}, "synthetic");
-}
-
-metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass vehicle_class,
-                            double travel_time_s) {
-    metrics::VehicleRow row;
-    row.id = id;
-    row.key = core::vehicle_key(id);
-    row.vehicle_class = vehicle_class;
-    row.planned_depart_s = 1.25;
-    row.depart_s = 1.5;
-    row.depart_delay_s = 0.25;
-    row.arrival_s = 1.5 + travel_time_s;
-    row.travel_time_s = travel_time_s;
-    row.time_loss_s = 0.1 * travel_time_s;
-    row.route_length_m = 1234.5;
-    return row;
 }
 
 results::RunRecord record_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {

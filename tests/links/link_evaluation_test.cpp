@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "support/ascii_scene.hpp"
+#include "support/told_sensor.hpp"
 
 namespace clearway::links {
 namespace {
@@ -17,15 +18,10 @@ constexpr const char* road = R"(
     a..hh...e...h..a............................................
 )";
 
-/// Reports what it is told.
-class ToldSensor final : public sensing::SensorModel {
+/// Logs the true links that it is not told of.
+class LoggingSensor final : public support::ToldSensor {
   public:
-    explicit ToldSensor(traffic::Observation observation) : told_(std::move(observation)) {}
-    void observe(const truth::Snapshot& snapshot, const traffic::Roster&,
-                 traffic::Observation& observation) override {
-        observation = told_;
-        observation.time = snapshot.time;
-    }
+    using ToldSensor::ToldSensor;
     void log_failures(const truth::Snapshot& snapshot, const graph::ProximityGraph& true_graph,
                       sensing::FailureLog& log) const override {
         const auto is_told = [&](core::VehicleIndex row) {
@@ -41,9 +37,6 @@ class ToldSensor final : public sensing::SensorModel {
             }
         }
     }
-
-  private:
-    traffic::Observation told_;
 };
 
 /// h3 is dark where it was last seen; h1 is dark and was last seen 400 m on; a2 never reported; a vehicle
@@ -78,7 +71,7 @@ class LinkTrialTest : public testing::Test {
     LinkTrial::Setup setup(const std::vector<std::string>& predictors) const {
         LinkTrial::Setup setup{.failure = "told",
                                .exits = Exits::unknown,
-                               .sensor = std::make_unique<ToldSensor>(failing_observation(scene_)),
+                               .sensor = std::make_unique<LoggingSensor>(failing_observation(scene_)),
                                .predictors = {}};
         for (const std::string& name : predictors)
             setup.predictors.push_back(prediction::make_predictor(

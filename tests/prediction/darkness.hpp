@@ -8,6 +8,13 @@
 
 namespace clearway::prediction::testing {
 
+/// e1 and a1 drive side by side at 20 m/s.
+inline constexpr const char* side_by_side = R"(
+    10 m per cell, limit 20 m/s, speed 20 m/s
+    ..e..........................
+    ...a.........................
+)";
+
 /// What is known of a scene `age_s` later, when the named vehicles went dark at the time of the drawing and
 /// all others report now. The scene itself is moved on; vehicles keep their speed.
 inline traffic::Observation after_outage(support::Scene& scene, double age_s,

@@ -9,13 +9,7 @@ namespace {
 
 using testing::after_outage;
 using testing::link;
-
-// e1 and a1 drive side by side at 20 m/s; a1 goes dark.
-constexpr const char* side_by_side = R"(
-    10 m per cell, limit 20 m/s, speed 20 m/s
-    ..e..........................
-    ...a.........................
-)";
+using testing::side_by_side;
 
 traffic::BelievedGraph belief_of(const char* name, const support::Scene& scene,
                                  const traffic::Observation& observation) {

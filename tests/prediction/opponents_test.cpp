@@ -21,12 +21,7 @@ namespace {
 
 using testing::after_outage;
 using testing::link;
-
-constexpr const char* side_by_side = R"(
-    10 m per cell, limit 20 m/s, speed 20 m/s
-    ..e..........................
-    ...a.........................
-)";
+using testing::side_by_side;
 
 traffic::BelievedGraph belief_of(Predictor& predictor, const traffic::Observation& observation) {
     traffic::BelievedGraph belief;

@@ -10,10 +10,12 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "support/message_of.hpp"
 
 namespace clearway::prediction {
 namespace {
 
+using support::message_of;
 using testing::HasSubstr;
 
 class GraphSampleTest : public testing::Test {
@@ -37,17 +39,6 @@ samples::SampleOrigin origin() {
 
 samples::GraphSample three_vehicles() {
     return {12.5, 3, {0.5F, -1.0F, 2.0F, 3.25F, 0.0F, 1e-7F}, {{0, 2}}, {{0, 1, 41.5F, 1}, {1, 2, 63.0F, 0}}};
-}
-
-/// Message of the error that `call` throws; empty when it throws none.
-template <class Call>
-std::string message_of(Call&& call) {
-    try {
-        call();
-    } catch (const core::InputError& error) {
-        return error.what();
-    }
-    return {};
 }
 
 TEST_F(GraphSampleTest, what_was_written_is_read) {

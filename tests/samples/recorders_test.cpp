@@ -9,9 +9,12 @@
 #include "samples/repair_sample.hpp"
 #include "support/ascii_scene.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/told_sensor.hpp"
 
 namespace clearway::samples {
 namespace {
+
+using support::ToldSensor;
 
 // Fronts at x = 5 (a1), 85 (e1), 125 (h1) and 155 (a2). h1 was not heard for 3 s and is believed where it
 // was; in truth it has gone on by 20 m, so that a2 is still linked to it, and e1 is not.
@@ -19,23 +22,6 @@ constexpr const char* road = R"(
     10 m per cell, limit 20 m/s, speed 0 m/s
     a.......e...h..a............................................
 )";
-
-/// Reports what it is told, at every step.
-class ToldSensor final : public sensing::SensorModel {
-  public:
-    explicit ToldSensor(traffic::Observation observation) : told_(std::move(observation)) {}
-    void observe(const truth::Snapshot& snapshot, const traffic::Roster&,
-                 traffic::Observation& observation) override {
-        observation = told_;
-        observation.is_report = true;
-        observation.time = snapshot.time;
-    }
-    void log_failures(const truth::Snapshot&, const graph::ProximityGraph&,
-                      sensing::FailureLog&) const override {}
-
-  private:
-    traffic::Observation told_;
-};
 
 class SampleRecorderTest : public testing::Test {
   protected:
@@ -45,6 +31,7 @@ class SampleRecorderTest : public testing::Test {
             std::ranges::find(observation.vehicles, scene_.key("h1"), &traffic::ObservedVehicle::key);
         dark->freshness = traffic::Freshness::stale;
         dark->age_s = 3.0F;
+        observation.is_report = true;
         told_ = observation;
         const auto row = scene_.row("h1");
         scene_.snapshot().x_m[row] += 20.0F;

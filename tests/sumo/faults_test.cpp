@@ -9,26 +9,17 @@
 #include "core/files.hpp"
 #include "sumo/scene.hpp"
 #include "sumo/session.hpp"
+#include "support/message_of.hpp"
 
 namespace clearway {
 namespace {
 
 using sumo::Session;
+using support::message_of;
 using test::Scene;
 using test::vehicle;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-/// The message of the Fault that `work` throws.
-template <class Fault, class Work>
-std::string message_of(Work&& work) {
-    try {
-        work();
-    } catch (const Fault& fault) {
-        return fault.what();
-    }
-    return "nothing was thrown";
-}
 
 TEST(Fault, MissingNetworkIsNamedByTheLog) {
     const Scene scene;

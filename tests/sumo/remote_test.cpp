@@ -7,12 +7,14 @@
 #include "sumo/scene.hpp"
 #include "sumo/session.hpp"
 #include "sumo/waiting_sumo.hpp"
+#include "support/message_of.hpp"
 
 namespace clearway {
 namespace {
 
 using sumo::RemoteSumo;
 using sumo::Session;
+using support::message_of;
 using test::Listener;
 using test::Scene;
 using test::vehicle;
@@ -112,25 +114,16 @@ TEST(RemoteSession, TakesOverVehiclesThatAreOnTheirWayAndDeclaredTypes) {
     EXPECT_EQ(session.roster().find(test::key("e"))->vehicle_class, traffic::VehicleClass::emergency);
 }
 
-template <class Action>
-std::string message_of(Action&& action) {
-    try {
-        action();
-    } catch (const core::Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(RemoteSession, SaysWhenNobodyListens) {
-    EXPECT_THAT(message_of([] { RemoteSumo("localhost", 1); }),
+    EXPECT_THAT(message_of<core::Error>([] { RemoteSumo("localhost", 1); }),
                 AllOf(HasSubstr("no SUMO answers at localhost:1"), HasSubstr("--remote-port")));
 }
 
 TEST(RemoteSession, SaysWhenWhatListensIsNoSumo) {
     const Listener listener;
     std::thread other([&] { listener.answer_once("no"); });
-    EXPECT_THAT(message_of([&] { RemoteSumo("localhost", listener.port()); }), HasSubstr("no SUMO answers"));
+    EXPECT_THAT(message_of<core::Error>([&] { RemoteSumo("localhost", listener.port()); }),
+                HasSubstr("no SUMO answers"));
     other.join();
 }
 
@@ -140,7 +133,7 @@ TEST(RemoteSession, RefusesASumoOfAnotherVersion) {
     const std::string status = "\x07\x00\x00\x00\x00\x00\x00"s;
     const std::string version = "\x15\x00\x00\x00\x00\x16\x00\x00\x00\x0b"s + "SUMO 1.20.0";
     std::thread other([&] { listener.answer_once("\x00\x00\x00\x20"s + status + version); });
-    EXPECT_THAT(message_of([&] { RemoteSumo("localhost", listener.port()); }),
+    EXPECT_THAT(message_of<core::Error>([&] { RemoteSumo("localhost", listener.port()); }),
                 AllOf(HasSubstr("is SUMO 1.20.0"), HasSubstr("Start a SUMO 1.15")));
     other.join();
 }
@@ -152,7 +145,7 @@ TEST(RemoteSession, SaysWhenTheConnectionBreaks) {
     Session session(RemoteSumo("localhost", waiting.port()), scene.folder() / "client", config.names);
     session.step();
     waiting.kill();
-    EXPECT_THAT(message_of([&] {
+    EXPECT_THAT(message_of<core::Error>([&] {
                     for (int steps = 0; steps < 10; ++steps)
                         session.step();
                 }),

@@ -1,6 +1,5 @@
 #include "sumo/scene.hpp"
 
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -23,15 +22,6 @@ void netconvert(const std::filesystem::path& nodes, const std::filesystem::path&
                    .environment = {},
                    .output = network.string() + ".log"});
     if (!exit.ok()) throw std::runtime_error("netconvert: " + exit.describe());
-}
-
-/// The id of an `element` that starts in a line, or empty.
-std::string id_of(const std::string& element, const std::string& line) {
-    const std::string start = "<" + element + " id=\"";
-    const std::size_t at = line.find(start);
-    if (at == std::string::npos) return {};
-    const std::size_t from = at + start.size();
-    return line.substr(from, line.find('"', from) - from);
 }
 
 std::string edge(const std::string& id, const std::string& from, const std::string& to) {
@@ -91,17 +81,6 @@ sumo::SessionConfig Scene::config(const std::filesystem::path& network, const st
     config.folder = folder() / "run";
     config.names = read_names(network);
     return config;
-}
-
-sumo::Names read_names(const std::filesystem::path& network) {
-    sumo::Names names;
-    std::ifstream file(network);
-    for (std::string line; std::getline(file, line);) {
-        if (const std::string id = id_of("edge", line); !id.empty()) names.edges.push_back(id);
-        if (const std::string id = id_of("lane", line); !id.empty()) names.lanes.push_back(id);
-        if (const std::string id = id_of("tlLogic", line); !id.empty()) names.signals.push_back(id);
-    }
-    return names;
 }
 
 std::string vehicle(const std::string& id, const std::string& type, double depart_s, const std::string& edges,

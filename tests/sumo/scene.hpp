@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "sumo/network_names.hpp"
 #include "sumo/session.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -32,9 +33,6 @@ class Scene {
   private:
     support::TemporaryFolder folder_;
 };
-
-/// The names in a network file, in the order of the file.
-sumo::Names read_names(const std::filesystem::path& network);
 
 /// A vehicle element that drives `edges`.
 std::string vehicle(const std::string& id, const std::string& type, double depart_s, const std::string& edges,

@@ -7,24 +7,16 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "support/message_of.hpp"
 #include "synthetic_samples.hpp"
 #include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
 
+using support::message_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-template <class Call>
-std::string message_of(Call&& call) {
-    try {
-        call();
-    } catch (const core::InputError& error) {
-        return error.what();
-    }
-    return {};
-}
 
 std::vector<DataSeed> seeds_upto(std::uint32_t count) {
     std::vector<DataSeed> seeds;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_repair.hpp"
 #include "training/repair_outputs.hpp"
@@ -16,6 +17,7 @@ namespace clearway::training {
 namespace {
 
 using samples::RepairSampleFile;
+using support::message_of;
 using ::testing::HasSubstr;
 
 std::vector<RepairSampleFile> runs(std::uint32_t count, int samples = 12) {
@@ -33,16 +35,6 @@ RepairConfig short_training() {
     config.easy_share = 1.0;
     config.hidden = 16;
     return config;
-}
-
-template <class Call>
-std::string message_of(const Call& call) {
-    try {
-        call();
-    } catch (const core::InputError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 bool same_state(const StateDict& one, const StateDict& other) {
