@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include <boost/math/distributions/binomial.hpp>
 

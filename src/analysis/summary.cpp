@@ -386,18 +386,6 @@ std::optional<Estimate> estimate_paired(const Values& condition, const Values& b
     return difference_of(pairs_of(condition, baseline), kind, level);
 }
 
-std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name) {
-    bool known = false;
-    std::optional<double> value;
-    core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
-        if (name != field.name) return;
-        known = true;
-        value = as_number(metrics.*field.member);
-    });
-    if (!known) throw std::out_of_range("no metric " + name);
-    return value;
-}
-
 const MetricSummary& ConditionSummary::metric(const std::string& name) const {
     for (const MetricSummary& summary : metrics) {
         if (summary.metric.name == name) return summary;

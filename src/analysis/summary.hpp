@@ -37,8 +37,6 @@ std::optional<Estimate> estimate_paired(const Values& condition, const Values& b
                                         double level = usual_level);
 /// All metrics of a run that are numbers, in the order of their field table.
 std::vector<MetricInfo> all_metrics();
-/// Value of a metric by name; nothing where the run has none. Throws std::out_of_range for an unknown name.
-std::optional<double> metric_value(const metrics::RunMetrics& metrics, const std::string& name);
 
 /// The metric of verdicts, headlines, curves and gates: it counts every emergency vehicle, arrived or not.
 inline constexpr const char* primary_metric = "emergency_restricted_travel_time_s";

@@ -13,7 +13,7 @@ const char* type_word(const toml::node& node) {
         case toml::node_type::floating_point:
             return "a number";
         case toml::node_type::boolean:
-            return "a truth value";
+            return "true or false";
         case toml::node_type::array:
             return "an array";
         case toml::node_type::table:

@@ -1,7 +1,6 @@
 #include "links/link_evaluation.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <optional>
 #include <stdexcept>

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "links/link_run.hpp"
 #include "links/link_scores.hpp"

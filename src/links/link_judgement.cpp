@@ -1,6 +1,5 @@
 #include "links/link_judgement.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "links/detail/link_draws.hpp"

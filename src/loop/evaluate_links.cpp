@@ -1,10 +1,6 @@
 #include "loop/evaluate_links.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "experiment/run_job.hpp"
 #include "loop/condition_run.hpp"

@@ -1,6 +1,5 @@
 #include "policy/recover_signals.hpp"
 
-#include <algorithm>
 #include <set>
 #include <unordered_map>
 

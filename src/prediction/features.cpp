@@ -16,10 +16,6 @@ FeatureSchema corrected_schema() {
     return {"corrected", 2, 5};
 }
 
-std::vector<FeatureSchema> feature_schemas() {
-    return {as_published_position_schema(), as_published_attributes_schema(), corrected_schema()};
-}
-
 float class_code(traffic::VehicleClass vehicle_class) {
     switch (vehicle_class) {
         case traffic::VehicleClass::human:

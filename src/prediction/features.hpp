@@ -39,9 +39,6 @@ inline constexpr float corrected_wavelength_m = 400.0F;
 inline constexpr float corrected_age_scale_s = 10.0F;
 inline constexpr float corrected_reach_m = 200.0F;
 
-/// All schemas that this program computes.
-std::vector<FeatureSchema> feature_schemas();
-
 /// Number that stands for a class: human 0, automated 1, emergency 2.
 float class_code(traffic::VehicleClass vehicle_class);
 

@@ -1,7 +1,6 @@
 #include "prediction/repair_inputs.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "traffic/signal.hpp"

@@ -1,7 +1,6 @@
 #include "prediction/repair_net.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "report/read_facts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>

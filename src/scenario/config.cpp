@@ -1,6 +1,5 @@
 #include "scenario/config.hpp"
 
-#include <cmath>
 #include <cstdlib>
 
 #include <fmt/format.h>

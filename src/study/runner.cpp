@@ -1,6 +1,5 @@
 #include "study/runner.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <deque>
 

@@ -1,6 +1,5 @@
 #include "trace/recording.hpp"
 
-#include <cerrno>
 #include <stdexcept>
 #include <utility>
 #include <vector>

@@ -2,7 +2,6 @@
 // are included here.
 #include "training/torch_net.hpp"
 
-#include <cassert>
 #include <cmath>
 
 #include <torch/csrc/jit/serialization/pickle.h>

@@ -312,15 +312,5 @@ TEST_F(SmallStudy, RefusesToPairWhatWasNotMadeFromTheSame) {
     EXPECT_THROW(compare_studies(results_, second), core::InputError);
 }
 
-TEST(AllMetrics, CanBeAskedForByName) {
-    metrics::RunMetrics run;
-    run.collisions = 3;
-    for (const MetricInfo& metric : all_metrics())
-        EXPECT_NO_THROW(metric_value(run, metric.name)) << metric.name;
-    EXPECT_DOUBLE_EQ(*metric_value(run, "collisions"), 3.0);
-    EXPECT_FALSE(metric_value(run, "emergency_travel_time_s"));
-    EXPECT_THROW(metric_value(run, "speed"), std::out_of_range);
-}
-
 }  // namespace
 }  // namespace clearway::analysis

@@ -1,5 +1,6 @@
 #include "prediction/features.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -77,8 +78,10 @@ TEST(CorrectedFeatures, DependOnPlaceOnlyThroughDistance) {
 }
 
 TEST(FeatureSchemas, HaveDifferentNames) {
-    for (const FeatureSchema& one : feature_schemas()) {
-        for (const FeatureSchema& other : feature_schemas()) {
+    const std::array schemas = {as_published_position_schema(), as_published_attributes_schema(),
+                                corrected_schema()};
+    for (const FeatureSchema& one : schemas) {
+        for (const FeatureSchema& other : schemas) {
             EXPECT_EQ(one.name == other.name, one == other);
         }
     }

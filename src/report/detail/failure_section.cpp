@@ -1,6 +1,5 @@
 // Benefit against failure: what is left of a policy's benefit when vehicles go dark, and the believed links
 // behind it.
-#include <algorithm>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,4 @@
 // Sensitivity: a tornado chart of every setting that was varied alone.
-#include <algorithm>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/json.hpp"
 #include "metrics/traffic_tables.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "scenario/prepare.hpp"
 #include "scenario_import/detail/context.hpp"
 

@@ -1,6 +1,5 @@
 #include "scenario_import/osm/map.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>

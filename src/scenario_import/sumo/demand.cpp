@@ -1,7 +1,6 @@
 #include "scenario_import/sumo/demand.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>

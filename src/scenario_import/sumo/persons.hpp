@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario_import/detail/context.hpp"

@@ -1,6 +1,5 @@
 #include "sumo/detail/type_table.hpp"
 
-#include <optional>
 #include <vector>
 
 #include "core/error.hpp"

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
-#include <vector>
 
 #include "trace/detail/enumerations.hpp"
 #include "trace/detail/tables.hpp"
