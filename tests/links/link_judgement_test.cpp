@@ -28,7 +28,7 @@ LinkRun run_of(const std::string& scenario, std::uint32_t replication, const std
                 .replication = replication,
                 .predictor = predictor,
                 .cases = {}};
-    run.cases.push_back({"B10", "known", {10, 100, 50, 5, 2, 8}, {30, 6, 4, 90, 20}, scores.summary()});
+    run.cases.push_back({"B10", Exits::known, {10, 100, 50, 5, 2, 8}, {30, 6, 4, 90, 20}, scores.summary()});
     return run;
 }
 
@@ -37,7 +37,7 @@ LinkRuns runs_of(const std::string& predictor, double skill) {
     for (const char* const scenario : {"merge", "city"}) {
         for (std::uint32_t replication = 0; replication < 5; ++replication) {
             runs.test.push_back(run_of(scenario, replication, predictor, skill));
-            runs.test_timing.push_back({{{"B10", "known", 10, 100, 0.002}}});
+            runs.test_timing.push_back({{{"B10", Exits::known, 10, 100, 0.002}}});
         }
         runs.validation.push_back(run_of(scenario, 100, predictor, skill));
     }
@@ -135,7 +135,7 @@ TEST(LinkJudgement, compares_errors_with_an_opponent) {
 TEST(LinkJudgement, of_one_run_a_scenario_gives_no_interval) {
     LinkRuns runs;
     runs.test.push_back(run_of("merge", 0, "none", 1.0));
-    runs.test_timing.push_back({{{"B10", "known", 10, 100, 0.002}}});
+    runs.test_timing.push_back({{{"B10", Exits::known, 10, 100, 0.002}}});
     runs.validation.push_back(run_of("merge", 1, "none", 1.0));
     LinkJudgement judgement({1});
     judgement.add(runs);

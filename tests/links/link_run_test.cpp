@@ -26,13 +26,13 @@ LinkRun sample_run() {
                 .replication = 7,
                 .predictor = "kalman",
                 .cases = {}};
-    run.cases.push_back({"B10", "known", {5, 100, 40, 3, 1, 6}, {30, 4, 5, 90, 2}, scores.summary()});
-    run.cases.push_back({"perfect", "unknown", {}, {}, {}});
+    run.cases.push_back({"B10", Exits::known, {5, 100, 40, 3, 1, 6}, {30, 4, 5, 90, 2}, scores.summary()});
+    run.cases.push_back({"perfect", Exits::unknown, {}, {}, {}});
     return run;
 }
 
 LinkTiming sample_timing() {
-    return {{{"B10", "known", 5, 100, 0.25}, {"perfect", "unknown", 0, 0, 0.0}}};
+    return {{{"B10", Exits::known, 5, 100, 0.25}, {"perfect", Exits::unknown, 0, 0, 0.0}}};
 }
 
 class LinkRunFile : public testing::Test {

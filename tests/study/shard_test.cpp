@@ -89,7 +89,7 @@ TEST(Shards, KeepTheirFolderToThemselves) {
 
 TEST(Submission, QuotesWhatAShellWouldReadOtherwise) {
     Submission submission;
-    submission.traffic_model = SubmitEngine::slurm;
+    submission.engine = SubmitEngine::slurm;
     submission.shards = 12;
     submission.program = "/opt/my programs/clearway";
     submission.study = "/data/a'b.toml";
