@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/common_options.hpp"
-#include "cli/condition_options.hpp"
-#include "cli/names.hpp"
-#include "cli/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/condition_options.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/run_plan.hpp"
+#include "cli/detail/worker_jobs.hpp"
 #include "cli/verb.hpp"
-#include "cli/worker_jobs.hpp"
 #include "experiment/attach_job.hpp"
 #include "results/store.hpp"
 

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/run_plan.hpp"
-#include "cli/scenario_options.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/run_plan.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"

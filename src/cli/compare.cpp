@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "analysis/summary.hpp"
-#include "cli/common_options.hpp"
-#include "cli/names.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/names.hpp"
 #include "cli/verb.hpp"
 #include "report/comparison.hpp"
 #include "results/store.hpp"

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/names.hpp"
-#include "cli/record_jobs.hpp"
-#include "cli/scenario_options.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/record_jobs.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/dataset_job.hpp"

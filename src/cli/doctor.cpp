@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "cli/common_options.hpp"
-#include "cli/programs.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/programs.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {

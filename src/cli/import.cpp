@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/interruption.hpp"
 #include "core/number_range.hpp"

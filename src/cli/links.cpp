@@ -9,14 +9,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/common_options.hpp"
-#include "cli/condition_options.hpp"
-#include "cli/names.hpp"
-#include "cli/programs.hpp"
-#include "cli/scenario_options.hpp"
-#include "cli/shipped_files.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/condition_options.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/programs.hpp"
+#include "cli/detail/scenario_options.hpp"
+#include "cli/detail/shipped_files.hpp"
+#include "cli/detail/worker_jobs.hpp"
 #include "cli/verb.hpp"
-#include "cli/worker_jobs.hpp"
 #include "core/files.hpp"
 #include "experiment/link_job.hpp"
 #include "links/link_plan.hpp"

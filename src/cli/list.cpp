@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/reference_pages.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/reference_pages.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/progress.hpp"
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/condition_options.hpp"
-#include "cli/names.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/condition_options.hpp"
+#include "cli/detail/names.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "experiment/settings.hpp"

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/run_plan.hpp"
+#include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 

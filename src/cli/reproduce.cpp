@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/run_plan.hpp"
-#include "cli/scenario_options.hpp"
+#include "cli/detail/run_plan.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {

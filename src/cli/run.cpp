@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/condition_options.hpp"
-#include "cli/run_plan.hpp"
-#include "cli/scenario_options.hpp"
-#include "cli/shown_run.hpp"
+#include "cli/detail/condition_options.hpp"
+#include "cli/detail/run_plan.hpp"
+#include "cli/detail/scenario_options.hpp"
+#include "cli/detail/shown_run.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/conditions.hpp"

@@ -13,7 +13,7 @@
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/progress.hpp"
 #include "study/merge.hpp"

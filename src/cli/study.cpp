@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/plan_text.hpp"
-#include "cli/rounds.hpp"
-#include "cli/run_plan.hpp"
+#include "cli/detail/plan_text.hpp"
+#include "cli/detail/rounds.hpp"
+#include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "study/shard.hpp"
 

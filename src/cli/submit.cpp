@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/names.hpp"
-#include "cli/plan_text.hpp"
-#include "cli/run_plan.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/plan_text.hpp"
+#include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/names.hpp"
-#include "cli/programs.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/programs.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"

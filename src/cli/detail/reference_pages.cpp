@@ -1,4 +1,4 @@
-#include "cli/reference_pages.hpp"
+#include "cli/detail/reference_pages.hpp"
 
 #include "metrics/lease_row.hpp"
 #include "metrics/run_metrics.hpp"

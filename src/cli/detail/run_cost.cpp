@@ -1,4 +1,4 @@
-#include "cli/run_cost.hpp"
+#include "cli/detail/run_cost.hpp"
 
 #include <algorithm>
 

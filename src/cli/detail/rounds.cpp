@@ -1,4 +1,4 @@
-#include "cli/rounds.hpp"
+#include "cli/detail/rounds.hpp"
 
 #include <algorithm>
 #include <filesystem>

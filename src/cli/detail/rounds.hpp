@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run_plan.hpp"
+#include "cli/detail/run_plan.hpp"
 
 namespace clearway::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/condition_options.hpp"
+#include "cli/detail/condition_options.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/worker_jobs.hpp"
+#include "cli/detail/worker_jobs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/programs.hpp"
+#include "cli/detail/programs.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/supervisor.hpp"

@@ -1,4 +1,4 @@
-#include "cli/record_jobs.hpp"
+#include "cli/detail/record_jobs.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/shown_run.hpp"
+#include "cli/detail/shown_run.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/worker_jobs.hpp"
+#include "cli/detail/worker_jobs.hpp"
 
 namespace clearway::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/programs.hpp"
+#include "cli/detail/programs.hpp"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "cli/shipped_files.hpp"
+#include "cli/detail/shipped_files.hpp"
 
 #include <cstdlib>
 

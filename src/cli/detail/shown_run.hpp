@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run_plan.hpp"
+#include "cli/detail/run_plan.hpp"
 #include "experiment/run_job.hpp"
 
 namespace clearway::cli {

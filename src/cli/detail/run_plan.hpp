@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 #include "core/error.hpp"
 #include "report/facts.hpp"
 #include "results/store.hpp"

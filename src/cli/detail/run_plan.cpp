@@ -1,4 +1,4 @@
-#include "cli/run_plan.hpp"
+#include "cli/detail/run_plan.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,9 +9,9 @@
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
-#include "cli/names.hpp"
-#include "cli/programs.hpp"
-#include "cli/shipped_files.hpp"
+#include "cli/detail/names.hpp"
+#include "cli/detail/programs.hpp"
+#include "cli/detail/shipped_files.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "report/console.hpp"

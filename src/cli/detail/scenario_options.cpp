@@ -1,4 +1,4 @@
-#include "cli/scenario_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 
 #include <map>
 #include <string>

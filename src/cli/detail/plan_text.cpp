@@ -1,4 +1,4 @@
-#include "cli/plan_text.hpp"
+#include "cli/detail/plan_text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common_options.hpp"
-#include "cli/run_cost.hpp"
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/run_cost.hpp"
 #include "core/progress.hpp"
 #include "experiment/settings.hpp"
 #include "results/store.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cli/worker_jobs.hpp"
+#include "cli/detail/worker_jobs.hpp"
 #include "experiment/dataset_job.hpp"
 
 namespace clearway::cli {

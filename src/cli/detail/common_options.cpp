@@ -1,4 +1,4 @@
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
-#include "cli/names.hpp"
+#include "cli/detail/names.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "cli/common_options.hpp"
+#include "cli/detail/common_options.hpp"
 #include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
