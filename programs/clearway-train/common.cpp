@@ -19,6 +19,13 @@ extern "C" void remember_signal(int signal) {
 
 }  // namespace
 
+void add_printing_options(CLI::App& app, Printing& printing) {
+    app.add_flag_callback(
+        "--quiet", [&] { printing = Printing::closing_only; }, "Do not print the losses of each epoch");
+    app.add_flag_callback(
+        "--json", [&] { printing = Printing::json; }, "Print the summary as JSON, and nothing else");
+}
+
 std::string figure(const std::optional<double>& value) {
     return value ? fmt::format("{:.3f}", *value) : "undefined";
 }

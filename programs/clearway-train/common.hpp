@@ -69,6 +69,9 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
     return options;
 }
 
+/// `--quiet` and `--json`.
+void add_printing_options(CLI::App& app, Printing& printing);
+
 /// The sample files, and the hash of the content of each. Throws core::InputError where two are the same.
 template <class Read>
 auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& read) {

@@ -34,12 +34,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
                    "Folder for the results and the checkpoint; a training found there is continued")
         ->required()
         ->option_text("DIR (required)");
-    app.add_flag_callback(
-        "--quiet", [&] { arguments.printing = Printing::closing_only; },
-        "Do not print the losses of each epoch");
-    app.add_flag_callback(
-        "--json", [&] { arguments.printing = Printing::json; },
-        "Print the summary as JSON, and nothing else");
+    add_printing_options(app, arguments.printing);
     add_field_options(app, arguments.config, "Training (losses in nat)");
     app.footer(
         "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and, unless an option makes "

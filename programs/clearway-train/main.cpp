@@ -82,12 +82,7 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         ->option_text("DIR...")
         ->excludes(corrected)
         ->excludes(logistic);
-    app.add_flag_callback(
-        "--quiet", [&] { arguments.printing = Printing::closing_only; },
-        "Do not print the losses of each epoch");
-    app.add_flag_callback(
-        "--json", [&] { arguments.printing = Printing::json; },
-        "Print the summary as JSON, and nothing else");
+    add_printing_options(app, arguments.printing);
     add_field_options(app, arguments.config.training, "Training (losses in nat)");
     for (CLI::Option* option : add_field_options(app, arguments.config, "Only with --corrected"))
         option->needs(corrected);
