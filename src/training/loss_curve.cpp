@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/markup.hpp"
+
 namespace clearway::training {
 namespace {
 
@@ -89,18 +91,9 @@ std::string curve(const std::vector<EpochLoss>& losses, double EpochLoss::*membe
 }
 
 std::string legend_entry(double y, const std::string& label, const char* style) {
-    std::string escaped;
-    for (const char letter : label) {
-        if (letter == '&')
-            escaped += "&amp;";
-        else if (letter == '<')
-            escaped += "&lt;";
-        else
-            escaped += letter;
-    }
     return fmt::format(
         "<path d=\"M{:.1f} {:.1f}h30\" stroke-width=\"2\" {}/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-        width - right - 170, y, style, width - right - 132, y + 4, escaped);
+        width - right - 170, y, style, width - right - 132, y + 4, core::escaped(label));
 }
 
 }  // namespace
