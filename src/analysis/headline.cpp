@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/settings.hpp"
+
 namespace clearway::analysis {
 namespace {
 
@@ -13,7 +15,7 @@ using experiment::ConditionSpec;
 constexpr std::size_t most_looks = 1000;
 
 bool is_baseline_of(const ConditionSpec& other, const ConditionSpec& condition) {
-    return other.traffic_model == condition.traffic_model && !other.acts() && other.name != condition.name;
+    return !other.acts() && other.name != condition.name && experiment::same_environment(other, condition);
 }
 
 /// Restricted travel time of the emergency vehicles of a run, minus that of the baseline's run if there is

@@ -7,9 +7,12 @@
 #include <stdexcept>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "analysis/detail/pairing.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "experiment/settings.hpp"
 
 namespace clearway::analysis {
 namespace {
@@ -243,7 +246,7 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
 const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vector<ConditionSpec>& all) {
     if (condition.traffic_model == TrafficModel::free_flow) return nullptr;
     const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
-        return other.traffic_model == condition.traffic_model && !other.acts();
+        return !other.acts() && experiment::same_environment(other, condition);
     });
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
@@ -359,7 +362,8 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         const Runs baseline_runs = index.runs(entry.name, baseline->name);
         compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end()) continue;
-        close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
+        if (!summary.objections.loses_emergency())
+            close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     adjust(scenario);
     return scenario;
@@ -399,6 +403,45 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     return found == conditions.end() ? nullptr : &*found;
 }
 
+namespace {
+
+bool has_scenario(const results::Manifest& manifest, const std::string& name) {
+    return std::ranges::find(manifest.scenarios, name, &results::ScenarioEntry::name) !=
+           manifest.scenarios.end();
+}
+
+bool has_condition(const results::Manifest& manifest, const std::string& name) {
+    return std::ranges::find(manifest.conditions, name, &ConditionSpec::name) != manifest.conditions.end();
+}
+
+/// Adds what `one` has and `other` does not have.
+void add_only_in(const results::Manifest& one, const results::Manifest& other, const char* folder,
+                 std::vector<Unpaired>& unpaired) {
+    const std::string why = fmt::format("is only in the {} folder", folder);
+    for (const results::ScenarioEntry& scenario : one.scenarios) {
+        if (!has_scenario(other, scenario.name)) {
+            unpaired.push_back({scenario.name, "", why});
+            continue;
+        }
+        for (const ConditionSpec& condition : one.conditions) {
+            if (!has_condition(other, condition.name))
+                unpaired.push_back({scenario.name, condition.name, why});
+        }
+    }
+}
+
+/// Adds a condition whose runs are not all there. `folder` says where they belong.
+void add_unfinished(const std::string& scenario, const ConditionSummary& condition, const char* folder,
+                    std::vector<Unpaired>& unpaired) {
+    const std::size_t lost = condition.failed_runs + condition.missing_runs;
+    if (lost == 0) return;
+    unpaired.push_back(
+        {scenario, condition.condition.name,
+         fmt::format("{} of {} runs failed or are missing{}", lost, lost + condition.complete_runs, folder)});
+}
+
+}  // namespace
+
 Summary compare_studies(const results::Results& first, const results::Results& second, double level) {
     Summary summary;
     summary.manifest = second.manifest;
@@ -407,6 +450,12 @@ Summary compare_studies(const results::Results& first, const results::Results& s
     const Index second_index(second);
     ResampleCache resamples(level);
     if (first.manifest.study_seed != second.manifest.study_seed) refuse_pair("seed", first, second);
+    add_only_in(first.manifest, second.manifest, "first", summary.unpaired);
+    add_only_in(second.manifest, first.manifest, "second", summary.unpaired);
+    if (first.manifest.replications != second.manifest.replications)
+        summary.unpaired.push_back({"", "",
+                                    fmt::format("the first folder has {} replications, the second {}",
+                                                first.manifest.replications, second.manifest.replications)});
     for (const results::ScenarioEntry& entry : second.manifest.scenarios) {
         const auto same =
             std::ranges::find(first.manifest.scenarios, entry.name, &results::ScenarioEntry::name);
@@ -415,15 +464,15 @@ Summary compare_studies(const results::Results& first, const results::Results& s
             refuse_pair("configuration of scenario " + entry.name, first, second);
         ScenarioSummary scenario{entry.name, entry.title, {}};
         for (const ConditionSpec& condition : second.manifest.conditions) {
-            if (std::ranges::find(first.manifest.conditions, condition.name, &ConditionSpec::name) ==
-                first.manifest.conditions.end())
-                continue;
+            if (!has_condition(first.manifest, condition.name)) continue;
             const ConditionSummary before = describe_condition(first_index, entry.name, condition, resamples);
             ConditionSummary& after = scenario.conditions.emplace_back(
                 describe_condition(second_index, entry.name, condition, resamples));
             after.baseline = condition.name;
             compare_conditions(second_index.runs(entry.name, condition.name),
                                first_index.runs(entry.name, condition.name), before, resamples, after);
+            add_unfinished(entry.name, before, " in the first folder", summary.unpaired);
+            add_unfinished(entry.name, after, " in the second folder", summary.unpaired);
         }
         adjust(scenario);
         if (!scenario.conditions.empty()) summary.scenarios.push_back(std::move(scenario));
@@ -438,8 +487,11 @@ Summary summarise(const results::Results& results, double level) {
     summary.level = level;
     const Index index(results);
     ResampleCache resamples(level);
-    for (const results::ScenarioEntry& entry : results.manifest.scenarios)
+    for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples));
+        for (const ConditionSummary& condition : summary.scenarios.back().conditions)
+            add_unfinished(entry.name, condition, "", summary.unpaired);
+    }
     return summary;
 }
 

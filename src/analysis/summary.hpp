@@ -120,16 +120,24 @@ struct ScenarioSummary {
     const ConditionSummary* find(const std::string& condition) const;
 };
 
+/// Runs that a comparison should have and does not have.
+struct Unpaired {
+    std::string scenario;
+    std::string condition;  ///< Empty for all of them.
+    std::string why;        ///< `1 of 30 runs failed or is missing`, `is only in the first folder`.
+};
+
 struct Summary {
     results::Manifest manifest;
     double level = usual_level;
     std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
+    std::vector<Unpaired> unpaired;
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario
 /// and with the same seed. The summary is that of `second`, without scenarios and conditions that only one
-/// study has; `baseline` is the condition's own name. Throws core::InputError when seeds or scenario
-/// configurations differ, or when the studies share no scenario and condition.
+/// study has, which are listed in `unpaired`; `baseline` is the condition's own name. Throws core::InputError
+/// when seeds or scenario configurations differ, or when the studies share no scenario and condition.
 Summary compare_studies(const results::Results& first, const results::Results& second,
                         double level = usual_level);
 

@@ -74,7 +74,7 @@ Action configure_attach(CLI::App& app) {
     app.add_option("place", arguments->place, "Where SUMO waits for a client (its --remote-port)")
         ->required()
         ->option_text("HOST:PORT (required)");
-    add_condition_options(app, arguments->described, "Condition (names: clearway list)");
+    add_condition_options(app, arguments->described, "none", "Condition (names: clearway list)");
     app.add_option("--automated", job.automated,
                    "Vehicle types that are automated, besides those that declare it (clearway.class)")
         ->option_text("TYPE ... [none]");

@@ -115,7 +115,8 @@ core::ExitCode compare(Arguments arguments) {
                        arguments.second, arguments.first);
     }
     for (const report::Shortfall& one : found)
-        fmt::print(stderr, "clearway: {}/{}: {}: {}\n", one.scenario, one.condition, one.metric, one.why);
+        fmt::print(stderr, "clearway: {}{}{}: {}: {}\n", one.scenario, one.condition.empty() ? "" : "/",
+                   one.condition, one.metric, one.why);
     return found.empty() ? core::ExitCode::ok : core::ExitCode::fell_short;
 }
 

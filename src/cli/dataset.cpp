@@ -71,6 +71,9 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     const std::vector<experiment::DatasetJob> jobs =
         samples::dataset_jobs(arguments.job, config.name, arguments.seeds);
     samples::check_folder(jobs, scenario::to_toml(config));
+    if (std::filesystem::exists(std::filesystem::path(arguments.folder) / "manifest.json"))
+        throw core::InputError({"--out", fmt::format("{} holds the runs of a study", arguments.folder),
+                                "a folder of data sets, or a new one", "Choose another folder"});
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);
     const WorkerResult result = record_jobs(jobs, arguments.jobs);

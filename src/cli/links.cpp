@@ -319,10 +319,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
             ->excludes("--benchmark")
             ->group(group);
     };
-    app.add_option("--seed", arguments.study_seed, "Study seed: equal seeds, equal results")
-        ->option_text(fmt::format("N, 0 to 2^64-1 [{}]", arguments.study_seed))
-        ->excludes("--benchmark")
-        ->group(group);
+    add_seed_option(app, arguments.study_seed)->excludes("--benchmark")->group(group);
     declare("--seeds", arguments.test.count, "Replications to test on", 0U);
     declare("--first-seed", arguments.test.first, "Number of the first of them", 0U);
     declare("--validation-seeds", arguments.validation.count,

@@ -56,13 +56,25 @@ void add_once(std::vector<experiment::ConditionSpec>& conditions,
     if (std::ranges::none_of(conditions, same_name)) conditions.push_back(condition);
 }
 
-/// The baseline of a condition: the car-following model alone, in the same traffic model.
-experiment::ConditionSpec baseline_of(experiment::TrafficModel traffic_model) {
-    experiment::ConditionSpec baseline = experiment::built_in_condition("baseline", "--condition");
-    if (traffic_model == baseline.traffic_model) return baseline;
-    baseline.name += fmt::format("_{}", experiment::name(traffic_model));
-    baseline.traffic_model = traffic_model;
-    return baseline;
+/// The condition that the options describe. Without --policy they change the one that is named with
+/// --condition, or else the usual one; `--policy none` and device.bluelight mean the car-following model
+/// alone.
+experiment::ConditionSpec own_condition(const Arguments& arguments,
+                                        const std::vector<experiment::ConditionSpec>& chosen) {
+    DescribedCondition described = arguments.own;
+    experiment::ConditionSpec& own = described.condition;
+    const bool names_policies = !own.policies.empty();
+    const bool changes = has_own_condition(condition_of(described));
+    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on || chosen.size() > 1)
+        return condition_of(described);
+    const experiment::ConditionSpec base =
+        chosen.empty() ? experiment::built_in_condition(experiment::usual_condition, "--condition")
+                       : chosen.front();
+    const experiment::ConditionSpec untouched;
+    own.policies = base.policies;
+    if (own.failure == untouched.failure) own.failure = base.failure;
+    if (own.predictor == untouched.predictor) own.predictor = base.predictor;
+    return condition_of(described);
 }
 
 /// The conditions that the user names or describes.
@@ -71,14 +83,13 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const Arguments& argume
     for (const std::string& name : arguments.conditions) {
         add_once(chosen, experiment::built_in_condition(name, "--condition"));
     }
-    experiment::ConditionSpec own = condition_of(arguments.own);
+    experiment::ConditionSpec own = own_condition(arguments, chosen);
     if (has_own_condition(own)) {
         if (own.name.empty()) own.name = experiment::described_name(own);
-        if (std::ranges::find(arguments.conditions, own.name) != arguments.conditions.end()) {
+        if (experiment::takes_built_in_name(own))
             throw core::InputError(
                 {"--name", fmt::format("`{}` is a built-in condition", own.name), "", "Choose another name"});
-        }
-        chosen.push_back(own);
+        add_once(chosen, own);
     }
     return chosen;
 }
@@ -91,7 +102,7 @@ std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
     std::vector<experiment::ConditionSpec> all;
     for (const experiment::ConditionSpec& condition : chosen) {
         if (condition.traffic_model != experiment::TrafficModel::free_flow)
-            add_once(all, baseline_of(condition.traffic_model));
+            add_once(all, experiment::baseline_for(condition));
     }
     for (const experiment::ConditionSpec& condition : chosen) {
         add_once(all, condition);
@@ -168,7 +179,7 @@ void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
 
 void add_own_condition_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "A condition of your own (names: clearway list)";
-    add_condition_options(app, arguments->own, group);
+    add_condition_options(app, arguments->own, experiment::usual_condition, group);
     experiment::ConditionSpec& own = arguments->own.condition;
     add_switch(app, "--bluelight", own.bluelight,
                "SUMO's device.bluelight on every emergency vehicle, for comparison")

@@ -1,5 +1,7 @@
 #include "experiment/conditions.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -52,6 +54,12 @@ std::vector<BuiltInCondition> make_conditions() {
 const std::vector<BuiltInCondition>& built_in_conditions() {
     static const std::vector<BuiltInCondition> conditions = make_conditions();
     return conditions;
+}
+
+bool takes_built_in_name(const ConditionSpec& condition) {
+    return std::ranges::any_of(built_in_conditions(), [&](const BuiltInCondition& known) {
+        return known.condition.name == condition.name && known.condition != condition;
+    });
 }
 
 ConditionSpec built_in_condition(const std::string& name, const std::string& where) {

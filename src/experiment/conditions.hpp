@@ -20,6 +20,9 @@ inline constexpr const char* usual_condition = "corridor";
 /// controls `b10_no_repair` and `b10_dead_reckoning`, then `solo`, the practical floor.
 const std::vector<BuiltInCondition>& built_in_conditions();
 
+/// Whether a condition has the name of a built-in one and is another: tables would give it that one's title.
+bool takes_built_in_name(const ConditionSpec& condition);
+
 /// Throws core::InputError, saying `where`, for an unknown name; it suggests the nearest name.
 ConditionSpec built_in_condition(const std::string& name, const std::string& where);
 

@@ -9,6 +9,7 @@
 
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "experiment/conditions.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "sensing/failure_config.hpp"
@@ -177,6 +178,25 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
                  "COMPONENT.NAME, the component being one of " + core::listed(component_names()),
                  question(meant(name, component_names()))}};
     return known->table.check({{field, value}}, where + component + ".");
+}
+
+bool same_environment(const ConditionSpec& one, const ConditionSpec& other) {
+    return one.traffic_model == other.traffic_model &&
+           core::settings_of(one.settings, siren_name) == core::settings_of(other.settings, siren_name);
+}
+
+ConditionSpec baseline_for(const ConditionSpec& condition) {
+    ConditionSpec baseline = built_in_condition("baseline", "baseline");
+    if (same_environment(condition, baseline)) return baseline;
+    baseline.traffic_model = condition.traffic_model;
+    if (condition.traffic_model != TrafficModel::standard)
+        baseline.name += fmt::format("_{}", name(condition.traffic_model));
+    for (const auto& [setting, value] : condition.settings) {
+        if (!setting.starts_with(std::string(siren_name) + ".")) continue;
+        baseline.settings.emplace(setting, value);
+        baseline.name += core::as_folder_name(fmt::format("_{}_{}", parted(setting).second, value));
+    }
+    return baseline;
 }
 
 bool reads_links(const ConditionSpec& condition) {

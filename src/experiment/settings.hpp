@@ -40,6 +40,14 @@ std::string checked_model(const ConditionSpec& condition);
 /// Whether a policy of the condition acts on believed links, and not on believed places alone.
 bool reads_links(const ConditionSpec& condition);
 
+/// Whether two conditions have the same traffic model and the same settings of human drivers, `siren.*`: one
+/// of them can then be the other's baseline, because only the policy and what it needs differ.
+bool same_environment(const ConditionSpec& one, const ConditionSpec& other);
+
+/// The baseline of a condition: the car-following model alone, in the same environment. It is the built-in
+/// `baseline` where nothing of the environment is set.
+ConditionSpec baseline_for(const ConditionSpec& condition);
+
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
 /// condition does not have, a value of the wrong type or out of range, a model that its predictor does not
 /// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves

@@ -184,6 +184,12 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
     }
 }
 
+std::string unpaired_line(const analysis::Unpaired& lost) {
+    std::string where = printable(lost.scenario);
+    if (!lost.condition.empty()) where += "/" + printable(lost.condition);
+    return fmt::format("Not paired: {}{}{}\n", where, where.empty() ? "" : ": ", lost.why);
+}
+
 /// The lines before the tables.
 std::string objections_text(const ScenarioSummary& scenario) {
     std::string text;
@@ -207,14 +213,19 @@ std::string objections_text(const ScenarioSummary& scenario) {
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
                                   const std::vector<Tolerance>& tolerances) {
     std::vector<Shortfall> found;
+    if (!tolerances.empty()) {
+        for (const analysis::Unpaired& lost : summary.unpaired)
+            found.push_back({lost.scenario, lost.condition, "runs", lost.why});
+    }
     for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
         if (!tolerances.empty()) add_objections(scenario, condition, found);
         for (const Tolerance& tolerance : tolerances) {
             const analysis::MetricSummary& metric = condition.metric(tolerance.metric);
             const auto& difference = metric.comparison->difference;
             std::string why;
-            if (!difference || !difference->interval) {
-                why = "there is no interval: fewer than two complete pairs";
+            if (!difference || !difference->interval || difference->n < analysis::fewest_for_interval) {
+                why = fmt::format("too few seeds: {} complete pairs, {} are needed",
+                                  metric.comparison->complete_pairs, analysis::fewest_for_interval);
             } else {
                 const bool inverted = more_is_better(tolerance.metric);
                 const double worst = inverted ? -difference->interval->low : difference->interval->high;
@@ -257,6 +268,8 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
             fmt::format_to(out, "{:-<{}}\n{}\n", "", page_width, rows);
         }
     }
+    for (const analysis::Unpaired& lost : summary.unpaired)
+        text += unpaired_line(lost);
     if (any_few)
         text += fmt::format("too few seeds: fewer than {} complete pairs give no interval; see --seeds.\n",
                             analysis::fewest_for_interval);
@@ -288,7 +301,12 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                          {"condition", one.condition},
                          {"metric", one.metric},
                          {"why", one.why}});
-    const Json result = {{"comparisons", std::move(comparisons)}, {"short_of_tolerance", std::move(gates)}};
+    Json unpaired = Json::array();
+    for (const analysis::Unpaired& lost : summary.unpaired)
+        unpaired.push_back({{"scenario", lost.scenario}, {"condition", lost.condition}, {"why", lost.why}});
+    const Json result = {{"comparisons", std::move(comparisons)},
+                         {"unpaired", std::move(unpaired)},
+                         {"short_of_tolerance", std::move(gates)}};
     return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

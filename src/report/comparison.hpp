@@ -17,18 +17,19 @@ struct Tolerance {
 struct Shortfall {
     std::string scenario;
     std::string condition;
-    std::string metric;  ///< Or `emergency vehicles`, `other vehicles` for an objection.
-    std::string why;     ///< `its interval reaches to +2.3 s`, `there is no interval`.
+    std::string metric;  ///< Or `runs`, or `emergency vehicles`, `other vehicles` for an objection.
+    std::string why;     ///< `its interval reaches to +2.3 s`, `too few seeds: ...`.
 };
 
 /// Whether higher values of a metric are better, as for arrivals and correct links. For most metrics lower
 /// values are.
 bool more_is_better(const std::string& metric);
 
-/// If there is any tolerance: first every objection against a condition, because no tolerance of a mean
-/// outweighs a lost emergency vehicle (see analysis::Objections). Then every comparison whose 95 % interval
-/// does not show that the condition is worse by at most the tolerance. A comparison without an interval falls
-/// short; pairs that are all equal have an interval. Throws std::out_of_range for an unknown metric.
+/// If there is any tolerance: first all runs that are not paired, because a condition that is not there
+/// cannot pass. Then every objection against a condition, because no tolerance of a mean outweighs a lost
+/// emergency vehicle (see analysis::Objections). Then every comparison whose 95 % interval does not show that
+/// the condition is worse by at most the tolerance. A comparison of fewer than five pairs falls short. Throws
+/// std::out_of_range for an unknown metric.
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary, const std::vector<Tolerance>& tolerances);
 
 /// The paired table of each scenario and metric for a terminal of 100 columns.

@@ -160,7 +160,11 @@ std::string lease_sentence(const ConditionFacts& condition) {
 }
 
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    std::string text = lead(scenario, condition, script);
+    std::string text;
+    if (!condition.failed.empty())
+        text = fmt::format("{} of {} runs failed; ", condition.failed.size(),
+                           condition.failed.size() + condition.runs + condition.missing_runs);
+    text += lead(scenario, condition, script);
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (condition.outcome(Measure::emergency_restricted_time).difference.has_interval()) {

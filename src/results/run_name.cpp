@@ -105,6 +105,11 @@ fs::path recording_named(const std::string& name, const std::string& where) {
             {where,
              fmt::format("{} has no recording {}", run_name(run.store.folder(), run.key), recording.string()),
              "a recorded run", "Repeat the command that made it, with --record"});
+    const experiment::RunKey held = trace::RecordingReader(recording).info().key;
+    if (held != run.key)
+        throw core::InputError(
+            {where, fmt::format("{} holds the run {}", recording.string(), experiment::to_text(held)),
+             experiment::to_text(run.key), "Make the recording again with --record"});
     return fs::absolute(recording).lexically_normal();
 }
 

@@ -237,6 +237,18 @@ std::vector<experiment::ConditionSpec> variants(const experiment::ConditionSpec&
     return varied;
 }
 
+/// A condition that has nothing to vary but its environment: one for each of the environments that the
+/// factors make, because a condition is compared with a baseline in its own.
+std::vector<experiment::ConditionSpec> baselines(const experiment::ConditionSpec& condition,
+                                                 const detail::Factors& factors) {
+    if (condition.traffic_model == experiment::TrafficModel::free_flow) return {condition};
+    detail::Factors environment{{}, factors.design};
+    std::ranges::copy_if(factors.list, std::back_inserter(environment.list), detail::is_environment);
+    std::set<const detail::Factor*> used;
+    Problems told;  // when other conditions are varied
+    return variants(condition, environment, used, told);
+}
+
 /// Replaces each condition that has a policy, a predictor or failing sensors with one condition per
 /// combination of the factors.
 void vary_conditions(const detail::Factors& factors, Problems& problems, StudyConfig& config) {
@@ -251,7 +263,8 @@ void vary_conditions(const detail::Factors& factors, Problems& problems, StudyCo
     std::set<const detail::Factor*> used;
     for (const experiment::ConditionSpec& condition : config.conditions) {
         if (!detail::is_varied(condition)) {
-            varied.push_back(condition);
+            const std::vector<experiment::ConditionSpec> own = baselines(condition, factors);
+            varied.insert(varied.end(), own.begin(), own.end());
             continue;
         }
         const std::vector<experiment::ConditionSpec> own = variants(condition, factors, used, problems);

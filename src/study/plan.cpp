@@ -9,6 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
+#include "experiment/conditions.hpp"
+#include "experiment/settings.hpp"
 #include "scenario/network.hpp"
 #include "study/detail/folder_lock.hpp"
 
@@ -30,11 +32,21 @@ void check_name(const std::string& what, const std::string& name, std::set<std::
         problems.push_back({what, fmt::format("\"{}\" is used twice", name), "each name once", "Rename one"});
 }
 
+void check_condition_name(const experiment::ConditionSpec& condition, std::set<std::string>& seen,
+                          std::vector<core::Problem>& problems) {
+    check_name("condition", condition.name, seen, problems);
+    if (experiment::takes_built_in_name(condition))
+        problems.push_back(
+            {"condition",
+             fmt::format("\"{}\" is the name of a built-in condition, and this is another", condition.name),
+             "any other name", "Rename it"});
+}
+
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
     for (const experiment::ConditionSpec& condition : config.conditions) {
         if (condition.traffic_model == TrafficModel::free_flow || !condition.acts()) continue;
         const auto is_baseline = [&](const experiment::ConditionSpec& other) {
-            return other.traffic_model == condition.traffic_model && !other.acts();
+            return !other.acts() && experiment::same_environment(other, condition);
         };
         if (std::ranges::any_of(config.conditions, is_baseline)) continue;
         problems.push_back({"condition " + condition.name,
@@ -52,12 +64,14 @@ void check(const StudyConfig& config) {
     if (config.scenarios.empty()) problems.push_back({"study", "has no scenario", "", "Name at least one"});
     if (config.conditions.empty()) problems.push_back({"study", "has no condition", "", "Name at least one"});
     if (config.replications == 0) problems.push_back({"replications", "0 is out of range", "1 or more", ""});
+    std::set<std::string> studies;
+    check_name("study", config.name, studies, problems);
     std::set<std::string> scenarios;
     for (const scenario::ScenarioConfig& scenario : config.scenarios)
         check_name("scenario", scenario.name, scenarios, problems);
     std::set<std::string> conditions;
     for (const experiment::ConditionSpec& condition : config.conditions)
-        check_name("condition", condition.name, conditions, problems);
+        check_condition_name(condition, conditions, problems);
     check_baselines(config, problems);
     if (!problems.empty()) throw core::InputError(problems);
 }

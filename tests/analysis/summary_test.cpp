@@ -216,7 +216,7 @@ TEST_F(SmallStudy, CountsPairsThatAFailureOrAStrandedVehicleBreaks) {
     std::erase_if(results_.runs, [](const RunRecord& run) {
         return run.key.condition == "treated" && run.key.replication == 1;
     });
-    results_.failures.push_back(results::synthetic::failure({"alpha", "treated", 1}));
+    results_.errors.push_back(results::synthetic::error({"alpha", "treated", 1}));
     for (RunRecord& run : results_.runs) {
         if (run.key.condition != "treated" || run.key.replication != 2) continue;
         run.vehicles[0].outcome = VehicleOutcome::teleported;
@@ -291,7 +291,14 @@ TEST_F(SmallStudy, PairsTheSameUnitsOfTwoStudies) {
     }
     std::erase_if(second.runs, [](const RunRecord& run) { return run.key.replication == 3; });
     std::erase_if(second.manifest.conditions, [](const auto& one) { return one.name == "other"; });
-    const ScenarioSummary summary = compare_studies(results_, second).scenarios.at(0);
+    const Summary both = compare_studies(results_, second);
+    std::vector<std::string> unpaired;
+    for (const Unpaired& lost : both.unpaired)
+        unpaired.push_back(lost.condition + ": " + lost.why);
+    EXPECT_THAT(unpaired, testing::Contains("other: is only in the first folder"));
+    EXPECT_THAT(unpaired,
+                testing::Contains("baseline: 1 of 4 runs failed or are missing in the second folder"));
+    const ScenarioSummary& summary = both.scenarios.at(0);
     EXPECT_EQ(summary.conditions.size(), 3U);
     const Comparison& comparison = *summary.find("baseline")->metric("emergency_travel_time_s").comparison;
     EXPECT_EQ(comparison.complete_pairs, 3U);

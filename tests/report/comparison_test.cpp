@@ -60,7 +60,32 @@ TEST(Shortfalls, IncludeWhatHasNoInterval) {
         metric.comparison->difference.reset();
     const auto found = shortfalls(summary, {{"collisions", 100.0}});
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].why, HasSubstr("no interval"));
+    EXPECT_THAT(found[0].why, HasSubstr("too few seeds: 18 complete pairs, 5 are needed"));
+}
+
+TEST(Shortfalls, IncludeTooFewPairsHoweverGoodTheyAre) {
+    analysis::Summary summary = summary_with(-5.0);
+    for (analysis::MetricSummary& metric : summary.scenarios[0].conditions[1].metrics) {
+        metric.comparison->complete_pairs = 4;
+        metric.comparison->difference->n = 4;
+    }
+    const auto found = shortfalls(summary, {{"collisions", 100.0}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].why, HasSubstr("too few seeds: 4 complete pairs"));
+}
+
+TEST(Shortfalls, IncludeRunsThatAreNotThere) {
+    analysis::Summary summary = summary_with(-5.0);
+    summary.unpaired = {{"city", "gone", "is only in the first folder"}};
+    EXPECT_THAT(shortfalls(summary, {}), IsEmpty()) << "no gate was asked for";
+    const auto found = shortfalls(summary, {{"collisions", 100.0}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].condition, "gone");
+    EXPECT_EQ(found[0].metric, "runs");
+    EXPECT_THAT(comparison_text(summary, {"collisions"}),
+                HasSubstr("Not paired: city/gone: is only in the first folder\n"));
+    const auto json = nlohmann::json::parse(comparison_json(summary, {"collisions"}, found));
+    EXPECT_EQ(json["unpaired"][0]["condition"], "gone");
 }
 
 TEST(Shortfalls, IncludeLostEmergencyVehiclesHoweverGoodTheMeanOfTheRest) {

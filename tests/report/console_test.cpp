@@ -92,7 +92,7 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
     empty.failed = {{0, "simulator: no route"}, {1, "simulator: no route"}};
     study.scenarios[0].conditions[1] = empty;
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, HasSubstr("broken: no verdict: no complete pair of runs."));
+    EXPECT_THAT(text, HasSubstr("broken: 2 of 2 runs failed; no verdict: no complete pair of runs."));
     EXPECT_THAT(text, HasSubstr("Failed: broken: 2 runs of 2"));
     EXPECT_THAT(text, Not(HasSubstr("nan")));
 }

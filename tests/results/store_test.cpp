@@ -18,7 +18,7 @@
 namespace clearway::results {
 namespace {
 
-using synthetic::failure;
+using synthetic::error;
 using synthetic::record;
 
 const experiment::RunKey key{"alpha", "baseline", 1};

@@ -21,7 +21,7 @@ class TableReader : public testing::Test {
   protected:
     TableReader() : store(Store::create(folder.path(), synthetic::manifest())) {
         store.write(synthetic::record({"alpha", "baseline", 0}), {});
-        store.write(synthetic::failure({"alpha", "treated", 0}));
+        store.write(synthetic::error({"alpha", "treated", 0}));
         write_tables(store, read_results(store));
     }
     std::string printed(const std::string& table, TableFormat format) const {
@@ -84,7 +84,7 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
     store.write(synthetic::record({"alpha", "baseline", 1}), {});
     EXPECT_FALSE(tables_are_current(store));
     write_tables(store, read_results(store));
-    store.write(synthetic::failure({"beta", "treated", 1}));
+    store.write(synthetic::error({"beta", "treated", 1}));
     EXPECT_FALSE(tables_are_current(store));
     std::filesystem::remove(folder.path() / "results.sqlite");
     EXPECT_FALSE(tables_are_current(store));

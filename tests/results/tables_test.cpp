@@ -19,7 +19,7 @@ using synthetic::record;
 void fill(const Store& store, std::vector<experiment::RunKey> keys) {
     for (const experiment::RunKey& key : keys)
         store.write(record(key), {});
-    store.write(synthetic::failure({"alpha", "treated", 0}));
+    store.write(synthetic::error({"alpha", "treated", 0}));
 }
 
 const std::vector<experiment::RunKey> keys = {

@@ -32,9 +32,12 @@ void add_jobs_option(CLI::App& app, unsigned& jobs) {
         ->option_text(fmt::format("N, 0 to 4096 [{}]", jobs));
 }
 
-void add_seed_option(CLI::App& app, std::uint64_t& seed) {
-    app.add_option("--seed", seed, "Study seed: equal seeds, equal results")
-        ->option_text(fmt::format("N, 0 to 2^64-1 [{}]", seed));
+CLI::Option* add_seed_option(CLI::App& app, std::uint64_t& seed) {
+    constexpr std::int64_t greatest =
+        std::numeric_limits<std::int64_t>::max();  // the greatest that TOML can write
+    return app.add_option("--seed", seed, "Study seed: equal seeds, equal results")
+        ->check(CLI::Range(std::int64_t{0}, greatest))
+        ->option_text(fmt::format("N, 0 to 2^63-1 [{}]", seed));
 }
 
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {

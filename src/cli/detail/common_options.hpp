@@ -26,7 +26,7 @@ void add_record_option(CLI::App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at a time, 0 for one per core.
 void add_jobs_option(CLI::App& app, unsigned& jobs);
 /// Declares `--seed`: the study seed, from which every random number of every replication follows.
-void add_seed_option(CLI::App& app, std::uint64_t& seed);
+CLI::Option* add_seed_option(CLI::App& app, std::uint64_t& seed);
 /// Declares `--seeds`: number of replications; the help shows the current value as the default.
 CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 

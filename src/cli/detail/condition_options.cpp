@@ -1,5 +1,7 @@
 #include "cli/detail/condition_options.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -7,11 +9,12 @@
 
 namespace clearway::cli {
 
-void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& group) {
+void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy,
+                           const std::string& group) {
     experiment::ConditionSpec& condition = described.condition;
     app.add_option("--policy", condition.policies,
                    "Policies, in this order; none: the car-following model alone")
-        ->option_text("NAME ... [none]")
+        ->option_text("NAME ... [" + usual_policy + "]")
         ->group(group);
     app.add_option("--failure", condition.failure, "How sensors fail")
         ->option_text("NAME [perfect]")
@@ -46,10 +49,13 @@ std::pair<std::string, std::string> assignment(const std::string& option, const 
 void apply_settings(const std::vector<std::string>& settings, const std::string& model,
                     experiment::ConditionSpec& condition) {
     std::vector<core::Problem> problems;
+    std::set<std::string> seen;
     for (const std::string& words : settings) {
         const auto [name, value] = assignment("--set", words);
         const std::vector<core::Problem> found = experiment::check_setting(name, value, "--set ");
         problems.insert(problems.end(), found.begin(), found.end());
+        if (!seen.insert(name).second)
+            problems.push_back({"--set " + name, "is given twice", "each setting once", "Remove one"});
         experiment::set(condition, name, value);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
@@ -58,6 +64,7 @@ void apply_settings(const std::vector<std::string>& settings, const std::string&
 
 experiment::ConditionSpec condition_of(const DescribedCondition& described) {
     experiment::ConditionSpec condition = described.condition;
+    if (condition.policies == std::vector<std::string>{"none"}) condition.policies.clear();
     apply_settings(described.settings, described.model, condition);
     return condition;
 }

@@ -18,8 +18,9 @@ struct DescribedCondition {
 };
 
 /// Declares `--policy`, `--failure`, `--predictor`, `--set`, `--model` and `--safety-checks` in a group of
-/// the help. Names are checked later (names.hpp).
-void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& group);
+/// the help. Names are checked later (names.hpp). `usual_policy` is the default that the help shows.
+void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy,
+                           const std::string& group);
 
 /// Declares only `--set` and `--model`; `usual` is the default that the help shows for `--model`.
 void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
@@ -33,7 +34,7 @@ std::pair<std::string, std::string> assignment(const std::string& option, const 
 void apply_settings(const std::vector<std::string>& settings, const std::string& model,
                     experiment::ConditionSpec& condition);
 
-/// The condition with its settings and model. Throws as apply_settings does.
+/// The condition with its settings and model; the policy `none` is no policy. Throws as apply_settings does.
 experiment::ConditionSpec condition_of(const DescribedCondition& described);
 
 /// Declares an option that is `on` or `off`; returns it for its group and text.

@@ -1,6 +1,7 @@
 #include "study/detail/factors.hpp"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -99,6 +100,9 @@ void read_several(const toml::node& node, const std::string& file, std::vector<F
     for (const toml::node& element : *list) {
         FactorValue value;
         value.settings = read_settings(*element.as_table(), file, problems);
+        if (element.as_table()->empty())
+            problems.push_back({factor.where, "sets nothing", R"({ "COMPONENT.NAME" = VALUE, ... })",
+                                "The condition as it is runs too under design = \"one_at_a_time\""});
         for (const auto& [name, text] : value.settings)
             value.text += (value.text.empty() ? "" : ".") + last_part(name) + "_" + text;
         factor.values.push_back(std::move(value));
@@ -129,6 +133,40 @@ void read_group(const toml::table& table, const std::string& file, const std::st
             problems.push_back({factor.where, "is not a list", "a list of values, [0.1, 0.3]", ""});
         }
     }
+}
+
+/// Every setting, key of a condition or key of a scenario may be varied by one factor alone, because columns
+/// and names could not say which value ran.
+void check_repeated(const std::vector<Factor>& factors, Problems& problems) {
+    std::set<std::string> seen;
+    for (const Factor& factor : factors) {
+        std::set<std::string> names;
+        if (factor.group == several) {
+            for (const FactorValue& value : factor.values) {
+                for (const auto& [name, text] : value.settings)
+                    names.insert(name);
+            }
+        } else {
+            names.insert(factor.group + "." + factor.key);
+        }
+        for (const std::string& name : names) {
+            if (!seen.insert(name).second)
+                problems.push_back({factor.where, fmt::format("{} is varied by another factor too", name),
+                                    "one factor for each", "Remove one of them"});
+        }
+    }
+}
+
+/// One at a time, a scenario and a condition would still be varied together.
+void check_design(const Factors& factors, Problems& problems) {
+    const auto of_scenarios = [](const Factor& factor) { return factor.group == "scenario"; };
+    const auto first = std::ranges::find_if(factors.list, of_scenarios);
+    const bool mixed = first != factors.list.end() && !std::ranges::all_of(factors.list, of_scenarios);
+    if (factors.design == Design::one_at_a_time && mixed)
+        problems.push_back(
+            {first->where, "cannot be varied one at a time beside settings of conditions",
+             "factors of scenarios or of conditions, because every condition runs in every scenario",
+             "Use two study files, or design = \"all_combinations\""});
 }
 
 void check_names(const std::vector<Factor>& factors, Problems& problems) {
@@ -170,20 +208,24 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
         set_word(factor, value, core::value_from<traffic::SafetyChecks>, condition.safety_checks, problems);
 }
 
-}  // namespace
-
 /// Reads `"preempt_signals.lead_s" = [4, 8]`, a setting with its full name in quotes. Returns whether `name`
 /// is one.
 bool read_quoted(const std::string& name, const toml::node& node, const std::string& file,
                  std::vector<Factor>& factors, Problems& problems) {
     const std::size_t dot = name.find('.');
-    if (dot == std::string::npos || !node.is_array()) return false;
+    if (dot == std::string::npos) return false;
     const std::string group = name.substr(0, dot);
     if (std::ranges::find(groups(), group) == groups().end()) return false;
-    read_list(*node.as_array(), {group, name.substr(dot + 1), place(node, file, name), {}}, factors,
-              problems);
+    const std::string where = place(node, file, name);
+    if (const toml::array* const list = node.as_array()) {
+        read_list(*list, {group, name.substr(dot + 1), where, {}}, factors, problems);
+    } else {
+        problems.push_back({where, "is not a list", "a list of values, [0.1, 0.3]", ""});
+    }
     return true;
 }
+
+}  // namespace
 
 Factors read_factors(const toml::table& table, const std::string& file, Problems& problems) {
     Factors factors;
@@ -210,6 +252,8 @@ Factors read_factors(const toml::table& table, const std::string& file, Problems
         }
     }
     check_names(factors.list, problems);
+    check_repeated(factors.list, problems);
+    check_design(factors, problems);
     return factors;
 }
 
@@ -269,8 +313,10 @@ Assignment concerning(const experiment::ConditionSpec& condition, const Assignme
 
 core::Settings factors_of(const Assignment& assignment) {
     core::Settings factors;
-    for (const auto& [factor, value] : assignment)
-        factors[factor->group + "." + factor->key] = value->text;
+    for (const auto& [factor, value] : assignment) {
+        if (value->settings.empty()) factors[factor->group + "." + factor->key] = value->text;
+        factors.insert(value->settings.begin(), value->settings.end());
+    }
     return factors;
 }
 
@@ -288,6 +334,10 @@ experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assign
             experiment::set(condition, name, text);
     }
     return condition;
+}
+
+bool is_environment(const Factor& factor) {
+    return factor.group == "siren";
 }
 
 bool is_varied(const experiment::ConditionSpec& condition) {

@@ -32,7 +32,8 @@ void read_table(const toml::table& table, const std::string& prefix, const Readi
         }
         const Problems found = experiment::check_setting(name, *text, where);
         reading.problems.insert(reading.problems.end(), found.begin(), found.end());
-        reading.settings.insert_or_assign(name, *text);
+        if (!reading.settings.emplace(name, *text).second)
+            reading.problems.push_back({where + name, "is set twice", "each setting once", "Remove one"});
     }
 }
 
