@@ -130,7 +130,7 @@ TEST_F(Merge, PrefersARecordToAFailureOfTheSameRun) {
     const RunKey done{"alpha", "baseline", 0};
     const RunKey failed{"alpha", "baseline", 1};
     for (const RunKey& key : {done, failed})
-        store("a").write(results::synthetic::failure(key));
+        store("a").write(results::synthetic::error(key));
     store("b").write(results::synthetic::record(done), {});
     const MergeResult result = merge_into("out", {place("b"), place("a")});
     EXPECT_EQ(result.counts.complete, 1U);
@@ -157,7 +157,7 @@ TEST_F(Status, CountsRunsByCellInAnyState) {
     const Store shared = store("out");
     EXPECT_EQ(read_status(place("out")).state, State::stopped);
     shared.write(results::synthetic::record({"alpha", "treated", 0}), {});
-    shared.write(results::synthetic::failure({"alpha", "treated", 1}));
+    shared.write(results::synthetic::error({"alpha", "treated", 1}));
     const StudyStatus part = read_status(place("out"));
     EXPECT_EQ(part.runs, 20U);
     EXPECT_EQ(part.complete, 1U);
