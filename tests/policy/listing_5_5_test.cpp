@@ -102,7 +102,9 @@ TEST(Listing55, needs_enough_edges) {
         10 m per cell, limit 20 m/s, speed 10 m/s
         ..e..a.............
     )");
-    policy::Listing55 policy({road.scene.network()}, {.min_edges = 2});
+    policy::Listing55Config config;
+    config.min_edges = 2;
+    policy::Listing55 policy({road.scene.network()}, config);
     EXPECT_TRUE(road.act(policy).empty());
 }
 

@@ -55,8 +55,8 @@ LinkFacts sample(const std::string& odd = "city") {
         facts.results.push_back(result_of(predictor, "", 0.95));
         facts.results.push_back(result_of(predictor, odd, 0.9));
     }
-    facts.gains.push_back(
-        {"B10", "known", "graphsage", "route_rule", measured(0.05), measured(0.65), measured(0.33)});
+    facts.gains.push_back({"B10", links::Exits::known, "graphsage", "route_rule", measured(0.05),
+                           measured(0.65), measured(0.33)});
     return facts;
 }
 

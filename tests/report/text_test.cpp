@@ -38,7 +38,7 @@ TEST(Number, never_prints_a_signed_zero_or_nan) {
 TEST(EstimateText, shows_the_interval_only_where_there_is_one) {
     EXPECT_EQ(estimate({8.0, 6.5, 9.5, 20}, {}), "8.0 [6.5, 9.5]");
     EXPECT_EQ(estimate({8.0, std::nullopt, std::nullopt, 1}, {}), "8.0");
-    EXPECT_EQ(estimate({}, {}), "-");
+    EXPECT_EQ(estimate(Estimate{}, {}), "-");
     EXPECT_EQ(estimate({0.41, 0.28, 0.54, 20}, {.decimals = 0}, 100.0), "41 [28, 54]");
 }
 
