@@ -170,7 +170,7 @@ TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
 }
 
 TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
-    store_.write(failure(key));
+    store_.write(error(key));
     std::filesystem::resize_file(store_.folder() / "errors" / "alpha" / "baseline" / "00001.json", 9);
     EXPECT_THROW(store_.read_error(key), core::InputError);
     const std::vector<SetAside> moved = store_.set_damaged_aside({key});
@@ -180,12 +180,12 @@ TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
 }
 
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
-    store_.write(failure(key));
-    EXPECT_EQ(*store_.read_error(key), failure(key));
+    store_.write(error(key));
+    EXPECT_EQ(*store_.read_error(key), error(key));
     EXPECT_FALSE(store_.complete(key));
     store_.write(record(key), {});
     EXPECT_FALSE(store_.read_error(key));
-    store_.write(failure(key));
+    store_.write(error(key));
     EXPECT_FALSE(store_.read_error(key)) << "a complete run cannot fail afterwards";
 }
 
