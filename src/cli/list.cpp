@@ -132,7 +132,7 @@ void print_text(const std::vector<Section>& sections) {
     for (const Section& section : sections) {
         fmt::print("{}{}\n", gap, section.title);
         for (const Entry& entry : section.entries) {
-            fmt::print("  {:22} {}\n", entry.name, entry.summary);
+            fmt::print("  {:28} {}\n", entry.name, entry.summary);
         }
         gap = "\n";
     }

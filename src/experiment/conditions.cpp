@@ -40,8 +40,14 @@ std::vector<BuiltInCondition> make_conditions() {
         with_policy(
             "graph_simulation", "perfect", "none",
             "The dissertation's policy on the graph from simulation attributes, with perfect sensing"),
-        with_policy("graph_graphsage", usual_failure, "graphsage_corrected",
-                    "The dissertation's policy on the graph that GraphSAGE rebuilds under B10 failures"),
+        with_policy(
+            "graph_graphsage", usual_failure, "graphsage_corrected",
+            "The dissertation's policy on the graph that GraphSAGE rebuilds under B10 failures: its net "
+            "with corrected inputs"),
+        with_policy("graph_graphsage_improved", usual_failure, "graphsage",
+                    "The same with the improved net, `graphsage`"),
+        with_policy("graph_graphsage_as_published", usual_failure, "graphsage_as_published",
+                    "The same with the dissertation's net as published"),
         with_policy("b10_no_repair", usual_failure, "none", "Control: the same failures without repair"),
         with_policy("b10_dead_reckoning", usual_failure, "dead_reckoning",
                     "Control: the same failures repaired by dead reckoning"),

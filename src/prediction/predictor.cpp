@@ -19,6 +19,7 @@ namespace {
 
 struct Registration {
     const char* name = nullptr;
+    const char* title = nullptr;
     const char* summary = nullptr;
     core::SettingsTable (*table)() = nullptr;
     std::unique_ptr<Predictor> (*make)(PredictorContext, const core::Settings&) = nullptr;
@@ -31,9 +32,12 @@ struct NoSettings {
 
 /// A predictor whose own settings are a `Config`.
 template <auto make, class Config = NoSettings>
-constexpr Registration registered(const char* name, const char* summary,
+constexpr Registration registered(const char* name, const char* title, const char* summary,
                                   void (*check_model)(const Weights&) = nullptr) {
-    return {name, summary, core::settings_table<PredictionConfig, Config>,
+    return {name,
+            title,
+            summary,
+            core::settings_table<PredictionConfig, Config>,
             [](PredictorContext context, const core::Settings& settings) {
                 Config own;
                 core::set_all(settings, "predictor ", context.config, own);
@@ -47,26 +51,31 @@ constexpr Registration registered(const char* name, const char* summary,
 }
 
 constexpr Registration registry[] = {
-    registered<make_no_repair>("none", "no repair: only vehicles whose newest report arrived"),
-    registered<make_last_seen, LastSeenConfig>("last_seen", "vehicles stay where they were last seen"),
+    registered<make_no_repair>("none", "no repair", "no repair: only vehicles whose newest report arrived"),
+    registered<make_last_seen, LastSeenConfig>("last_seen", "last seen",
+                                               "vehicles stay where they were last seen"),
     registered<make_dead_reckoning, DeadReckoningConfig>(
-        "dead_reckoning", "vehicles go on at their reported speed along their route"),
+        "dead_reckoning", "dead reckoning", "vehicles go on at their reported speed along their route"),
     registered<make_dead_reckoning_heading, DeadReckoningConfig>(
-        "dead_reckoning_heading", "vehicles go straight on by heading and speed"),
+        "dead_reckoning_heading", "dead reckoning by heading",
+        "vehicles go straight on by heading and speed"),
     registered<make_kalman, KalmanConfig>(
-        "kalman", "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances"),
+        "kalman", "Kalman filter",
+        "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances"),
     registered<make_route_rule, RouteRuleConfig>(
-        "route_rule", "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+        "route_rule", "route rule",
+        "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
     registered<make_common_neighbours, CommonNeighboursConfig>(
-        "common_neighbours", "links by the number of vehicles near both when last seen"),
-    registered<make_logistic>("logistic", "logistic regression on distances, ages and speeds of a pair",
-                              check_logistic),
-    registered<make_graphsage_as_published>(
-        "graphsage_as_published", "the dissertation's net on raw coordinates", check_graphsage_as_published),
-    registered<make_graphsage_corrected>("graphsage_corrected",
+        "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen"),
+    registered<make_logistic>("logistic", "logistic regression",
+                              "logistic regression on distances, ages and speeds of a pair", check_logistic),
+    registered<make_graphsage_as_published>("graphsage_as_published", "GraphSAGE, as published",
+                                            "the dissertation's net on raw coordinates",
+                                            check_graphsage_as_published),
+    registered<make_graphsage_corrected>("graphsage_corrected", "GraphSAGE, corrected inputs",
                                          "the same architecture on inputs that carry distance and age",
                                          check_graphsage_corrected),
-    registered<make_graphsage>("graphsage",
+    registered<make_graphsage>("graphsage", "GraphSAGE, improved",
                                "the improved net: messages in route frames, motion head, calibrated links",
                                check_graphsage),
 };
@@ -87,7 +96,7 @@ const Registration& registration_of(const std::string& name) {
 std::vector<PredictorEntry> predictors() {
     std::vector<PredictorEntry> entries;
     for (const Registration& registration : registry) {
-        entries.push_back({registration.name, registration.summary});
+        entries.push_back({registration.name, registration.title, registration.summary});
     }
     return entries;
 }
@@ -98,6 +107,10 @@ std::vector<std::string> predictor_names() {
         names.emplace_back(registration.name);
     }
     return names;
+}
+
+std::string title_of(const std::string& name) {
+    return registration_of(name).title;
 }
 
 core::SettingsTable settings_of(const std::string& name) {

@@ -65,12 +65,15 @@ struct PredictorContext {
 /// A predictor that can be asked for by name.
 struct PredictorEntry {
     std::string name;
+    std::string title;    ///< What tables call it, as in mid-sentence: `GraphSAGE, corrected inputs`.
     std::string summary;  ///< A line for listings.
 };
 /// In the order of the documentation.
 std::vector<PredictorEntry> predictors();
 /// Their names alone.
 std::vector<std::string> predictor_names();
+/// The title of the predictor `name`; throws core::InputError for an unknown name.
+std::string title_of(const std::string& name);
 
 /// Settings that the predictor `name` may have: those that all predictors share, and its own (the field
 /// tables of the predictors' headers). Throws core::InputError for an unknown name.

@@ -258,8 +258,8 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     append_head(scenario, text);
     append_verdicts(scenario, text);
     append_runs(scenario, text);
-    if (const auto table = published_table(scenario.published_as)) {
-        text += fmt::format("\n{}\n", table->caption);
+    if (const std::string caption = published_caption(scenario); !caption.empty()) {
+        text += fmt::format("\n{}\n", printable(caption));
         append_published_table(scenario, text);
     }
     append_measures(scenario, tables, text);
@@ -305,7 +305,7 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(
             "published: the dissertation's number, one unseeded run on a network of its own; not a result of "
-            "this study.",
+            "this study. Its one row of GraphSAGE stands beside two: as published and corrected inputs.",
             text);
     if (tables == Tables::essential)
         append_wrapped("All measures, medians and tails: --tables, or report.html.", text);

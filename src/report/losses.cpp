@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/predictor.hpp"
 #include "report/read_facts.hpp"
 #include "report/text.hpp"
 
@@ -69,9 +70,14 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
             core::Problem{file.string(), "is not a JSON object", "", "Train again with clearway train."});
     }
     const std::string pairs = text_of(summary, "pairs");
-    if (text_of(summary, "mode") == "corrected") curve.title = "Corrected, validated on unseen seeds";
-    if (pairs == "true-links") curve.title = "As published, list of true links only";
-    if (pairs == "candidates") curve.title = "As published, list of candidate pairs";
+    const std::string mode = text_of(summary, "mode");
+    const auto named = [](const char* predictor, const char* data) {
+        return fmt::format("{}; {}", prediction::title_of(predictor), data);
+    };
+    if (mode == "graphsage") curve.title = named("graphsage", "validated on unseen seeds");
+    if (mode == "corrected") curve.title = named("graphsage_corrected", "validated on unseen seeds");
+    if (pairs == "true-links") curve.title = named("graphsage_as_published", "list of true links only");
+    if (pairs == "candidates") curve.title = named("graphsage_as_published", "list of candidate pairs");
     curve.constant_loss = number_of(summary, "constant_test_loss_nat");
     if (curve.constant_loss && !curve.held_out.empty()) {
         curve.note = fmt::format("Loss of the best constant answer on the test pairs: {}.",

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <fmt/format.h>
+
 namespace clearway::report {
 namespace {
 
@@ -41,10 +43,20 @@ std::optional<PublishedTable> published_table(std::string_view scenario) {
     return std::nullopt;
 }
 
+std::string published_caption(const ScenarioFacts& scenario) {
+    const auto table = published_table(scenario.published_as);
+    if (!table) return "";
+    const bool is_variant = scenario.name != scenario.published_as;
+    return is_variant ? fmt::format("{} (here: {})", table->caption, scenario.name)
+                      : std::string(table->caption);
+}
+
 std::optional<double> published_value(std::string_view scenario, std::string_view condition,
                                       Measure measure) {
+    const std::string_view published_row =
+        condition == "graph_graphsage_as_published" ? "graph_graphsage" : condition;
     for (const Row& row : dissertation_rows) {
-        if (row.scenario != scenario || row.condition != condition) continue;
+        if (row.scenario != scenario || row.condition != published_row) continue;
         switch (measure) {
             case Measure::emergency_waiting_time:
                 return row.emergency_waiting_time_s;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "report/facts.hpp"
@@ -18,8 +19,13 @@ struct PublishedTable {
 /// The table of a scenario; empty if the dissertation has none.
 std::optional<PublishedTable> published_table(std::string_view scenario);
 
+/// The caption of the table that belongs to `scenario`, with the scenario's own name if it is a variant;
+/// empty if the dissertation has none.
+std::string published_caption(const ScenarioFacts& scenario);
+
 /// The cell of a condition by its name (`baseline`, `graph_simulation`, `graph_graphsage`), s. Empty if the
-/// dissertation has none.
+/// dissertation has none. Its one row of GraphSAGE also belongs to `graph_graphsage_as_published`, because
+/// that is the net which it used.
 std::optional<double> published_value(std::string_view scenario, std::string_view condition, Measure measure);
 
 /// Whether the tables of the dissertation have this column.

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
+#include "prediction/predictor.hpp"
 #include "report/detail/safety_facts.hpp"
 #include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
@@ -24,18 +25,26 @@ namespace {
 namespace fs = std::filesystem;
 using ConditionKey = std::pair<std::string, std::string>;  // scenario, condition
 
-/// The dissertation's names for its three conditions, and Clearway's names for the controls.
-std::string title_of(const std::string& condition) {
+/// The dissertation's names for its conditions, and Clearway's names for the controls. A condition that
+/// repairs the graph is named after its predictor.
+std::string title_of(const experiment::ConditionSpec& condition) {
     static const std::map<std::string, std::string> titles = {
         {"baseline", "Baseline"},
         {"graph_simulation", "Graph made by simulation attributes"},
-        {"graph_graphsage", "Graph made by GraphSAGE"},
-        {"b10_no_repair", "Same failures, no repair"},
-        {"b10_dead_reckoning", "Same failures, dead reckoning"},
         {"solo", "Alone on the road, signals open"},
     };
-    const auto found = titles.find(condition);
-    return found == titles.end() ? condition : found->second;
+    if (const auto found = titles.find(condition.name); found != titles.end()) return found->second;
+    const std::string repair =
+        prediction::title_of(condition.predictor) + (condition.model_file.empty() ? "" : ", other weights");
+    if (condition.name.starts_with("graph_graphsage")) return repair;
+    if (condition.name == "b10_no_repair" || condition.name == "b10_dead_reckoning")
+        return "Same failures, " + repair;
+    return condition.name;
+}
+
+/// The scenario of the dissertation whose table a scenario of its study stands beside.
+std::string published_scenario(const std::string& scenario) {
+    return scenario == "merge_dense" ? "merge" : scenario;
 }
 
 std::string recipe_of(const experiment::ConditionSpec& condition) {
@@ -192,7 +201,7 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
                              double level, double least_relevant_s) {
     ScenarioFacts facts;
     facts.name = summary.scenario;
-    if (manifest.study == "dissertation") facts.published_as = summary.scenario;
+    if (manifest.study == "dissertation") facts.published_as = published_scenario(summary.scenario);
     facts.title = summary.title;
     facts.replications = manifest.replications;
     facts.least_relevant_s = least_relevant_s;
@@ -200,7 +209,7 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
     for (const analysis::ConditionSummary& one : summary.conditions) {
         ConditionFacts condition;
         condition.name = one.condition.name;
-        condition.title = title_of(condition.name);
+        condition.title = title_of(one.condition);
         condition.recipe = recipe_of(one.condition);
         condition.factors = factors.settings(summary.scenario, condition.name);
         condition.safety_checks_off = one.condition.safety_checks == traffic::SafetyChecks::off;

@@ -358,16 +358,18 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
     config.seed = seed;
     config.replications = replications;
     Problems problems;
-    for (const char* name : {"merge", "intersection", "city"}) {
-        try {
-            config.scenarios.push_back(scenario::load(name, options));
-        } catch (const core::InputError& error) {
-            append(problems, error);
-        }
+    add_scenario("merge", options, "", problems, config);
+    // Where nobody waits, TABLE II is all zeros; in the dense merge there is something to gain.
+    if (options.variant == scenario::Variant::standard) {
+        scenario::Options dense = options;
+        dense.variant = scenario::Variant::dense;
+        add_scenario("merge", dense, "_dense", problems, config);
     }
+    for (const char* name : {"intersection", "city"})
+        add_scenario(name, options, "", problems, config);
     if (!problems.empty()) throw core::InputError(problems);
-    for (const char* name :
-         {"baseline", "graph_simulation", "graph_graphsage", "b10_no_repair", "b10_dead_reckoning", "solo"})
+    for (const char* name : {"baseline", "graph_simulation", "graph_graphsage", "graph_graphsage_improved",
+                             "graph_graphsage_as_published", "b10_no_repair", "b10_dead_reckoning", "solo"})
         config.conditions.push_back(experiment::built_in_condition(name, "conditions"));
     return config;
 }

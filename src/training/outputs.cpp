@@ -71,6 +71,7 @@ Identity identity_of(const CorrectedConfig& config, const RunDescription& run) {
 
 Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
     Json summary = detail::summary_start(identity_of(pairs, run), name(result.outcome), run.data);
+    summary["arithmetic"] = detail::json_from(arithmetic());
     summary["epochs_run"] = result.losses.size();
     summary["vehicle_count"] = result.dataset.vehicle_count();
     summary["feature_count"] = result.dataset.feature_count;
@@ -96,6 +97,7 @@ Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDesc
 
 Json summary_of(const CorrectedResult& result, const CorrectedConfig& config, const RunDescription& run) {
     Json summary = detail::summary_start(identity_of(config, run), name(result.outcome), run.data);
+    summary["arithmetic"] = detail::json_from(arithmetic());
     summary["epochs_run"] = result.losses.size();
     summary["seeds"] = json_from(result.seeds);
     summary["train_snapshot_count"] = result.train_snapshots;

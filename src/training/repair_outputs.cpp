@@ -51,6 +51,7 @@ Identity identity_of(const RepairConfig& config, const std::string& data_hash) {
 Json summary_of(const RepairResult& result, const RepairConfig& config, const std::filesystem::path& data,
                 const std::string& data_hash) {
     Json summary = detail::summary_start(identity_of(config, data_hash), name(result.outcome), data);
+    summary["arithmetic"] = detail::json_from(arithmetic());
     summary["parameter_count"] = result.parameter_count;
     summary["epochs_run"] = result.losses.size();
     summary["best_epoch"] = result.state.empty() ? Json(nullptr) : Json(result.best_epoch);

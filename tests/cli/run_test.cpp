@@ -225,7 +225,16 @@ TEST_F(RunTest, the_dissertations_tables_belong_to_reproduce) {
     const Ended reproduced = clearway({"reproduce", "--seeds", "1", "--out", "all"});
     ASSERT_EQ(reproduced.code, 0) << reproduced.err;
     EXPECT_THAT(reproduced.out,
-                AllOf(HasSubstr("TABLE II."), HasSubstr("TABLE IV."), HasSubstr("published")));
+                AllOf(HasSubstr("TABLE II. PERFORMANCE ON MERGE\n"), HasSubstr("(here: merge_dense)"),
+                      HasSubstr("TABLE IV."), HasSubstr("published")));
+    for (const char* const net :
+         {"GraphSAGE, corrected inputs", "GraphSAGE, improved", "GraphSAGE, as published"}) {
+        EXPECT_THAT(reproduced.out, HasSubstr(std::string("\n") + net + "  "));
+        EXPECT_THAT(read("all/report.html"), HasSubstr(net));
+    }
+    std::istringstream lines(reproduced.out);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 100U) << line;
 }
 
 TEST_F(RunTest, the_verdict_comes_first_and_long_tables_where_they_are_asked_for) {

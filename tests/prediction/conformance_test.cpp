@@ -1,6 +1,7 @@
 // What every predictor must do. A new one is tested by being registered.
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -194,11 +195,17 @@ TEST_P(EveryPredictor, PassesOnWhatIsKnownAnyway) {
 INSTANTIATE_TEST_SUITE_P(Registered, EveryPredictor, ::testing::ValuesIn(predictor_names()),
                          [](const auto& test) { return test.param; });
 
-TEST(Predictors, AreListedWithASummary) {
+TEST(Predictors, AreListedWithASummaryAndATitleOfTheirOwn) {
     EXPECT_EQ(predictors().size(), predictor_names().size());
+    std::set<std::string> titles;
     for (const PredictorEntry& entry : predictors()) {
         EXPECT_FALSE(entry.summary.empty()) << entry.name;
+        EXPECT_EQ(title_of(entry.name), entry.title);
+        EXPECT_FALSE(entry.title.empty()) << entry.name;
+        EXPECT_LE(entry.title.size(), 32U) << entry.name << ": tables of 100 columns have no more room";
+        EXPECT_TRUE(titles.insert(entry.title).second) << entry.title;
     }
+    EXPECT_THROW(title_of("graphsag"), core::InputError);
 }
 
 TEST(Predictors, NameTheNearestOfAnUnknownOne) {

@@ -64,7 +64,7 @@ TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
     EXPECT_THAT(text, HasSubstr("(!): the simulator's safety checks were off"));
-    EXPECT_THAT(text, HasSubstr("Failed: Graph made by GraphSAGE: 1 run of 21; first: replication 7"));
+    EXPECT_THAT(text, HasSubstr("Failed: GraphSAGE, corrected inputs: 1 run of 21; first: replication 7"));
 }
 
 TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {

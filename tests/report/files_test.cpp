@@ -36,7 +36,7 @@ TEST(Losses, are_shown_with_what_they_hide) {
     folder.write("summary.json",
                  R"({"pairs":"candidates","constant_test_loss_nat":0.6912,"test":{"auc":0.517,"ap":0.4}})");
     const LossCurve curve = read_losses(folder.path());
-    EXPECT_EQ(curve.title, "As published, list of candidate pairs");
+    EXPECT_EQ(curve.title, "GraphSAGE, as published; list of candidate pairs");
     EXPECT_EQ(curve.constant_loss, 0.6912);
     EXPECT_EQ(curve.note,
               "Loss of the best constant answer on the test pairs: 0.691. AUC on the test pairs: 0.52 "
@@ -55,7 +55,7 @@ TEST(Losses, of_a_corrected_training_are_named_so) {
     const support::TemporaryFolder folder;
     folder.write("losses.csv", "epoch,train_loss_nat,validation_loss_nat\n0,0.7,0.75\n");
     folder.write("summary.json", R"({"mode":"corrected"})");
-    EXPECT_EQ(read_losses(folder.path()).title, "Corrected, validated on unseen seeds");
+    EXPECT_EQ(read_losses(folder.path()).title, "GraphSAGE, corrected inputs; validated on unseen seeds");
     folder.write("summary.json", R"({"mode":3,"pairs":null,"test":"x"})");
     EXPECT_EQ(read_losses(folder.path()).note, "");
     folder.write("summary.json", "[1");

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "experiment/conditions.hpp"
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "support/temporary_folder.hpp"
@@ -114,6 +115,42 @@ TEST_F(RunFolder, gives_means_paired_differences_and_outcomes) {
     EXPECT_EQ(helpful.emergency.arrived, 6u);
     EXPECT_FALSE(merge.conditions[0].is_compared());
     EXPECT_FALSE(merge.conditions[3].is_compared());
+}
+
+TEST(Titles, of_the_dissertations_conditions_name_the_predictor_and_its_weights) {
+    using Conditions = std::vector<experiment::ConditionSpec>;
+    experiment::ConditionSpec own;
+    own.name = "mine";
+    own.predictor = "graphsage";
+    experiment::ConditionSpec trained;
+    trained.name = "graph_graphsage";
+    trained.predictor = "graphsage_as_published";
+    trained.model_file = "/somewhere/mine.weights";
+    const auto titles = [](const Conditions& conditions) {
+        const support::TemporaryFolder folder;
+        results::Manifest manifest;
+        manifest.study = "dissertation";
+        manifest.replications = 1;
+        manifest.scenarios = {{"merge_dense", "v1", "Merge", "name = \"merge\"\n", "abc", ""}};
+        manifest.conditions = conditions;
+        const results::Store store = results::Store::create(folder.path() / "study", manifest);
+        const ScenarioFacts facts = read_facts(folder.path() / "study").scenarios.at(0);
+        EXPECT_EQ(facts.published_as, "merge");
+        std::vector<std::string> all;
+        for (const ConditionFacts& condition : facts.conditions)
+            all.push_back(condition.title);
+        return all;
+    };
+    Conditions shipped;
+    for (const experiment::BuiltInCondition& known : experiment::built_in_conditions())
+        shipped.push_back(known.condition);
+    EXPECT_THAT(titles(shipped), testing::UnorderedElementsAre(
+                                     "Baseline", "corridor", "Graph made by simulation attributes",
+                                     "GraphSAGE, corrected inputs", "GraphSAGE, improved",
+                                     "GraphSAGE, as published", "Same failures, no repair",
+                                     "Same failures, dead reckoning", "Alone on the road, signals open"));
+    EXPECT_THAT(titles({shipped.front(), own, trained}),
+                testing::ElementsAre("Baseline", "mine", "GraphSAGE, as published, other weights"));
 }
 
 TEST_F(RunFolder, gives_the_distribution_over_all_emergency_vehicles) {

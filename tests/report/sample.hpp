@@ -101,7 +101,7 @@ inline ScenarioFacts scenario(const std::string& name) {
     facts.replications = 20;
     facts.conditions = {condition("baseline", "Baseline", 101.3),
                         condition("graph_simulation", "Graph made by simulation attributes", 88.9),
-                        condition("graph_graphsage", "Graph made by GraphSAGE", 92.2),
+                        condition("graph_graphsage", "GraphSAGE, corrected inputs", 92.2),
                         condition("b10_no_repair", "Same failures, no repair", 130.8),
                         condition("b10_dead_reckoning", "Same failures, dead reckoning", 100.7),
                         condition("solo", "Alone on the road, signals open", 70.2)};

@@ -61,9 +61,21 @@ TEST(Published, are_the_cells_of_the_dissertations_tables_and_no_others) {
     EXPECT_EQ(published_value("merge", "baseline", Measure::emergency_waiting_time), 7.2);
     EXPECT_EQ(published_value("intersection", "graph_simulation", Measure::waiting_time), 3.2);
     EXPECT_EQ(published_value("city", "graph_graphsage", Measure::emergency_depart_delay), 0.8);
+    EXPECT_EQ(published_value("city", "graph_graphsage_as_published", Measure::emergency_depart_delay), 0.8);
+    EXPECT_EQ(published_value("city", "graph_graphsage_improved", Measure::emergency_depart_delay),
+              std::nullopt);
     EXPECT_EQ(published_value("city", "solo", Measure::waiting_time), std::nullopt);
     EXPECT_EQ(published_value("bologna", "baseline", Measure::waiting_time), std::nullopt);
     EXPECT_EQ(published_value("merge", "baseline", Measure::emergency_travel_time), std::nullopt);
+}
+
+TEST(Published, captions_name_the_scenario_where_it_is_a_variant) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    EXPECT_EQ(published_caption(scenario), "TABLE II. PERFORMANCE ON MERGE");
+    scenario.name = "merge_dense";
+    EXPECT_EQ(published_caption(scenario), "TABLE II. PERFORMANCE ON MERGE (here: merge_dense)");
+    scenario.published_as = "";
+    EXPECT_EQ(published_caption(scenario), "");
 }
 
 }  // namespace

@@ -191,12 +191,24 @@ TEST_F(StudyFile, RefusesWhatIsNoTomlAndWhatIsEmpty) {
 TEST_F(StudyFile, DissertationStudyHasItsScenariosConditionsAndControls) {
     setenv("SUMO_HOME", "/usr/share/sumo", 0);
     const StudyConfig config = dissertation_study(20, 1);
-    EXPECT_EQ(config.scenarios.size(), 3U);
-    std::vector<std::string> names;
-    for (const auto& condition : config.conditions)
-        names.push_back(condition.name);
-    EXPECT_THAT(names, testing::ElementsAre("baseline", "graph_simulation", "graph_graphsage",
-                                            "b10_no_repair", "b10_dead_reckoning", "solo"));
+    const auto names = [](const auto& list) {
+        std::vector<std::string> all;
+        for (const auto& one : list)
+            all.push_back(one.name);
+        return all;
+    };
+    EXPECT_THAT(names(config.scenarios),
+                testing::ElementsAre("merge", "merge_dense", "intersection", "city"));
+    EXPECT_GT(config.scenarios[1].demand.density * config.scenarios[1].demand.human,
+              2.0 * config.scenarios[0].demand.density * config.scenarios[0].demand.human);
+    EXPECT_THAT(
+        names(config.conditions),
+        testing::ElementsAre("baseline", "graph_simulation", "graph_graphsage", "graph_graphsage_improved",
+                             "graph_graphsage_as_published", "b10_no_repair", "b10_dead_reckoning", "solo"));
+    scenario::Options all_dense;
+    all_dense.variant = scenario::Variant::dense;
+    EXPECT_THAT(names(dissertation_study(20, 1, all_dense).scenarios),
+                testing::ElementsAre("merge", "intersection", "city"));
 }
 
 }  // namespace

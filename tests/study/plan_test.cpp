@@ -41,8 +41,8 @@ TEST(Plan, HasOneUnitPerReplicationScenarioAndEngine) {
     EXPECT_THAT(names, testing::ElementsAre("alpha-00000-standard", "alpha-00000-solo", "beta-00000-standard",
                                             "beta-00000-solo", "alpha-00001-standard", "alpha-00001-solo",
                                             "beta-00001-standard", "beta-00001-solo"));
-    EXPECT_EQ(plan.run_count(), 2U * 2U * 7U);
-    EXPECT_EQ(plan.units[0].unit.conditions.size(), 6U);
+    EXPECT_EQ(plan.run_count(), 2U * 2U * 9U);
+    EXPECT_EQ(plan.units[0].unit.conditions.size(), 8U);
     EXPECT_EQ(plan.units[1].unit.conditions.size(), 1U);
     EXPECT_EQ(plan.units[1].unit.traffic_model, TrafficModel::free_flow);
     EXPECT_EQ(plan.units[0].unit.network_folder, "/out/scenarios/alpha/network");

@@ -90,6 +90,38 @@ TEST_F(TrainProgramTest, same_seed_same_files) {
     }
 }
 
+TEST_F(TrainProgramTest, the_summary_says_what_rounded_the_numbers) {
+    const Ended ended = train({"--as-published", "--data", data(), "--out", out(), "--json"});
+    const auto arithmetic = nlohmann::json::parse(ended.output).at("arithmetic");
+    EXPECT_THAT(arithmetic.at("torch").get<std::string>(), testing::MatchesRegex("[0-9]+[.][0-9]+.*"));
+    EXPECT_THAT(arithmetic.at("torch_kernels").get<std::string>(),
+                AllOf(testing::Ne(""), testing::Ne("unknown")));
+    EXPECT_THAT(arithmetic.at("blas").get<std::string>(), HasSubstr("blas"));
+}
+
+/// The card's command, on the recorded data set. The shipped net was trained with the reference BLAS.
+TEST_F(TrainProgramTest, the_shipped_net_as_published_is_trained_again_to_the_bit) {
+    const std::filesystem::path source = CLEARWAY_SOURCE_DIR;
+    const std::filesystem::path reference = "/usr/lib/x86_64-linux-gnu/blas";
+    if (!std::filesystem::exists(reference / "libblas.so.3"))
+        GTEST_SKIP() << "the reference BLAS (package libblas3) is not installed";
+    const std::filesystem::path log = folder_.path() / "output.txt";
+    const core::Exit exit = core::run(
+        {std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin" / "clearway-train",
+         {"--as-published", "--data", source / "tests" / "training" / "city-0", "--out", out(), "--quiet"},
+         {{"LD_LIBRARY_PATH", reference}},
+         log});
+    ASSERT_TRUE(exit.ok()) << core::read_file(log);
+    const auto summary = nlohmann::json::parse(core::read_file(folder_.path() / "out" / "summary.json"));
+    const auto& arithmetic = summary.at("arithmetic");
+    ASSERT_EQ(std::filesystem::path(arithmetic["blas"].get<std::string>()).parent_path(), reference);
+    EXPECT_TRUE(arithmetic["blas_kernels"].is_null());
+    if (arithmetic["torch_kernels"] != "AVX2" || !arithmetic["torch"].get<std::string>().starts_with("1.13"))
+        GTEST_SKIP() << "trained with libtorch 1.13 on a processor with AVX2; here: " << arithmetic;
+    EXPECT_EQ(core::read_file(folder_.path() / "out" / "graphsage_as_published.weights"),
+              core::read_file(source / "src" / "prediction" / "models" / "graphsage_as_published.weights"));
+}
+
 TEST_F(TrainProgramTest, bad_data_exit_with_3_and_name_file_and_line) {
     folder_.write("vehicle_features.csv", "0,0\n0.5,nan\n1\n1.5,0.25\n2,1\n");
     const Ended ended = train({"--as-published", "--data", data(), "--out", out()});

@@ -82,7 +82,7 @@ constexpr std::array<Section, 15> all_sections = {{
     {"enough", "Is n enough?", has_comparison, precision_section},
     {"calibration", "Flows against counts", has_counts, calibration_section},
     {"networks", "Networks", has_pictures, networks_section},
-    {"training", "Training of GraphSAGE", has_curves, training_section},
+    {"training", "Training of the nets", has_curves, training_section},
     {"outcomes", "Outcomes and failed runs", always, outcomes_section},
     {"reproduce", "How to reproduce", always, reproduction_section},
 }};

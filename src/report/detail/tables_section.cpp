@@ -139,14 +139,16 @@ std::string tables_section(const StudyFacts& study) {
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         html +=
             " The columns <em>published</em> repeat the dissertation: one unseeded run on networks of its "
-            "own; they are not results of this study.";
+            "own; they are not results of this study. The dissertation's one row of GraphSAGE stands beside "
+            "two: the "
+            "net as published and the one with corrected inputs.";
     html += "</p>\n";
     html += definitions();
     for (const ScenarioFacts& scenario : study.scenarios) {
-        const auto table = published_table(scenario.published_as);
+        const std::string caption = published_caption(scenario);
         html += fmt::format("<h3>{}</h3>\n<p class=\"caption\">{}</p>\n", escaped(scenario.name),
-                            table ? table->caption : "Waiting time and depart delay");
-        html += measure_table(scenario, published_columns, table.has_value());
+                            caption.empty() ? "Waiting time and depart delay" : escaped(caption));
+        html += measure_table(scenario, published_columns, !caption.empty());
         html += "<p class=\"caption\">What these columns hide</p>\n";
         html += measure_table(scenario, emergency_columns, false);
         html += measure_table(scenario, event_columns, false);

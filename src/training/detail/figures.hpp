@@ -15,6 +15,7 @@
 
 #include "core/csv.hpp"
 #include "core/fields.hpp"
+#include "training/arithmetic.hpp"
 #include "training/output_folder.hpp"
 #include "training/seeds.hpp"
 
@@ -67,6 +68,15 @@ inline Json summary_start(const Identity& identity, std::string_view outcome,
                     {"data", data.string()}};
     summary.update(identity);
     return summary;
+}
+
+/// What the numbers were computed with; part of no identity, since another machine may go on.
+inline Json json_from(const Arithmetic& arithmetic) {
+    return {
+        {"torch", arithmetic.torch},
+        {"torch_kernels", arithmetic.kernels},
+        {"blas", arithmetic.blas},
+        {"blas_kernels", arithmetic.blas_kernels.empty() ? Json(nullptr) : Json(arithmetic.blas_kernels)}};
 }
 
 template <class Value>
