@@ -94,10 +94,12 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "`clearway train graphsage --help` explains how the improved net is trained.\n\n"
         "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
         "torch.load),\n"
-        "graphsage_*.weights (for `clearway links evaluate --model graphsage_corrected=FILE`), and\n"
-        "predictions.csv or metrics.csv. With --logistic: summary.json and logistic.weights.\n\n"
+        "graphsage_*.weights (for `clearway run city --predictor graphsage_corrected --model FILE`), and\n"
+        "predictions.csv or metrics.csv. With --convolution gcn or gat: gcn.pth, gcn.weights or gat.pth,\n"
+        "gat.weights. With --logistic: summary.json and logistic.weights. A .pth drives runs as well.\n\n"
         "Examples:\n  clearway dataset city --out data/city\n  clearway train --as-published "
         "--data data/city --out models/mine\n"
+        "                                                       (--convolution gcn, gat: others to compare)\n"
         "  clearway train --as-published --data data/city --pairs true-links --seed 1 --out models/true "
         "--json");
 }
@@ -108,6 +110,7 @@ constexpr const char* choices =
     "  clearway train graphsage --data DIR --out DIR        recommended: the net that repairs links best\n"
     "  clearway train --logistic --data DIR --out DIR       a logistic model of pairs: small and quick\n"
     "  clearway train --corrected --data DIR --out DIR      the dissertation's net, trained soundly\n"
+    "                                                       (--convolution gcn, gat: others to compare)\n"
     "  clearway train --as-published --data DIR --out DIR   the dissertation's net and training: no better\n"
     "                                                       than a constant, kept to be compared with\n"
     "The data set comes from `clearway dataset SCENARIO --out DIR`, with `--samples --net graphsage`,\n"
