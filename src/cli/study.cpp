@@ -107,10 +107,8 @@ Action configure_study(CLI::App& app) {
                    "Run the I-th of N parts alone, into --out; `clearway merge` puts them together")
         ->option_text("I/N [the whole]")
         ->needs(out);
-    app.add_option(
-           "--model", arguments->models,
-           "Net of the conditions whose predictor it is of: a file of clearway train or of torch.save; "
-           "can be repeated")
+    app.add_option("--model", arguments->models,
+                   "Net for the conditions whose predictor it is of; can be repeated")
         ->option_text("[PREDICTOR=]FILE ... [as the study file says]");
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },

@@ -72,6 +72,11 @@ class SageLayer final : public ConvolutionLayer {
     torch::Tensor own_;
 };
 
+/// torch warns once that scatter_reduce is young; the tests hold it to the inference without torch.
+struct Quiet final : c10::WarningHandler {
+    void process(const c10::SourceLocation&, const std::string&, bool) override {}
+};
+
 /// GCNConv or GATConv (one head) of PyTorch Geometric with their defaults: messages of a row to itself left
 /// out, and each row among its own neighbours once.
 class SelfLoopLayer final : public ConvolutionLayer {
@@ -120,7 +125,7 @@ class SelfLoopLayer final : public ConvolutionLayer {
         const torch::Tensor by_target = at::matmul(projected, target_attention_.flatten());
         const torch::Tensor score =
             at::leaky_relu(by_source.gather(0, source) + by_target.gather(0, target), 0.2);
-        // The greatest score as a whole keeps exponentials finite; it cancels, so no gradient needs it.
+        // The greatest score of a row keeps exponentials finite; it cancels, so no gradient needs it.
         const torch::Tensor greatest =
             torch::full({projected.size(0)}, -INFINITY).scatter_reduce(0, target, score.detach(), "amax");
         const torch::Tensor weight = (score - greatest.gather(0, target)).exp();

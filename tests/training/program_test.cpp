@@ -239,7 +239,7 @@ TEST_F(TrainProgramTest, both_files_of_a_training_are_models_of_its_predictor) {
     const Ended other = train({"--corrected", "--convolution", "gat", "--data", data(), "--out",
                                (folder_.path() / "gcn").string(), "--epochs", "2"});
     EXPECT_EQ(other.exit.code, 3);
-    EXPECT_THAT(other.output, HasSubstr("was made with mode = gcn"));
+    EXPECT_THAT(other.output, HasSubstr("was made with mode = \"gcn\""));
 }
 
 TEST_F(TrainProgramTest, corrected_training_without_samples_exits_with_3) {
