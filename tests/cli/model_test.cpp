@@ -139,6 +139,8 @@ TEST_F(ModelTest, unfit_files_are_refused_before_anything_runs) {
                         "graphsage_as_published=" + pth},
                        message);
         expect_refused({"study", "my.toml", "--model", pth}, message);
+        expect_refused({"attach", "localhost:1", "--predictor", "graphsage_as_published", "--model", pth},
+                       message);
     }
     EXPECT_FALSE(std::filesystem::exists(folder() / "was_run"));
     write("cut.pth", read("good.pth").substr(0, 3000));
