@@ -137,16 +137,16 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
 }
 
 std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
-    std::vector<Engine> engines;
+    std::vector<TrafficModel> traffic_models;
     for (const TrafficModel traffic_model :
          {TrafficModel::standard, TrafficModel::sublane, TrafficModel::free_flow}) {
         const auto needs_it = [&](const auto& condition) { return condition.traffic_model == traffic_model; };
-        if (std::ranges::any_of(manifest.conditions, needs_it)) engines.push_back(traffic_model);
+        if (std::ranges::any_of(manifest.conditions, needs_it)) traffic_models.push_back(traffic_model);
     }
     std::vector<UnitPlace> places;
     for (std::uint32_t replication = 0; replication < manifest.replications; ++replication) {
         for (std::size_t scenario = 0; scenario < manifest.scenarios.size(); ++scenario) {
-            for (const TrafficModel traffic_model : engines)
+            for (const TrafficModel traffic_model : traffic_models)
                 places.push_back({scenario, replication, traffic_model});
         }
     }
