@@ -39,8 +39,8 @@ void declare_options(CLI::App& app, Arguments& arguments) {
     app.footer(
         "Results: losses.csv, train_test_curve.svg, summary.json, metrics.csv, and, unless an option makes "
         "a net for\n"
-        "comparison only (ablation), graphsage.weights (for `clearway links evaluate --model "
-        "graphsage=FILE`).\n\n"
+        "comparison only (ablation), graphsage.weights (for `clearway run city --predictor graphsage "
+        "--model FILE`).\n\n"
         "Example:\n"
         "  clearway dataset city --dense --samples --net graphsage --failure B10 C.link --seeds 10 --out "
         "data/graphsage\n"

@@ -69,8 +69,9 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
 
 std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments) {
     std::vector<links::LinkPredictor> predictors;
-    const std::vector<std::string> names =
-        arguments.predictors.empty() ? prediction::predictor_names() : arguments.predictors;
+    const std::vector<std::string> usual =
+        arguments.benchmark.empty() ? prediction::predictor_names() : links::benchmark_predictors();
+    const std::vector<std::string>& names = arguments.predictors.empty() ? usual : arguments.predictors;
     for (const std::string& name : names) {
         if (std::ranges::find(predictors, name, &links::LinkPredictor::name) == predictors.end())
             predictors.push_back({.name = name, .model_file = {}, .settings = {}});

@@ -1,10 +1,12 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/detail/condition_options.hpp"
 #include "cli/detail/plan_text.hpp"
 #include "cli/detail/rounds.hpp"
 #include "cli/detail/run_plan.hpp"
@@ -20,6 +22,7 @@ struct Arguments {
     std::string file;
     std::string folder;
     std::string shard;
+    std::vector<std::string> models;
     Mode mode = Mode::run;
     study::Extent extent = study::Extent::whole;
     unsigned jobs = 0;
@@ -73,7 +76,8 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
-    const study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
+    study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
+    apply_models(arguments.models, config.conditions);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
     RunPlanOptions options{folder,
                            arguments.jobs,
@@ -104,6 +108,9 @@ Action configure_study(CLI::App& app) {
                    "Run only the I-th of N shards, into --out; `clearway merge` merges them")
         ->option_text("I/N [the whole]")
         ->needs(out);
+    app.add_option("--model", arguments->models,
+                   "Net for the conditions whose predictor it is of; can be repeated")
+        ->option_text("[PREDICTOR=]FILE ... [as the study file says]");
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
         "Print cells, runs, estimated time and disk, and run nothing [off]");

@@ -105,4 +105,12 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
     return benchmark;
 }
 
+const std::vector<std::string>& benchmark_predictors() {
+    static const std::vector<std::string> names = {
+        "none",       "last_seen",         "dead_reckoning", "dead_reckoning_heading", "kalman",
+        "route_rule", "common_neighbours", "logistic",       "graphsage_as_published", "graphsage_corrected",
+        "graphsage"};
+    return names;
+}
+
 }  // namespace clearway::links

@@ -4,36 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "prediction/net_rows.hpp"
+#include "prediction/pair_decoder.hpp"
 #include "prediction/weights.hpp"
 
 namespace clearway::prediction {
 
-/// Where messages come from, in CSR form by receiver: row i receives from source[first[i]] ... source[first[i
-/// + 1] - 1]. A source that is listed twice counts twice in the mean, as in PyTorch Geometric.
-struct MessageGraph {
-    std::vector<std::uint32_t> first = {0};
-    std::vector<std::uint32_t> source;
-};
-
-/// Builds the graph from an edge list as in PyTorch Geometric: a message flows from `sources[e]` to
-/// `targets[e]`. Keeps the order of the list within a row. Indices must be below `row_count`.
-void message_graph_from(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> targets,
-                        std::size_t row_count, MessageGraph& graph);
-
-/// Two rows whose link is scored. The score does not depend on their order.
-struct RowPair {
-    std::uint32_t left = 0;
-    std::uint32_t right = 0;
-    auto operator<=>(const RowPair&) const = default;
-};
-
-/// Which machine code runs. Both give the same bits: they add in the same order and round after every
-/// operation.
-enum class Kernel { scalar, avx2 };
-/// The fastest kernel that this processor supports.
-Kernel best_kernel();
-
-/// Sizes of the net; the defaults are the dissertation's.
+/// Sizes of the dissertation's net; hidden 10 and output 5 there.
 struct GraphSageDimensions {
     std::uint32_t input = 2;
     std::uint32_t hidden = 10;
@@ -85,13 +62,11 @@ class GraphSageNet {
                                         std::uint32_t outputs);
     void convolve(const Convolution& convolution, std::span<const float> rows, const MessageGraph& graph,
                   std::vector<float>& result);
-    void decode(std::span<const RowPair> pairs, std::vector<float>& logits);
 
     GraphSageDimensions dimensions_;
     Kernel kernel_;
     Convolution first_, second_;
-    std::vector<float> decoder_weight_, decoder_bias_, output_weight_;
-    float output_bias_ = 0.0F;
+    PairDecoder decoder_;
     std::vector<float> padded_, hidden_, embeddings_, mean_;
 };
 

@@ -1,7 +1,10 @@
 #include "prediction/learned.hpp"
 
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "prediction/convolution_net.hpp"
 #include "prediction/detail/pairwise.hpp"
 #include "prediction/features.hpp"
 #include "prediction/graphsage.hpp"
@@ -52,11 +55,13 @@ class GraphSageAsPublished final : public PairwisePredictor {
     std::vector<float> features_, logits_;
 };
 
-class GraphSageCorrected final : public PairwisePredictor {
+/// A net on the corrected features whose messages take observed links.
+template <class Net>
+class CorrectedNet final : public PairwisePredictor {
   public:
-    GraphSageCorrected(const PredictorContext& context, const Weights& weights)
-        : PairwisePredictor(context), net_(weights, corrected_schema()) {}
-    std::string_view name() const override { return "graphsage_corrected"; }
+    CorrectedNet(const PredictorContext& context, std::string_view name, Net net)
+        : PairwisePredictor(context), name_(name), net_(std::move(net)) {}
+    std::string_view name() const override { return name_; }
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
@@ -76,11 +81,21 @@ class GraphSageCorrected final : public PairwisePredictor {
         }
     }
 
-    GraphSageNet net_;
+    std::string_view name_;
+    Net net_;
     ObservedMessages observed_messages_;
     MessageGraph messages_;
     std::vector<float> features_, logits_;
 };
+
+template <class Net>
+std::unique_ptr<Predictor> corrected(const PredictorContext& context, std::string_view name, Net net) {
+    return std::make_unique<CorrectedNet<Net>>(context, name, std::move(net));
+}
+
+ConvolutionNet convolution_net(GraphConvolution convolution, const Weights& weights) {
+    return {convolution, weights, corrected_schema()};
+}
 
 }  // namespace
 
@@ -92,10 +107,26 @@ void check_graphsage_as_published(const Weights& weights) {
     const GraphSageNet net(weights, published_schema_of(weights));
 }
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context) {
-    return std::make_unique<GraphSageCorrected>(context, model_of("graphsage_corrected", context.model_file));
+    constexpr const char* name = "graphsage_corrected";
+    return corrected(context, name, GraphSageNet(model_of(name, context.model_file), corrected_schema()));
 }
 void check_graphsage_corrected(const Weights& weights) {
     const GraphSageNet net(weights, corrected_schema());
+}
+
+std::unique_ptr<Predictor> make_gcn(const PredictorContext& context) {
+    return corrected(context, "gcn",
+                     convolution_net(GraphConvolution::gcn, model_of("gcn", context.model_file)));
+}
+void check_gcn(const Weights& weights) {
+    convolution_net(GraphConvolution::gcn, weights);
+}
+std::unique_ptr<Predictor> make_gat(const PredictorContext& context) {
+    return corrected(context, "gat",
+                     convolution_net(GraphConvolution::gat, model_of("gat", context.model_file)));
+}
+void check_gat(const Weights& weights) {
+    convolution_net(GraphConvolution::gat, weights);
 }
 
 }  // namespace clearway::prediction

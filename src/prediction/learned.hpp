@@ -22,6 +22,13 @@ void check_graphsage_as_published(const Weights& weights);
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context);
 void check_graphsage_corrected(const Weights& weights);
 
+/// As make_graphsage_corrected, with GCN or GAT in the place of GraphSAGE's convolution
+/// (convolution_net.hpp).
+std::unique_ptr<Predictor> make_gcn(const PredictorContext& context);
+void check_gcn(const Weights& weights);
+std::unique_ptr<Predictor> make_gat(const PredictorContext& context);
+void check_gat(const Weights& weights);
+
 /// The improved net: messages over predicted-position neighbours of all classes in the receiver's route
 /// frame, a motion head, and a pair decoder on corrected distances (repair_net.hpp). Throws core::InputError
 /// for a link radius other than 50 m.

@@ -10,9 +10,9 @@
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
 #include "prediction/logistic.hpp"
+#include "prediction/model_file.hpp"
 #include "prediction/planar.hpp"
 #include "prediction/route_rule.hpp"
-#include "prediction/shipped_models.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -75,6 +75,12 @@ constexpr Registration registry[] = {
     registered<make_graphsage_corrected>("graphsage_corrected", "GraphSAGE, corrected inputs",
                                          "the same architecture on inputs that carry distance and age",
                                          check_graphsage_corrected),
+    registered<make_gcn>("gcn", "GCN, corrected inputs",
+                         "the corrected net with graph convolutions (Kipf and Welling) for GraphSAGE's",
+                         check_gcn),
+    registered<make_gat>("gat", "GAT, corrected inputs",
+                         "the corrected net with graph attention (Velickovic et al.) for GraphSAGE's",
+                         check_gat),
     registered<make_graphsage>("graphsage", "GraphSAGE, improved",
                                "the improved net: messages in route frames, motion head, calibrated links",
                                check_graphsage),
@@ -113,6 +119,14 @@ std::string title_of(const std::string& name) {
     return registration_of(name).title;
 }
 
+std::vector<std::string> learned_predictor_names() {
+    std::vector<std::string> names;
+    for (const Registration& registration : registry) {
+        if (registration.check_model != nullptr) names.emplace_back(registration.name);
+    }
+    return names;
+}
+
 core::SettingsTable settings_of(const std::string& name) {
     return registration_of(name).table();
 }
@@ -131,8 +145,8 @@ void check_model(const std::string& name, const std::string& file) {
         if (name != registration.name) continue;
         if (registration.check_model == nullptr)
             throw core::InputError({file, fmt::format("{} is not learned and takes no model", name),
-                                    fmt::format("{}", fmt::join(shipped_model_names(), ", ")), ""});
-        registration.check_model(read_weights(file));
+                                    fmt::format("{}", fmt::join(learned_predictor_names(), ", ")), ""});
+        registration.check_model(read_model(name, file));
     }
 }
 

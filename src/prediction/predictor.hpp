@@ -75,6 +75,9 @@ std::vector<std::string> predictor_names();
 /// The title of the predictor `name`; throws core::InputError for an unknown name.
 std::string title_of(const std::string& name);
 
+/// Names of those that take a model.
+std::vector<std::string> learned_predictor_names();
+
 /// Settings that the predictor `name` may have: those that all predictors share, and its own (the field
 /// tables of the predictors' headers). Throws core::InputError for an unknown name.
 core::SettingsTable settings_of(const std::string& name);
@@ -84,7 +87,8 @@ core::SettingsTable settings_of(const std::string& name);
 void check_settings(const std::string& name, const core::Settings& settings, const std::string& where,
                     std::vector<core::Problem>& problems);
 
-/// Throws core::InputError when `file` holds no model of the predictor `name`, or the predictor takes none.
+/// Throws core::InputError when `file` holds no model of the predictor `name` (model_file.hpp), or the
+/// predictor takes none.
 void check_model(const std::string& name, const std::string& file);
 
 /// Throws core::InputError for an unknown name (naming the nearest), unfit settings, or an unreadable or

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "prediction/detail/model_texts.hpp"
+#include "prediction/model_file.hpp"
 
 namespace clearway::prediction {
 
@@ -21,7 +22,7 @@ Weights shipped_model(const std::string& predictor) {
 }
 
 Weights model_of(const std::string& predictor, const std::string& file) {
-    return file.empty() ? shipped_model(predictor) : read_weights(file);
+    return file.empty() ? shipped_model(predictor) : read_model(predictor, file);
 }
 
 std::vector<std::string> shipped_model_names() {

@@ -12,7 +12,7 @@ namespace clearway::prediction {
 Weights shipped_model(const std::string& predictor);
 
 /// The model in `file`, or the shipped one where it is empty. Throws core::InputError as shipped_model and
-/// read_weights do.
+/// read_model do.
 Weights model_of(const std::string& predictor, const std::string& file);
 
 /// Names of the predictors for which the program carries a model.

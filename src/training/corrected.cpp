@@ -183,6 +183,7 @@ CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const
                                 const TrainingHooks& hooks) {
     check_origins(files);
     CorrectedResult result;
+    result.convolution = config.convolution;
     result.seeds =
         detail::split_files(files, {config.training.seed, config.validation_share, config.test_share});
 
@@ -195,7 +196,10 @@ CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const
     const std::vector<GraphBatch> validation = batches_from(held_out, width, config.batch_snapshots);
 
     const TrainingConfig& training = config.training;
-    TorchNet net({{width, training.hidden, training.output}, training.seed, training.learning_rate});
+    TorchNet net({{width, training.hidden, training.output},
+                  training.seed,
+                  training.learning_rate,
+                  config.convolution});
     for (std::uint32_t epoch = 0; epoch < training.epochs; ++epoch) {
         if (hooks.should_stop && hooks.should_stop()) {
             result.outcome = Outcome::interrupted;

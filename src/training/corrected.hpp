@@ -19,6 +19,7 @@ struct CorrectedConfig {
     std::uint32_t patience = 10;
     double validation_share = 0.2;
     double test_share = 0.2;
+    Convolution convolution = Convolution::sage;
 
     static constexpr auto fields() {
         using C = CorrectedConfig;
@@ -30,7 +31,10 @@ struct CorrectedConfig {
             core::Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
                         "Share of the seeds that choose the epoch and the threshold", "assumed"},
             core::Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the seeds that only measure",
-                        "assumed"});
+                        "assumed"},
+            core::Field{"convolution", "", &C::convolution, 0, 0,
+                        "Convolution of both layers: GraphSAGE's, or that of the predictor gcn or gat",
+                        "the dissertation's is sage"});
     }
 };
 
@@ -46,6 +50,7 @@ struct GroupQuality {
 
 struct CorrectedResult {
     Outcome outcome = Outcome::finished;
+    Convolution convolution = Convolution::sage;
     std::vector<EpochLoss> losses;  ///< Held out: the validation seeds.
     std::uint32_t best_epoch = 0;
     StateDict state;  ///< Of the best epoch; none when no epoch had finite losses.

@@ -36,13 +36,19 @@ std::string note_of(const Json& summary) {
 
 // NOLINTNEXTLINE(readability-function-size): every argument is a file or what goes into it
 void write_model(const std::filesystem::path& folder, const std::string& model, const StateDict& state,
-                 const prediction::FeatureSchema& features, const TrainingConfig& config,
-                 const Json& summary) {
+                 const prediction::FeatureSchema& features, const TrainingConfig& config, const Json& summary,
+                 Convolution convolution = Convolution::sage) {
     prediction::Weights weights =
-        weights_from(state, features, {features.width, config.hidden, config.output});
+        weights_from(state, features, {features.width, config.hidden, config.output}, convolution);
     weights.notes.push_back(note_of(summary));
     prediction::write_weights(folder / (model + ".weights"), weights);
-    write_pth(folder / "GraphSAGENet.pth", state);
+    const std::string net = convolution == Convolution::sage ? "GraphSAGENet" : model;
+    write_pth(folder / (net + ".pth"), state);
+}
+
+/// What a training on many snapshots is called.
+std::string mode_of(Convolution convolution) {
+    return convolution == Convolution::sage ? "corrected" : std::string(name(convolution));
 }
 
 void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
@@ -66,7 +72,11 @@ Identity identity_of(PairChoice pairs, const RunDescription& run) {
 Identity identity_of(const CorrectedConfig& config, const RunDescription& run) {
     Json configuration = json_from(run.training);
     configuration.update(json_from(config));
-    return {{"mode", "corrected"}, {"data_hash", run.data_hash}, {"configuration", configuration}};
+    // The mode says it; trainings of before there was a choice go on.
+    configuration.erase("convolution");
+    return {{"mode", mode_of(config.convolution)},
+            {"data_hash", run.data_hash},
+            {"configuration", configuration}};
 }
 
 Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
@@ -168,7 +178,9 @@ void write_outputs(const std::filesystem::path& folder, const CorrectedResult& r
     write_common(folder, result.losses, "validation", "Validation Loss", summary);
     if (result.state.empty()) return;
     core::write_atomically(folder / "metrics.csv", metrics_csv(result));
-    write_model(folder, "graphsage_corrected", result.state, features, config, summary);
+    const bool is_sage = result.convolution == Convolution::sage;
+    const std::string model = is_sage ? "graphsage_corrected" : std::string(name(result.convolution));
+    write_model(folder, model, result.state, features, config, summary, result.convolution);
 }
 
 std::string hash_of_files(const std::vector<std::filesystem::path>& files) {

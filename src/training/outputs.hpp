@@ -37,8 +37,8 @@ std::string metrics_csv(const CorrectedResult& result);
 
 /// Writes into `folder`: losses.csv, train_test_curve.svg, summary.json; and, unless no parameters are good,
 /// GraphSAGENet.pth, predictions.csv (as published) or metrics.csv (corrected), and
-/// graphsage_as_published.weights or graphsage_corrected.weights. Each file whole or not at all. Throws
-/// core::EnvironmentError.
+/// graphsage_as_published.weights or graphsage_corrected.weights; with another convolution gcn.pth and
+/// gcn.weights, or gat.pth and gat.weights. Each file whole or not at all. Throws core::EnvironmentError.
 void write_outputs(const std::filesystem::path& folder, const AsPublishedResult& result,
                    const nlohmann::ordered_json& summary, const TrainingConfig& config);
 void write_outputs(const std::filesystem::path& folder, const CorrectedResult& result,

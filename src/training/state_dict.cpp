@@ -3,11 +3,13 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "prediction/convolution_net.hpp"
 #include "training/detail/zip_archive.hpp"
 
 namespace clearway::training {
@@ -99,6 +101,20 @@ std::string pickled(const StateDict& state) {
     return std::move(pickle).finish();
 }
 
+const char* architecture_of(Convolution convolution) {
+    using prediction::ConvolutionNet;
+    using prediction::GraphConvolution;
+    switch (convolution) {
+        case Convolution::sage:
+            return prediction::GraphSageNet::architecture;
+        case Convolution::gcn:
+            return ConvolutionNet::architecture(GraphConvolution::gcn);
+        case Convolution::gat:
+            return ConvolutionNet::architecture(GraphConvolution::gat);
+    }
+    throw std::logic_error("a convolution without its architecture");
+}
+
 }  // namespace
 
 std::string format_pth(const StateDict& state, const std::string& stem) {
@@ -118,9 +134,9 @@ void write_pth(const std::filesystem::path& file, const StateDict& state) {
 }
 
 prediction::Weights weights_from(const StateDict& state, const prediction::FeatureSchema& features,
-                                 const prediction::GraphSageDimensions& dimensions) {
+                                 const prediction::GraphSageDimensions& dimensions, Convolution convolution) {
     prediction::Weights weights;
-    weights.architecture = prediction::GraphSageNet::architecture;
+    weights.architecture = architecture_of(convolution);
     weights.features = features;
     weights.dimensions = {
         {"input", dimensions.input}, {"hidden", dimensions.hidden}, {"output", dimensions.output}};

@@ -21,8 +21,9 @@ std::string format_pth(const StateDict& state, const std::string& stem);
 /// Whole or not at all. Throws core::EnvironmentError.
 void write_pth(const std::filesystem::path& file, const StateDict& state);
 
-/// The same parameters as a model file for `prediction::GraphSageNet`.
+/// The same parameters as a model file for `prediction::GraphSageNet`, or for `prediction::ConvolutionNet`.
 prediction::Weights weights_from(const StateDict& state, const prediction::FeatureSchema& features,
-                                 const prediction::GraphSageDimensions& dimensions);
+                                 const prediction::GraphSageDimensions& dimensions,
+                                 Convolution convolution = Convolution::sage);
 
 }  // namespace clearway::training

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/spellings.hpp"
 #include "prediction/graphsage.hpp"
 #include "prediction/weights.hpp"
 #include "training/graph_batch.hpp"
@@ -13,16 +14,27 @@ namespace clearway::training {
 /// Parameters under PyTorch Geometric's names, in the order of Python's `state_dict()`.
 using StateDict = std::vector<prediction::Tensor>;
 
+/// The convolution of both layers: the dissertation's, or what can stand in its place
+/// (prediction/convolution_net.hpp).
+enum class Convolution : std::uint8_t { sage, gcn, gat };
+constexpr core::Spellings<Convolution, 3> spellings(Convolution) {
+    return {{{Convolution::sage, "sage"}, {Convolution::gcn, "gcn"}, {Convolution::gat, "gat"}}};
+}
+using core::name;
+
 struct TorchNetConfig {
     prediction::GraphSageDimensions dimensions;
     std::uint64_t seed = 1;       ///< Of the initial parameters.
     double learning_rate = 0.01;  ///< Of Adam; its other numbers are torch's defaults. Dissertation 5.3.
+    Convolution convolution = Convolution::sage;
 };
 
 /// The dissertation's GraphSAGENet in libtorch: GraphSAGE of two SAGEConv (mean, no activation between),
-/// Hadamard product of the ends of a pair, Linear, ReLU, Linear; binary cross entropy with logits; Adam. The
-/// oracle for `prediction::GraphSageNet`. Parameters start uniform in +-1/sqrt(inputs), the default of
-/// torch's Linear and of PyTorch Geometric's (kaiming_uniform with a = sqrt(5)), from a generator of its own.
+/// Hadamard product of the ends of a pair, Linear, ReLU, Linear; binary cross entropy with logits; Adam. Or
+/// the same with GCNConv or GATConv. The oracle for `prediction::GraphSageNet` and
+/// `prediction::ConvolutionNet`. Parameters start uniform in +-1/sqrt(inputs), the default of torch's Linear
+/// and of PyTorch Geometric's (kaiming_uniform with a = sqrt(5)), from a generator of its own; those of
+/// GCNConv and GATConv in +-sqrt(6 / (inputs + outputs)), biases 0, as PyTorch Geometric's (glorot, zeros).
 /// Runs on one processor core with deterministic algorithms: same seed and data, same bits. No header of
 /// torch is needed to use it.
 class TorchNet {

@@ -55,6 +55,14 @@ TEST_F(LinkBenchmarkFile, eval_v1_is_frozen) {
         EXPECT_EQ(config.version, "v1");
 }
 
+/// Its tables compare these; a predictor that came later is judged when it is named.
+TEST(BenchmarkPredictors, are_those_of_when_eval_v1_was_frozen) {
+    EXPECT_THAT(benchmark_predictors(),
+                testing::ElementsAre("none", "last_seen", "dead_reckoning", "dead_reckoning_heading",
+                                     "kalman", "route_rule", "common_neighbours", "logistic",
+                                     "graphsage_as_published", "graphsage_corrected", "graphsage"));
+}
+
 TEST_F(LinkBenchmarkFile, eval_v1_shares_no_seed_with_a_training) {
     const LinkBenchmark benchmark = read_link_benchmark(eval_v1);
     std::set<std::uint64_t> study_seeds;

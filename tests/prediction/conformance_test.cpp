@@ -27,7 +27,9 @@ std::string model_of(const std::string& predictor) {
     static const support::TemporaryFolder folder;
     static const std::map<std::string, Weights> nets = {
         {"graphsage_as_published", testing::random_net(as_published_attributes_schema(), 10, 5, 0.2)},
-        {"graphsage_corrected", testing::kernel_net()}};
+        {"graphsage_corrected", testing::kernel_net()},
+        {"gcn", testing::kernel_net(GraphConvolution::gcn)},
+        {"gat", testing::kernel_net(GraphConvolution::gat)}};
     const auto net = nets.find(predictor);
     if (net == nets.end()) return "";
     const auto file = folder.path() / (predictor + ".weights");

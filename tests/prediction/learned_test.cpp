@@ -165,10 +165,12 @@ TEST(ShippedModels, AreReadableAndFitTheirPredictor) {
 }
 
 TEST(ShippedModels, WereLeftByTheTrainingsThatAreShippedWithThem) {
-    const std::filesystem::path trainings = CLEARWAY_SOURCE_DIR "/models/training";
-    for (const auto& [name, training] : {std::pair("graphsage", "graphsage"),
-                                         {"graphsage_corrected", "corrected"},
-                                         {"graphsage_as_published", "as_published"}}) {
+    const std::filesystem::path trainings = CLEARWAY_SOURCE_DIR "/models";
+    for (const auto& [name, training] : {std::pair("graphsage", "training/graphsage"),
+                                         {"graphsage_corrected", "training/corrected"},
+                                         {"graphsage_as_published", "training/as_published"},
+                                         {"gcn", "comparison/gcn"},
+                                         {"gat", "comparison/gat"}}) {
         const std::vector<std::string> notes = shipped_model(name).notes;
         ASSERT_FALSE(notes.empty()) << name;
         const std::size_t at = notes.front().find("data ");

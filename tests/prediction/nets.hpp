@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "prediction/convolution_net.hpp"
 #include "prediction/features.hpp"
 #include "prediction/graphsage.hpp"
 #include "prediction/weights.hpp"
@@ -37,6 +38,30 @@ inline Weights zero_net(const FeatureSchema& features, std::uint32_t hidden, std
     return weights;
 }
 
+/// A net with GCN or GAT, all parameters 0.
+inline Weights zero_net(GraphConvolution convolution, const FeatureSchema& features, std::uint32_t hidden,
+                        std::uint32_t output) {
+    Weights weights = zero_net(features, hidden, output);
+    weights.architecture = ConvolutionNet::architecture(convolution);
+    const bool is_gat = convolution == GraphConvolution::gat;
+    const std::string prefix = is_gat ? "gat." : "gcn.";
+    std::vector<Tensor> decoder(weights.tensors.end() - 4, weights.tensors.end());
+    weights.tensors.clear();
+    const auto add = [&](const std::string& name, std::uint32_t inputs, std::uint32_t outputs) {
+        const auto zeros = [](std::size_t count) { return std::vector<float>(count, 0.0F); };
+        weights.tensors.push_back(
+            {prefix + name + ".lin.weight", {outputs, inputs}, zeros(std::size_t{outputs} * inputs)});
+        weights.tensors.push_back({prefix + name + ".bias", {outputs}, zeros(outputs)});
+        if (!is_gat) return;
+        weights.tensors.push_back({prefix + name + ".att_src", {1, 1, outputs}, zeros(outputs)});
+        weights.tensors.push_back({prefix + name + ".att_dst", {1, 1, outputs}, zeros(outputs)});
+    };
+    add("conv1", features.width, hidden);
+    add("conv2", hidden, output);
+    weights.tensors.insert(weights.tensors.end(), decoder.begin(), decoder.end());
+    return weights;
+}
+
 inline std::vector<float>& values(Weights& weights, const std::string& name) {
     for (Tensor& tensor : weights.tensors) {
         if (tensor.name == name) return tensor.values;
@@ -44,11 +69,9 @@ inline std::vector<float>& values(Weights& weights, const std::string& name) {
     throw std::out_of_range(name);
 }
 
-/// Parameters drawn from N(0, scale).
-inline Weights random_net(const FeatureSchema& features, std::uint32_t hidden, std::uint32_t output,
-                          double scale = 0.5) {
+/// The same net with parameters drawn from N(0, scale).
+inline Weights drawn(Weights weights, double scale) {
     const core::KeyedRandom random({7}, {0});
-    Weights weights = zero_net(features, hidden, output);
     std::uint64_t counter = 0;
     for (Tensor& tensor : weights.tensors) {
         for (float& value : tensor.values) {
@@ -56,6 +79,10 @@ inline Weights random_net(const FeatureSchema& features, std::uint32_t hidden, s
         }
     }
     return weights;
+}
+inline Weights random_net(const FeatureSchema& features, std::uint32_t hidden, std::uint32_t output,
+                          double scale = 0.5) {
+    return drawn(zero_net(features, hidden, output), scale);
 }
 
 /// A net on the corrected features, made by hand: both convolutions pass a vehicle's own inputs on, the
@@ -72,6 +99,19 @@ inline Weights kernel_net() {
     }
     values(weights, "nn.fc2.weight")[0] = 40.0F;
     values(weights, "nn.fc2.bias")[0] = -40.0F * 1.7071068F;  // 1 + cos(2 pi 50 m / 400 m)
+    return weights;
+}
+
+/// The same by another convolution. A vehicle that hears nobody passes its own inputs on.
+inline Weights kernel_net(GraphConvolution convolution) {
+    const Weights kernel = kernel_net();
+    Weights weights = zero_net(convolution, corrected_schema(), 10, 5);
+    const std::string prefix = convolution == GraphConvolution::gat ? "gat." : "gcn.";
+    for (std::size_t at = 0; at < 5; ++at) {
+        values(weights, prefix + "conv1.lin.weight")[at * 5 + at] = 1.0F;
+        values(weights, prefix + "conv2.lin.weight")[at * 10 + at] = 1.0F;
+    }
+    std::copy(kernel.tensors.end() - 4, kernel.tensors.end(), weights.tensors.end() - 4);
     return weights;
 }
 

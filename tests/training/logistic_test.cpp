@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "prediction/predictor.hpp"
 #include "prediction/weights.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -140,6 +141,7 @@ TEST(TrainLogistic, WritesAModelThatThePredictorTakes) {
     write_outputs(folder.path(), result, summary);
     const prediction::Weights weights = prediction::read_weights(folder.path() / "logistic.weights");
     EXPECT_NO_THROW(weights.require("logistic_pairs", prediction::pair_feature_schema()));
+    EXPECT_NO_THROW(prediction::check_model("logistic", (folder.path() / "logistic.weights").string()));
     EXPECT_EQ(weights.tensor("weight", {1, 8}).values[2], result.weight[2]);
     EXPECT_EQ(summary["mode"], "logistic");
     EXPECT_EQ(summary["test"][1]["failure"], "B10");

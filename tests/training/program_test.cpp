@@ -8,6 +8,8 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "prediction/model_file.hpp"
+#include "prediction/predictor.hpp"
 #include "samples/graph_sample.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_samples.hpp"
@@ -234,6 +236,42 @@ TEST_F(TrainProgramTest, corrected_training_reads_sample_files) {
          {"graphsage_corrected.weights", "GraphSAGENet.pth", "metrics.csv", "losses.csv"}) {
         EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / name)) << name;
     }
+}
+
+TEST_F(TrainProgramTest, both_files_of_a_training_are_models_of_its_predictor) {
+    for (const auto& file : synthetic_files(4, 5)) {
+        samples::GraphSampleWriter writer(file.origin);
+        for (const auto& sample : file.samples)
+            writer.add(sample);
+        writer.write(folder_.path() / ("line_B10_" + std::to_string(file.origin.replication) + ".samples"));
+    }
+    const auto expect_models = [&](std::vector<std::string> words, const std::string& predictor,
+                                   const std::string& pth) {
+        const std::string folder = (folder_.path() / predictor).string();
+        words.insert(words.end(), {"--data", data(), "--out", folder, "--epochs", "2", "--json"});
+        const Ended ended = train(words);
+        ASSERT_EQ(ended.exit.code, 0) << ended.output;
+        const prediction::Weights text =
+            prediction::read_model(predictor, folder + "/" + predictor + ".weights");
+        const prediction::Weights state = prediction::read_model(predictor, folder + "/" + pth);
+        EXPECT_EQ(state.architecture, text.architecture);
+        EXPECT_EQ(state.features, text.features);
+        EXPECT_EQ(state.dimensions, text.dimensions);
+        ASSERT_EQ(state.tensors.size(), text.tensors.size());
+        for (std::size_t at = 0; at < text.tensors.size(); ++at) {
+            EXPECT_EQ(state.tensors[at].name, text.tensors[at].name);
+            EXPECT_EQ(state.tensors[at].values, text.tensors[at].values) << text.tensors[at].name;
+        }
+        EXPECT_NO_THROW(prediction::check_model(predictor, folder + "/" + pth));
+    };
+    expect_models({"--as-published"}, "graphsage_as_published", "GraphSAGENet.pth");
+    expect_models({"--corrected"}, "graphsage_corrected", "GraphSAGENet.pth");
+    expect_models({"--corrected", "--convolution", "gcn"}, "gcn", "gcn.pth");
+    expect_models({"--corrected", "--convolution", "gat"}, "gat", "gat.pth");
+    const Ended other = train({"--corrected", "--convolution", "gat", "--data", data(), "--out",
+                               (folder_.path() / "gcn").string(), "--epochs", "2"});
+    EXPECT_EQ(other.exit.code, 3);
+    EXPECT_THAT(other.output, HasSubstr("was made with mode = \"gcn\""));
 }
 
 TEST_F(TrainProgramTest, corrected_training_without_samples_exits_with_3) {

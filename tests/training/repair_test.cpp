@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/predictor.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_repair.hpp"
@@ -234,7 +235,8 @@ TEST(RepairOutputs, the_folder_holds_a_model_unless_it_is_an_ablation) {
     write_outputs(folder.path() / "whole", result, config, summary_of(result, config, "data", "hash"));
     const prediction::Weights weights =
         prediction::read_weights(folder.path() / "whole" / "graphsage.weights");
-    EXPECT_NO_THROW(prediction::RepairNet{weights});
+    EXPECT_NO_THROW(
+        prediction::check_model("graphsage", (folder.path() / "whole" / "graphsage.weights").string()));
     EXPECT_THAT(weights.notes.front(), HasSubstr("hash"));
     EXPECT_THAT(core::read_file(folder.path() / "whole" / "metrics.csv"), HasSubstr("all,all,route_rule,"));
     const auto configuration = summary_of(result, config, "data", "hash")["configuration"];

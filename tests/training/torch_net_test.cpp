@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "prediction/convolution_net.hpp"
 #include "prediction/graphsage.hpp"
 #include "random_graph.hpp"
 #include "training/state_dict.hpp"
@@ -32,6 +33,28 @@ std::vector<float> own_logits(const StateDict& state, const prediction::GraphSag
     }
     std::vector<float> logits;
     net.logits(batch.features, graph, pairs, logits);
+    return logits;
+}
+
+/// The same for a net with another convolution.
+std::vector<float> own_logits(const TorchNet& net, Convolution convolution,
+                              const prediction::GraphSageDimensions& dimensions, const GraphBatch& batch) {
+    const prediction::FeatureSchema schema{"test", 1, dimensions.input};
+    prediction::ConvolutionNet own(convolution == Convolution::gcn ? prediction::GraphConvolution::gcn
+                                                                   : prediction::GraphConvolution::gat,
+                                   weights_from(net.state(), schema, dimensions, convolution), schema);
+    prediction::MessageGraph graph;
+    prediction::message_graph_from(
+        std::vector<std::uint32_t>(batch.message_source.begin(), batch.message_source.end()),
+        std::vector<std::uint32_t>(batch.message_target.begin(), batch.message_target.end()),
+        batch.vehicle_count(), graph);
+    std::vector<prediction::RowPair> pairs;
+    for (std::size_t pair = 0; pair < batch.pair_count(); ++pair) {
+        pairs.push_back({static_cast<std::uint32_t>(batch.pair_left[pair]),
+                         static_cast<std::uint32_t>(batch.pair_right[pair])});
+    }
+    std::vector<float> logits;
+    own.logits(batch.features, graph, pairs, logits);
     return logits;
 }
 
@@ -106,6 +129,28 @@ TEST(TorchNet, own_inference_agrees_within_1e_5) {
         ASSERT_EQ(ours.size(), theirs.size());
         for (std::size_t pair = 0; pair < ours.size(); ++pair) {
             ASSERT_NEAR(ours[pair], theirs[pair], 1e-5) << "graph " << seed << ", pair " << pair;
+        }
+    }
+}
+
+TEST(TorchNet, own_inference_of_gcn_and_gat_agrees_within_1e_5_before_and_after_training) {
+    for (const Convolution convolution : {Convolution::gcn, Convolution::gat}) {
+        for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+            const prediction::GraphSageDimensions dimensions =
+                seed % 2 == 0 ? prediction::GraphSageDimensions{5, 10, 5}
+                              : prediction::GraphSageDimensions{7, 33, 17};
+            const GraphBatch batch = random_graph(seed, 1 + seed * 7, dimensions.input, 40 * seed);
+            TorchNet net({dimensions, seed, 0.01, convolution});
+            EXPECT_THAT(own_logits(net, convolution, dimensions, batch),
+                        testing::Pointwise(testing::FloatNear(1e-5F), net.logits(batch)))
+                << name(convolution) << ", graph " << seed;
+            const double before = net.loss(batch);
+            for (int step = 0; step < 20; ++step)
+                net.train_step(batch);
+            EXPECT_LT(net.loss(batch), before) << name(convolution) << ", graph " << seed;
+            EXPECT_THAT(own_logits(net, convolution, dimensions, batch),
+                        testing::Pointwise(testing::FloatNear(1e-5F), net.logits(batch)))
+                << name(convolution) << ", trained graph " << seed;
         }
     }
 }

@@ -1,13 +1,86 @@
 #include "cli/detail/condition_options.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "experiment/settings.hpp"
+#include "prediction/predictor.hpp"
 
 namespace clearway::cli {
+namespace {
+
+using Conditions = std::vector<experiment::ConditionSpec>;
+
+constexpr const char* option = "--model";
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Predictors of the conditions, each once.
+std::vector<std::string> predictors_of(const Conditions& conditions) {
+    std::vector<std::string> names;
+    for (const experiment::ConditionSpec& condition : conditions) {
+        if (std::ranges::find(names, condition.predictor) == names.end())
+            names.push_back(condition.predictor);
+    }
+    return names;
+}
+
+std::vector<std::string> learned_among(std::vector<std::string> names) {
+    const std::vector<std::string> learned = prediction::learned_predictor_names();
+    std::erase_if(names,
+                  [&](const std::string& name) { return std::ranges::find(learned, name) == learned.end(); });
+    return names;
+}
+
+/// The predictor among `names` that the model in `file` is of.
+std::string predictor_of(const std::string& file, const std::vector<std::string>& names) {
+    std::vector<std::string> fit;
+    std::vector<core::Problem> problems;
+    for (const std::string& name : names) {
+        try {
+            prediction::check_model(name, file);
+            fit.push_back(name);
+        } catch (const core::InputError& error) {
+            for (core::Problem problem : error.problems()) {
+                problem.where = fmt::format("{}: predictor {}: {}", option, name, problem.where);
+                problems.push_back(std::move(problem));
+            }
+        }
+    }
+    if (fit.empty()) throw core::InputError(std::move(problems));
+    if (fit.size() > 1)
+        throw core::InputError({option, fmt::format("{} is a model of {}", file, joined(fit)),
+                                "one predictor of the conditions",
+                                fmt::format("Say which: --model {}={}", fit.front(), file)});
+    return fit.front();
+}
+
+void give_model(const std::string& predictor, const std::string& file, Conditions& conditions) {
+    std::vector<core::Problem> problems;
+    for (experiment::ConditionSpec& condition : conditions) {
+        if (condition.predictor != predictor) continue;
+        if (condition.model_file.empty()) {
+            experiment::set_model(condition, file, option);
+        } else {
+            problems.push_back({option,
+                                fmt::format("condition {} has the model {} already, {} is another",
+                                            condition.name, condition.model_file, file),
+                                "one model a condition",
+                                fmt::format("Take the model of {} out, in the study file or of the command",
+                                            condition.name)});
+        }
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+}  // namespace
 
 void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy,
                            const std::string& group) {
@@ -34,7 +107,7 @@ void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std:
     app.add_option("--set", settings, "A setting of the condition (clearway list settings); can be repeated")
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
         ->group(group);
-    app.add_option("--model", model, "Model file of a learned predictor")
+    app.add_option(option, model, "Net of a learned predictor: a file of clearway train or of torch.save")
         ->option_text("FILE [" + usual + "]")
         ->group(group);
 }
@@ -59,7 +132,31 @@ void apply_settings(const std::vector<std::string>& settings, const std::string&
         experiment::set(condition, name, value);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
-    if (!model.empty()) experiment::set_model(condition, model, "--model");
+    if (!model.empty()) experiment::set_model(condition, model, option);
+}
+
+void apply_models(const std::vector<std::string>& models, Conditions& conditions) {
+    const std::vector<std::string> present = predictors_of(conditions);
+    const std::vector<std::string> learned = learned_among(present);
+    for (const std::string& words : models) {
+        // A file whose name has `=` is no assignment unless a predictor stands before it.
+        const std::string word = words.substr(0, words.find('='));
+        const std::vector<std::string> known = prediction::learned_predictor_names();
+        const bool is_named = word.size() < words.size() && std::ranges::find(known, word) != known.end();
+        const std::string file = is_named ? words.substr(word.size() + 1) : words;
+        if (!std::filesystem::is_regular_file(file))
+            throw core::InputError({option, fmt::format("{} is no file", file),
+                                    "a file of clearway train or of torch.save", ""});
+        if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
+            throw core::InputError(
+                {option,
+                 is_named
+                     ? fmt::format("no condition has the predictor {}", word)
+                     : fmt::format("no condition has a predictor that takes a model ({})", joined(present)),
+                 joined(learned.empty() ? known : learned),
+                 "Give a condition that predictor, in [[condition]] of the study file"});
+        give_model(predictor_of(file, is_named ? std::vector<std::string>{word} : learned), file, conditions);
+    }
 }
 
 experiment::ConditionSpec condition_of(const DescribedCondition& described) {

@@ -37,6 +37,12 @@ void apply_settings(const std::vector<std::string>& settings, const std::string&
 /// The condition with its settings and model; the policy `none` is no policy. Throws as apply_settings does.
 experiment::ConditionSpec condition_of(const DescribedCondition& described);
 
+/// Gives each model file to the conditions whose predictor it is of. `models`: FILE, or PREDICTOR=FILE where
+/// a file fits several predictors. Throws core::InputError for a file that cannot be read or fits none of the
+/// conditions' predictors (with the reasons), one that fits several without saying which, a predictor that no
+/// condition has, and a condition that has a model already.
+void apply_models(const std::vector<std::string>& models, std::vector<experiment::ConditionSpec>& conditions);
+
 /// Declares an option that is `on` or `off`; returns it for its group and text.
 template <class Switch>
 CLI::Option* add_switch(CLI::App& app, const std::string& name, Switch& value, const std::string& help) {

@@ -38,6 +38,12 @@ inline torch::Tensor uniform_parameter(at::IntArrayRef shape, std::int64_t input
     return torch::empty(shape).uniform_(-bound, bound, generator).requires_grad_(true);
 }
 
+/// Glorot and Bengio 2010; `fans`: inputs and outputs together.
+inline torch::Tensor glorot_parameter(at::IntArrayRef shape, std::int64_t fans, at::Generator& generator) {
+    const double bound = std::sqrt(6.0 / static_cast<double>(fans));
+    return torch::empty(shape).uniform_(-bound, bound, generator).requires_grad_(true);
+}
+
 struct Linear {
     Linear(std::int64_t inputs, std::int64_t outputs, at::Generator& generator)
         : weight(uniform_parameter({outputs, inputs}, inputs, generator)),
