@@ -118,6 +118,19 @@ TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
     EXPECT_THAT(data.err, AllOf(HasSubstr("--failure `loss_rate=2`"), HasSubstr("2 is out of range")));
 }
 
+TEST_F(BadInputTest, seeds_below_0_settings_twice_and_names_of_paths_are_refused) {
+    EXPECT_EQ(clearway({"run", "line", "--seed", "-1", "--out", "out"}).code, 2);
+    const Ended twice = clearway({"run", "line", "--out", "out", "--set", "clear_lane.horizon_m=100", "--set",
+                                  "clear_lane.horizon_m=200"});
+    EXPECT_EQ(twice.code, 3);
+    EXPECT_THAT(twice.err, HasSubstr("--set clear_lane.horizon_m: is given twice"));
+    write_line_scenario();
+    write("named.toml", "name = \"../z\"\nscenarios = [\"line\"]\nconditions = [\"baseline\"]\n");
+    const Ended outside = clearway({"study", "named.toml", "--dry-run"});
+    EXPECT_EQ(outside.code, 3);
+    EXPECT_THAT(outside.err, HasSubstr("\"../z\" cannot be the name of a folder"));
+}
+
 TEST_F(BadInputTest, a_data_set_says_once_whether_exits_are_known) {
     write_line_scenario();
     const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure",

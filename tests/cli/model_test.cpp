@@ -108,7 +108,7 @@ TEST_F(ModelTest, a_study_refuses_a_net_that_no_condition_or_more_than_one_would
             words.insert(words.end(), {"--model", model});
         expect_refused(words, message);
     };
-    refused({"none.pth"}, "--model: none.pth is no file");
+    refused({"none.pth"}, "--model: none.pth is not a file");
     refused({"gcn.pth"}, "--model: predictor graphsage_as_published: gcn.pth: is no state dict of");
     refused({"gcn=gcn.pth"}, "no condition has the predictor gcn (allowed: graphsage_as_published)");
     refused({"good.pth", "two_features.pth"}, "condition published has the model");

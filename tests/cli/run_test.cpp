@@ -54,6 +54,35 @@ TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
     EXPECT_THAT(read("out/report.html"), HasSubstr("actuation.hold_cap_s=30 clear_lane.horizon_m=300"));
 }
 
+TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
+    const auto conditions = [&](const std::vector<std::string>& words, const std::string& folder) {
+        std::vector<std::string> all = {"run", "line", "--seeds", "1", "--no-solo", "--out", folder};
+        all.insert(all.end(), words.begin(), words.end());
+        const Ended ended = clearway(all);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        std::vector<std::string> names;
+        for (const auto& one : nlohmann::json::parse(read(folder + "/manifest.json")).at("conditions"))
+            names.push_back(one.at("name"));
+        return names;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(conditions({"--set", "preempt_signals.lead_s=12"}, "usual"),
+                ElementsAre("baseline", "corridor_lead_s_12"));
+    EXPECT_THAT(conditions({"--condition", "graph_simulation", "--set", "dissertation.ahead_m=80"}, "named"),
+                ElementsAre("baseline", "graph_simulation", "dissertation_ahead_m_80"));
+    EXPECT_THAT(conditions({"--policy", "none", "--set", "siren.compliance=1"}, "sirens"),
+                ElementsAre("baseline_compliance_1", "no_policy_compliance_1"));
+}
+
+TEST_F(RunTest, a_condition_of_ones_own_cannot_take_the_name_of_a_built_in_one) {
+    for (const std::string name : {"baseline", "solo", "graph_simulation"}) {
+        const Ended ended =
+            clearway({"run", "line", "--seeds", "1", "--policy", "corridor", "--name", name, "--out", "out"});
+        EXPECT_EQ(ended.code, 3);
+        EXPECT_THAT(ended.err, HasSubstr("`" + name + "` is a built-in condition"));
+    }
+}
+
 TEST_F(RunTest, writes_a_run_folder_and_prints_tables_on_standard_output_alone) {
     const Ended ended = clearway({"run", "line", "--seeds", "2", "--out", "out", "--policy", "dissertation",
                                   "--failure", "B10", "--predictor", "dead_reckoning"});
@@ -92,8 +121,8 @@ TEST_F(RunTest, one_and_two_jobs_give_the_same_bytes) {
 }
 
 TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
-    ASSERT_EQ(clearway(two_conditions("one", 3)).code, 0);
-    ASSERT_EQ(clearway(two_conditions("two", 3)).code, 0);
+    ASSERT_EQ(clearway(two_conditions("one", 5)).code, 0);
+    ASSERT_EQ(clearway(two_conditions("two", 5)).code, 0);
     const Ended within = clearway({"compare", "one"});
     EXPECT_EQ(within.code, 0) << within.err;
     EXPECT_THAT(within.out,
@@ -115,7 +144,11 @@ TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
         clearway({"compare", "one", "--metric", "collisions", "--metric", "teleports", "--tolerance", "0"});
     EXPECT_EQ(unclear.code, 3);
     EXPECT_THAT(unclear.err, HasSubstr("--tolerance collisions=0"));
-    std::vector<std::string> other = two_conditions("three", 3);
+    std::filesystem::remove_all(folder() / "two/runs/line/graph_simulation/00003");
+    const Ended lacks = clearway({"compare", "one", "two", "--tolerance", "100000"});
+    EXPECT_EQ(lacks.code, 6) << "a run that is not there cannot pass";
+    EXPECT_THAT(lacks.err, HasSubstr("graph_simulation: runs: 1 of 5 runs failed or are missing in the second"));
+    std::vector<std::string> other = two_conditions("three", 5);
     other.insert(other.end(), {"--seed", "7"});
     ASSERT_EQ(clearway(other).code, 0);
     const Ended refused = clearway({"compare", "one", "three"});

@@ -139,6 +139,34 @@ set = [{ "preempt_signals.lead_s" = 4, "clear_lane.horizon_m" = 300 }, { preempt
                 HasSubstr("is not a list of settings"));
 }
 
+TEST_F(Factors, MayVaryASettingOnce) {
+    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}]\nfailure.dark_share = [0.2, 0.3]\n"),
+                HasSubstr("failure.dark_share is varied by another factor too"));
+    EXPECT_THAT(problems("[factors]\n\"failure.dark_share\" = [0.1]\nfailure.dark_share = [0.2]\n"),
+                HasSubstr("failure.dark_share is varied by another factor too"));
+    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1, failure.dark_share = 0.2}]\n"),
+                HasSubstr("failure.dark_share: is set twice"));
+    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}, {}]\n"), HasSubstr("sets nothing"));
+}
+
+TEST_F(Factors, OneAtATimeAreOfScenariosOrOfConditions) {
+    EXPECT_THAT(problems("[factors]\ndesign = \"one_at_a_time\"\nscenario.demand.human = [40, 80]\n"
+                         "failure.dark_share = [0.1, 0.2]\n"),
+                HasSubstr("cannot be varied one at a time beside settings of conditions"));
+}
+
+TEST_F(Factors, OfSirensGiveTheBaselineTheSameDrivers) {
+    const StudyConfig config = read("[factors]\nsiren.compliance = [0, 1]\n");
+    EXPECT_THAT(names(config.conditions),
+                ElementsAre("baseline+compliance=0", "baseline+compliance=1", "graph_simulation+compliance=0",
+                            "graph_simulation+compliance=1", "solo"));
+    for (const std::size_t at : {0U, 1U}) {
+        EXPECT_TRUE(experiment::same_environment(config.conditions[at], config.conditions[at + 2]));
+        EXPECT_FALSE(experiment::same_environment(config.conditions[at], config.conditions[3 - at]));
+    }
+    EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out"));
+}
+
 TEST_F(Factors, ConditionsAndSettingsSetTheSame) {
     const StudyConfig by_factor = read(std::string(two_policies) + R"([factors]
 preempt_signals.lead_s = [12.0]

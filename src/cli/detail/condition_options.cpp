@@ -145,7 +145,7 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
         const bool is_named = word.size() < words.size() && std::ranges::find(known, word) != known.end();
         const std::string file = is_named ? words.substr(word.size() + 1) : words;
         if (!std::filesystem::is_regular_file(file))
-            throw core::InputError({option, fmt::format("{} is no file", file),
+            throw core::InputError({option, fmt::format("{} is not a file", file),
                                     "a file of clearway train or of torch.save", ""});
         if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
             throw core::InputError(
