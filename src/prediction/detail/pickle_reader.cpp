@@ -275,13 +275,13 @@ void Machine::tuple(std::size_t size) {
 
 void Machine::set_items(const std::vector<Reference>& items) {
     if (items.size() % 2 != 0) refuse("has a key without a value");
-    Dict& dict = get<Dict>(top(), "a dict");
+    auto& dict = get<Dict>(top(), "a dict");
     for (std::size_t at = 0; at < items.size(); at += 2)
         dict.items.emplace_back(items[at], items[at + 1]);
 }
 
 void Machine::append(const std::vector<Reference>& items) {
-    Sequence& list = get<Sequence>(top(), "a list");
+    auto& list = get<Sequence>(top(), "a list");
     list.items.insert(list.items.end(), items.begin(), items.end());
 }
 
@@ -311,7 +311,7 @@ void Machine::load_storage() {
     const std::vector<Reference> items = get<Sequence>(pop(), "a storage").items;
     if (items.size() != 5 || get<std::string>(items[0], "a storage") != "storage")
         refuse("has something else where a storage belongs");
-    const Global& type = get<Global>(items[1], "a type of storage");
+    const auto& type = get<Global>(items[1], "a type of storage");
     if (!is_storage(type)) refuse("has something else where a type of storage belongs");
     push(PickledStorage{type.name, get<std::string>(items[2], "the key of a storage"),
                         get<std::int64_t>(items[4], "the size of a storage")});
@@ -345,7 +345,7 @@ PickledTensor Machine::rebuilt_tensor(const Sequence& arguments) {
 }
 
 std::vector<std::int64_t> Machine::sizes_in(Reference reference) {
-    const Sequence& shape = get<Sequence>(reference, "a shape");
+    const auto& shape = get<Sequence>(reference, "a shape");
     if (shape.items.size() > most_axes) refuse(fmt::format("has a tensor of {} axes", shape.items.size()));
     std::vector<std::int64_t> sizes;
     for (const Reference item : shape.items)
