@@ -137,7 +137,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
 }
 
 std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
-    std::vector<Engine> engines;
+    std::vector<TrafficModel> engines;
     for (const TrafficModel traffic_model :
          {TrafficModel::standard, TrafficModel::sublane, TrafficModel::free_flow}) {
         const auto needs_it = [&](const auto& condition) { return condition.traffic_model == traffic_model; };

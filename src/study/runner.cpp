@@ -143,7 +143,7 @@ class Runner : private core::TaskList {
     bool settle(const core::TaskEnd& end, const RunKey& key) const {
         auto error = store_.read_error(key);
         const bool told_by_worker = error.has_value();
-        if (!error) failure = error_of(key, end);
+        if (!error) error = error_of(key, end);
         if (!results::worth_retrying(error->cause)) {
             if (!told_by_worker) store_.write(*error);
             return false;
