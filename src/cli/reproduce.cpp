@@ -12,7 +12,7 @@ namespace clearway::cli {
 namespace {
 
 constexpr std::uint32_t usual_seeds = 20;  // the fewest that the dissertation's tables are printed from
-constexpr std::uint32_t quick_seeds = 10;  // FHWA's minimum; half a minute on two cores
+constexpr std::uint32_t quick_seeds = 10;  // FHWA's minimum; about a minute on two cores
 
 struct Arguments {
     std::uint32_t seeds = usual_seeds;
@@ -54,7 +54,7 @@ Action configure_reproduce(CLI::App& app) {
     CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     app.add_flag_callback(
            "--quick", [arguments] { arguments->seeds = quick_seeds; },
-           fmt::format("{} seeds, FHWA's minimum: under a minute on two cores [off]", quick_seeds))
+           fmt::format("{} seeds, FHWA's minimum: about a minute on two cores [off]", quick_seeds))
         ->excludes(seeds);
     add_seed_option(app, arguments->seed);
     app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there is continued")
