@@ -362,8 +362,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         const Runs baseline_runs = index.runs(entry.name, baseline->name);
         compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end()) continue;
-        if (!summary.objections.loses_emergency())
-            close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
+        close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     adjust(scenario);
     return scenario;

@@ -195,10 +195,8 @@ void list_alone(const Arguments& arguments) {
 Action configure_list(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
-    app.add_option(
-           "what", arguments->words,
-           "`settings`: every number that a condition may set, or those of NAME; `columns`: every number of "
-           "a run; `scenario-keys`: every key of scenario.toml")
+    app.add_option("what", arguments->words,
+                   "Settings of conditions, columns of tables, or keys of scenario.toml, in full")
         ->expected(0, 2)
         ->option_text("settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");

@@ -107,7 +107,7 @@ TEST_F(ShardsTest, are_run_and_merged_by_local_processes) {
     expect_tables_of_one_machine("sub/merged");
     const Ended other = clearway({"submit", "my.toml", "--shards", "2", "--out", "sub"});
     EXPECT_EQ(other.code, 3);
-    EXPECT_THAT(other.err, HasSubstr("divided into 3 shards already, not 2"));
+    EXPECT_THAT(other.err, HasSubstr("already divided into 3 shards, not 2"));
     EXPECT_EQ(clearway({"submit", "my.toml", "--shards", "99", "--out", "more"}).code, 3);
 }
 

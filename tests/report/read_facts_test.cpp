@@ -191,7 +191,7 @@ TEST_F(RunFolder, becomes_tables_and_a_page) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, Not(HasSubstr("nan")));
     const std::string tables = console_tables(facts);
-    EXPECT_THAT(tables, HasSubstr("ran without safety checks: EV travel time -21.0 s"));
+    EXPECT_THAT(tables, HasSubstr("ran without safety checks: EV travel\n    time -21.0 s"));
     EXPECT_THAT(tables, HasSubstr("too few seeds: fewer than 5"));
     EXPECT_THAT(tables, Not(HasSubstr("[-23.5, -18.5]")));
 }

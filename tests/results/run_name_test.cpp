@@ -61,7 +61,14 @@ TEST_F(RunName, LeadsToItsRecording) {
     EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN"), core::InputError);
     const std::filesystem::path file = trace::recording_file(store.folder(), key);
     std::filesystem::create_directories(file.parent_path());
-    folder.write(std::filesystem::relative(file, folder.path()).string(), "steps");
+    const auto record = [&](const experiment::RunKey& held) {
+        trace::RecordingInfo info;
+        info.key = held;
+        trace::RecordingWriter(file, info).finish();
+    };
+    record({"alpha", "baseline", 1});
+    EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN"), core::InputError) << "that of another run";
+    record(key);
     EXPECT_TRUE(std::filesystem::equivalent(recording_named(name("alpha/treated/1"), "RUN"), file));
     EXPECT_TRUE(std::filesystem::equivalent(recording_named(file.string(), "RUN"), file));
 }

@@ -316,7 +316,7 @@ TEST_F(NetworkTest, NamesFileAndLineOfWhatIsWrong) {
     EXPECT_THAT(complaint(altered(R"(<edge id="south")", R"(<edge id="west")")),
                 HasSubstr("edge \"west\" occurs twice"));
     EXPECT_THAT(complaint(altered(R"(state="rrGG")", R"(state="rrG")")), HasSubstr("4 letters"));
-    EXPECT_THAT(complaint(altered(R"(tl="J")", R"(tl="Q")")), HasSubstr("tl=\"Q\" is no signal"));
+    EXPECT_THAT(complaint(altered(R"(tl="J")", R"(tl="Q")")), HasSubstr("tl=\"Q\" is not a signal"));
     EXPECT_THAT(complaint(altered(R"(shape="0.00,-4.80 100.00,-4.80")", R"(shape="0.00,-4.80")")),
                 HasSubstr("two or more points"));
     EXPECT_THAT(complaint(altered(R"( :J_4_0")", R"(")")), HasSubstr("junction has 4 requests"));

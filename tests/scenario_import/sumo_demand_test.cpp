@@ -345,7 +345,7 @@ TEST_F(SumoDemand, a_stop_that_waits_lasts_its_duration_or_is_left_out) {
                       "triggered='true'/><stop lane='second_0' duration='7' triggered='true'/></vehicle>" +
                       cars(9)));
     EXPECT_THAT(findings.left_out, AllOf(Contains(HasSubstr("and have no duration (v)")),
-                                         Contains(HasSubstr("which last their duration (v)"))));
+                                         Contains(HasSubstr("which now last their duration (v)"))));
     EXPECT_THAT(traffic_file(), AllOf(Not(HasSubstr("triggered")), HasSubstr("duration=\"7\"")));
     EXPECT_EQ(count(traffic_file(), "<stop"), 1U);
 }

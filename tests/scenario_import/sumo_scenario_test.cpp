@@ -135,7 +135,7 @@ TEST_F(SumoScenario, newer_class_lists_are_repaired_and_emergency_vehicles_admit
     const Findings findings =
         run(request({network, write("line.rou.xml", "<routes>" + cars(20) + "</routes>")}));
     EXPECT_THAT(findings.changes, AllOf(Contains(HasSubstr("2 lists of vehicle classes")),
-                                        Contains(HasSubstr("1 lanes or ways"))));
+                                        Contains(HasSubstr("1 lanes or connections"))));
     EXPECT_THAT(core::read_file(out() / "town" / "network.net.xml"),
                 AllOf(HasSubstr("allow=\"passenger emergency\""), Not(HasSubstr("subway"))));
 }

@@ -140,13 +140,15 @@ set = [{ "preempt_signals.lead_s" = 4, "clear_lane.horizon_m" = 300 }, { preempt
 }
 
 TEST_F(Factors, MayVaryASettingOnce) {
-    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}]\nfailure.dark_share = [0.2, 0.3]\n"),
-                HasSubstr("failure.dark_share is varied by another factor too"));
+    EXPECT_THAT(
+        problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}]\nfailure.dark_share = [0.2, 0.3]\n"),
+        HasSubstr("failure.dark_share is varied by another factor too"));
     EXPECT_THAT(problems("[factors]\n\"failure.dark_share\" = [0.1]\nfailure.dark_share = [0.2]\n"),
                 HasSubstr("failure.dark_share is varied by another factor too"));
     EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1, failure.dark_share = 0.2}]\n"),
                 HasSubstr("failure.dark_share: is set twice"));
-    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}, {}]\n"), HasSubstr("sets nothing"));
+    EXPECT_THAT(problems("[factors]\nset = [{\"failure.dark_share\" = 0.1}, {}]\n"),
+                HasSubstr("sets nothing"));
 }
 
 TEST_F(Factors, OneAtATimeAreOfScenariosOrOfConditions) {

@@ -33,14 +33,15 @@ std::string problems_of(const StudyConfig& config) {
     return "none";
 }
 
-TEST(Plan, HasOneUnitPerReplicationScenarioAndEngine) {
+TEST(Plan, HasOneUnitPerReplicationScenarioAndTrafficModel) {
     const Plan plan = plan_of(example());
     std::vector<std::string> names;
     for (const PlannedUnit& unit : plan.units)
         names.push_back(unit.name);
-    EXPECT_THAT(names, testing::ElementsAre("alpha-00000-standard", "alpha-00000-solo", "beta-00000-standard",
-                                            "beta-00000-solo", "alpha-00001-standard", "alpha-00001-solo",
-                                            "beta-00001-standard", "beta-00001-solo"));
+    EXPECT_THAT(names,
+                testing::ElementsAre("alpha-00000-standard", "alpha-00000-free_flow", "beta-00000-standard",
+                                     "beta-00000-free_flow", "alpha-00001-standard", "alpha-00001-free_flow",
+                                     "beta-00001-standard", "beta-00001-free_flow"));
     EXPECT_EQ(plan.run_count(), 2U * 2U * 9U);
     EXPECT_EQ(plan.units[0].unit.conditions.size(), 8U);
     EXPECT_EQ(plan.units[1].unit.conditions.size(), 1U);
@@ -66,8 +67,16 @@ TEST(Plan, RefusesNamesThatAreTwiceOrNoFolders) {
                                                     testing::HasSubstr("\"../up\" cannot be the name")));
 }
 
-TEST(Plan, RefusesAPolicyWithoutABaselineOfItsEngine) {
+TEST(Plan, RefusesAConditionThatTakesTheNameOfABuiltInOne) {
     StudyConfig config = example();
+    config.conditions[1].failure = "B10";
+    EXPECT_THAT(problems_of(config),
+                testing::HasSubstr("\"corridor\" is the name of a built-in condition, and this is another"));
+}
+
+TEST(Plan, RefusesAPolicyWithoutABaselineOfItsTrafficModel) {
+    StudyConfig config = example();
+    config.conditions[1].name = "corridor_sublane";
     config.conditions[1].traffic_model = TrafficModel::sublane;
     EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with traffic model \"sublane\""));
     experiment::ConditionSpec baseline;

@@ -112,11 +112,11 @@ TEST(TrainRepair, a_damaged_checkpoint_tells_how_to_start_anew) {
                                      HasSubstr("Remove checkpoint.json and checkpoint.pth to start anew")));
     };
     core::write_atomically(tensors, bytes.substr(0, bytes.size() / 2));
-    expect_refusal("checkpoint.pth: its content hashes to");
+    expect_refusal("checkpoint.pth: its content hash is");
     std::string flipped = bytes;
     flipped[bytes.size() / 2] ^= 1;
     core::write_atomically(tensors, flipped);
-    expect_refusal("checkpoint.pth: its content hashes to");
+    expect_refusal("checkpoint.pth: its content hash is");
     std::filesystem::remove(tensors);
     expect_refusal("checkpoint.pth: is missing");
     core::write_atomically(tensors, bytes);
@@ -317,7 +317,7 @@ TEST_F(RepairSampleFileTest, a_file_cut_or_changed_is_refused) {
     std::string changed = bytes;
     changed[bytes.size() / 2] ^= 1;
     core::write_atomically(path, changed);
-    EXPECT_THAT(message_of([&] { samples::read_repair_samples(path); }), HasSubstr("its content hashes to"));
+    EXPECT_THAT(message_of([&] { samples::read_repair_samples(path); }), HasSubstr("its content hash is"));
 }
 
 TEST_F(RepairSampleFileTest, numbers_that_contradict_each_other_are_a_fault_of_the_recorder) {
