@@ -180,9 +180,9 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     return known->table.check({{field, value}}, where + component + ".");
 }
 
-bool same_environment(const ConditionSpec& one, const ConditionSpec& other) {
-    return one.traffic_model == other.traffic_model &&
-           core::settings_of(one.settings, siren_name) == core::settings_of(other.settings, siren_name);
+bool same_environment(const ConditionSpec& left, const ConditionSpec& right) {
+    return left.traffic_model == right.traffic_model &&
+           core::settings_of(left.settings, siren_name) == core::settings_of(right.settings, siren_name);
 }
 
 ConditionSpec baseline_for(const ConditionSpec& condition) {

@@ -42,7 +42,7 @@ bool reads_links(const ConditionSpec& condition);
 
 /// Whether two conditions have the same traffic model and the same settings of human drivers, `siren.*`: one
 /// of them can then be the other's baseline, because only the policy and what it needs differ.
-bool same_environment(const ConditionSpec& one, const ConditionSpec& other);
+bool same_environment(const ConditionSpec& left, const ConditionSpec& right);
 
 /// The baseline of a condition: the car-following model alone, in the same environment. It is the built-in
 /// `baseline` where nothing of the environment is set.
