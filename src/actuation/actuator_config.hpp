@@ -28,7 +28,8 @@ struct ActuatorConfig {
             Field{"yellow_s", "s", &C::yellow_s, 0.0, 10.0,
                   "Yellow before a green is withdrawn, on a dry road; longer on slippery roads",
                   "usual in towns"},
-            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0, "All red after yellow", "as in the prototype"},
+            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0, "All red after yellow",
+                  "assumed: usual in towns"},
             Field{"clearing_s", "s", &C::clearing_s, 0.0, 30.0,
                   "All red lasts up to this much longer while a vehicle that has lost green is still inside "
                   "the junction",
@@ -46,7 +47,7 @@ struct ActuatorConfig {
             Field{"hold_cap_s", "s", &C::hold_cap_s, 1.0, 600.0,
                   "Longest time away from the signal's background plan; restarts when the hold passes "
                   "to links that conflict with those held before",
-                  "as the prototype"},
+                  "assumed"},
             Field{"lockout_s", "s", &C::lockout_s, 0.0, 600.0,
                   "The signal's background plan runs at least this long between holds; after a hold that "
                   "reached the cap, also for a whole cycle (180 s at most)",

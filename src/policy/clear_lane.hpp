@@ -80,7 +80,8 @@ struct ClearLaneConfig {
                   "Vehicles closer than this along the road cannot move into the same lane side by side",
                   "assumed: two cars"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+                  "Lifetime of a lease that is not renewed; at least two periods",
+                  "assumed: four decisions at the usual period"});
     }
 };
 

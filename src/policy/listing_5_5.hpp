@@ -38,7 +38,8 @@ struct Listing55Config : detail::EdgeRule {
                   "A lane is free when no linked vehicle on it is nearer than this along the road",
                   "assumed: a car's length and two gaps"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lane change that is not renewed; at least two periods", "as the prototype"});
+                  "Lifetime of a lane change that is not renewed; at least two periods",
+                  "assumed: four decisions at the usual period"});
         return std::tuple_cat(EdgeRule::fields(), own);
     }
 };

@@ -23,7 +23,7 @@ struct PreemptSignalsConfig {
         using core::Field;
         return std::make_tuple(
             Field{"lead_s", "s", &C::lead_s, 0.0, 60.0, "Green is asked for this long before arrival",
-                  "prototype: 20 s gain 2 % and cost others 20 % waiting"},
+                  "in first trials 20 s gained 2 % and cost others 20 % waiting"},
             Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,
                   "And this much earlier per vehicle that stands ahead", "saturation headway"},
             Field{"longest_lead_s", "s", &C::longest_lead_s, 0.0, 60.0, "But no earlier than this",

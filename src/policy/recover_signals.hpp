@@ -34,7 +34,8 @@ struct RecoverSignalsConfig {
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+                  "Lifetime of a lease that is not renewed; at least two periods",
+                  "assumed: four decisions at the usual period"});
     }
 };
 

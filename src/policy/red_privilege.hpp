@@ -27,7 +27,8 @@ struct RedPrivilegeConfig {
             Field{"braking_mps2", "m/s2", &C::braking_mps2, 0.1, 9.0,
                   "The emergency vehicle slows down to that speed with this deceleration", "comfortable"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods", "as the prototype"});
+                  "Lifetime of a lease that is not renewed; at least two periods",
+                  "assumed: four decisions at the usual period"});
     }
 };
 

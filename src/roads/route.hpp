@@ -80,7 +80,7 @@ std::vector<StopLine> signals_ahead(const Network& network, Route route, const t
                                     core::Metres horizon);
 
 /// A lane that is not among the best for a route is worth taking when it can be followed for longer than this
-/// (measured on the prototype: with shorter distances, vehicles get stuck before turns).
+/// (found in first trials: with shorter distances, vehicles get stuck before turns).
 inline constexpr core::Metres worth_following{300.0};
 
 /// How far a vehicle at `lane_position` on `lane` (on route[route_edge]) can follow `route` without a lane

@@ -15,7 +15,7 @@ constexpr double speed_resolution_mps = 1e-3;
 /// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
 constexpr double stop_line_gap_m = 1.0;
 /// Longest single lane request, s: if a request outlives its lease by a fault, it does not bind the vehicle
-/// longer (3 s: measured on the prototype).
+/// longer (3 s: found in first trials).
 constexpr double longest_lane_request_s = 3.0;
 /// A lane request is renewed when it has less than this left, s: longer than the longest step (1 s).
 constexpr double prolong_lane_request_s = 1.5;
