@@ -39,7 +39,6 @@ ReferencePage columns() {
 }
 
 ReferencePage scenario_keys() {
-    using namespace scenario;
     return {
         "scenario-keys",
         "Keys of the scenario file",
@@ -48,30 +47,35 @@ ReferencePage scenario_keys() {
         "[40, 80]`. What they mean for emergency vehicles (EV) and traffic stands in [the scenario\n"
         "file](scenario-file.md). Beside them stand `name`, `version` and `title` of the scenario.",
         core::FieldUse::set,
-        {table_of<NetworkSource>("network", "Where the roads come from; paths are relative to the folder",
-                                 "network."),
-         table_of<Times>("time", "The clock of a run", "time."),
-         table_of<Demand>("demand", "How many vehicles drive", "demand."),
-         table_of<Dense>("dense", "What the dense variant changes; optional", "dense."),
-         table_of<SpeedLimits>("limits", "Speed limits of classes", "limits."),
-         table_of<Drivers>("drivers", "Car-following model and desired speeds", "drivers."),
-         table_of<TrafficKinds>("kinds.traffic", "Frequencies of kinds among traffic", "kinds.traffic."),
-         table_of<EmergencyKinds>("kinds.emergency", "The same among EVs", "kinds.emergency."),
+        {table_of<scenario::NetworkSource>(
+             "network", "Where the roads come from; paths are relative to the folder", "network."),
+         table_of<scenario::Times>("time", "The clock of a run", "time."),
+         table_of<scenario::Demand>("demand", "How many vehicles drive", "demand."),
+         table_of<scenario::Dense>("dense", "What the dense variant changes; optional", "dense."),
+         table_of<scenario::SpeedLimits>("limits", "Speed limits of classes", "limits."),
+         table_of<scenario::Drivers>("drivers", "Car-following model and desired speeds", "drivers."),
+         table_of<scenario::TrafficKinds>("kinds.traffic", "Frequencies of kinds among traffic",
+                                          "kinds.traffic."),
+         table_of<scenario::EmergencyKinds>("kinds.emergency", "The same among EVs", "kinds.emergency."),
          table_of<traffic::SirenConfig>("siren", "Human drivers who yield to a siren; optional", "siren."),
-         table_of<RoadCondition>("road", "Weather and works; optional", "road."),
-         table_of<Stretch>("road.stretch.NAME", "Edges with a factor of their own, listed in `edges`",
-                           "road.stretch.NAME."),
-         table_of<Pedestrians>("pedestrians", "People at crossings; optional", "pedestrians."),
-         table_of<Trips>("trips", "Origins and destinations drawn over the network", "trips."),
-         table_of<Flow>("[[flow]]", "A share of all vehicles from an edge to another", "flow."),
-         table_of<EmergencyTrip>("[[emergency_trip]]", "An EV with a trip of its own", "emergency_trip."),
-         table_of<EmergencySite>("[[emergency_site]]", "Where EVs start or arrive", "emergency_site."),
-         table_of<Measured>("measured",
-                            "Measured demand; its lists `routes`, `additional` and `persons` name files",
-                            "measured."),
-         table_of<OwnTypes>("measured.own_types", "Vehicles keep their own types", "measured.own_types."),
-         table_of<MeasuredType>("[[measured.type]]", "What a type of the measured demand becomes",
-                                "measured.type.")}};
+         table_of<scenario::RoadCondition>("road", "Weather and works; optional", "road."),
+         table_of<scenario::Stretch>("road.stretch.NAME",
+                                     "Edges with a factor of their own, listed in `edges`",
+                                     "road.stretch.NAME."),
+         table_of<scenario::Pedestrians>("pedestrians", "People at crossings; optional", "pedestrians."),
+         table_of<scenario::Trips>("trips", "Origins and destinations drawn over the network", "trips."),
+         table_of<scenario::Flow>("[[flow]]", "A share of all vehicles from an edge to another", "flow."),
+         table_of<scenario::EmergencyTrip>("[[emergency_trip]]", "An EV with a trip of its own",
+                                           "emergency_trip."),
+         table_of<scenario::EmergencySite>("[[emergency_site]]", "Where EVs start or arrive",
+                                           "emergency_site."),
+         table_of<scenario::Measured>(
+             "measured", "Measured demand; its lists `routes`, `additional` and `persons` name files",
+             "measured."),
+         table_of<scenario::OwnTypes>("measured.own_types", "Vehicles keep their own types",
+                                      "measured.own_types."),
+         table_of<scenario::MeasuredType>("[[measured.type]]", "What a type of the measured demand becomes",
+                                          "measured.type.")}};
 }
 
 }  // namespace
