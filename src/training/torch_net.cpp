@@ -71,11 +71,6 @@ class SageLayer final : public ConvolutionLayer {
     torch::Tensor own_;
 };
 
-/// torch warns once that scatter_reduce is young; the tests hold it to the inference without torch.
-struct Quiet final : c10::WarningHandler {
-    void process(const c10::SourceLocation&, const std::string&, bool) override {}
-};
-
 /// GCNConv or GATConv (one head) of PyTorch Geometric with their defaults: messages of a row to itself left
 /// out, and each row among its own neighbours once.
 class SelfLoopLayer final : public ConvolutionLayer {
