@@ -286,8 +286,9 @@ bool is_same(const trace::ReplayResult& result) {
 }
 
 core::ExitCode replay_file(Arguments arguments) {
-    arguments.file = results::recording_named(arguments.file, "RUN");
-    trace::RecordingReader recording(arguments.file);
+    const results::NamedRecording named = results::recording_named(arguments.file, "RUN");
+    arguments.file = named.file;
+    trace::RecordingReader& recording = *named.reader;
     if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
         throw core::InputError(

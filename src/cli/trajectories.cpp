@@ -24,8 +24,8 @@ struct Arguments {
 };
 
 core::ExitCode write(const Arguments& arguments) {
-    const std::filesystem::path file = results::recording_named(arguments.run, "RUN");
-    trace::RecordingReader recording(file);
+    const results::NamedRecording named = results::recording_named(arguments.run, "RUN");
+    trace::RecordingReader& recording = *named.reader;
     const experiment::RunKey key = recording.info().key;
     const experiment::ConditionSpec condition = recording.info().condition;
     const scenario::SumoRun run{.seed = core::StudySeed{recording.info().provenance.study_seed},
@@ -34,7 +34,8 @@ core::ExitCode write(const Arguments& arguments) {
                                                      ? traffic::LateralModel::sublane
                                                      : traffic::LateralModel::lane,
                                 .bluelight = condition.bluelight};
-    const std::filesystem::path run_folder = file.parent_path().parent_path().parent_path().parent_path();
+    const std::filesystem::path run_folder =
+        named.file.parent_path().parent_path().parent_path().parent_path();
     const std::filesystem::path scenario_folder =
         results::Store::open(run_folder).scenario_folder(key.scenario);
     const scenario::ScenarioConfig config = scenario::load((scenario_folder / "scenario.toml").string());

@@ -96,21 +96,26 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     return run;
 }
 
-fs::path recording_named(const std::string& name, const std::string& where) {
-    if (fs::is_regular_file(name)) return fs::absolute(name).lexically_normal();
+NamedRecording recording_named(const std::string& name, const std::string& where) {
+    const auto open = [](const fs::path& file) {
+        return NamedRecording{fs::absolute(file).lexically_normal(),
+                              std::make_unique<trace::RecordingReader>(file)};
+    };
+    if (fs::is_regular_file(name)) return open(name);
     const NamedRun run = run_named(name, where);
-    const fs::path recording = trace::recording_file(run.store.folder(), run.key);
-    if (!fs::exists(recording))
+    const fs::path file = trace::recording_file(run.store.folder(), run.key);
+    if (!fs::exists(file))
         throw core::InputError(
             {where,
-             fmt::format("{} has no recording {}", run_name(run.store.folder(), run.key), recording.string()),
+             fmt::format("{} has no recording {}", run_name(run.store.folder(), run.key), file.string()),
              "a recorded run", "Repeat the command that made it, with --record"});
-    const experiment::RunKey held = trace::RecordingReader(recording).info().key;
+    NamedRecording recording = open(file);
+    const experiment::RunKey& held = recording.reader->info().key;
     if (held != run.key)
-        throw core::InputError(
-            {where, fmt::format("{} holds the run {}", recording.string(), experiment::to_text(held)),
-             experiment::to_text(run.key), "Make the recording again with --record"});
-    return fs::absolute(recording).lexically_normal();
+        throw core::InputError({where,
+                                fmt::format("{} holds the run {}", file.string(), experiment::to_text(held)),
+                                experiment::to_text(run.key), "Make the recording again with --record"});
+    return recording;
 }
 
 }  // namespace clearway::results

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "results/store.hpp"
+#include "trace/recording.hpp"
 
 namespace clearway::results {
 
@@ -23,8 +25,15 @@ struct NamedRun {
 /// is not a run's name, and for an unknown folder, scenario, condition or replication, with the nearest name.
 NamedRun run_named(const std::string& name, const std::string& where);
 
+/// A recording, opened: its whole content is hashed then, so it is opened once.
+struct NamedRecording {
+    std::filesystem::path file;  ///< Absolute.
+    std::unique_ptr<trace::RecordingReader> reader;
+};
+
 /// The recording of a run, given by the run's name or as the file itself. Throws core::InputError as above,
-/// and for a run that was not recorded.
-std::filesystem::path recording_named(const std::string& name, const std::string& where);
+/// for a run that was not recorded, and for the recording of another run in its place; otherwise as
+/// RecordingReader.
+NamedRecording recording_named(const std::string& name, const std::string& where);
 
 }  // namespace clearway::results

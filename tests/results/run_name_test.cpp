@@ -69,8 +69,8 @@ TEST_F(RunName, LeadsToItsRecording) {
     record({"alpha", "baseline", 1});
     EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN"), core::InputError) << "that of another run";
     record(key);
-    EXPECT_TRUE(std::filesystem::equivalent(recording_named(name("alpha/treated/1"), "RUN"), file));
-    EXPECT_TRUE(std::filesystem::equivalent(recording_named(file.string(), "RUN"), file));
+    EXPECT_TRUE(std::filesystem::equivalent(recording_named(name("alpha/treated/1"), "RUN").file, file));
+    EXPECT_TRUE(std::filesystem::equivalent(recording_named(file.string(), "RUN").file, file));
 }
 
 }  // namespace

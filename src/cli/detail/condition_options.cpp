@@ -18,10 +18,6 @@ using Conditions = std::vector<experiment::ConditionSpec>;
 
 constexpr const char* option = "--model";
 
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 /// Predictors of the conditions, each once.
 std::vector<std::string> predictors_of(const Conditions& conditions) {
     std::vector<std::string> names;
@@ -56,7 +52,7 @@ std::string predictor_of(const std::string& file, const std::vector<std::string>
     }
     if (fit.empty()) throw core::InputError(std::move(problems));
     if (fit.size() > 1)
-        throw core::InputError({option, fmt::format("{} is a model of {}", file, joined(fit)),
+        throw core::InputError({option, fmt::format("{} is a model of {}", file, core::listed(fit)),
                                 "one predictor of the conditions",
                                 fmt::format("Say which: --model {}={}", fit.front(), file)});
     return fit.front();
@@ -69,12 +65,12 @@ void give_model(const std::string& predictor, const std::string& file, Condition
         if (condition.model_file.empty()) {
             experiment::set_model(condition, file, option);
         } else {
-            problems.push_back({option,
-                                fmt::format("condition {} has the model {} already, {} is another",
-                                            condition.name, condition.model_file, file),
-                                "one model a condition",
-                                fmt::format("Take the model of {} out, in the study file or of the command",
-                                            condition.name)});
+            problems.push_back(
+                {option,
+                 fmt::format("condition {} has the model {} already, {} is another", condition.name,
+                             condition.model_file, file),
+                 "one model per condition",
+                 fmt::format("Remove one: in the study file at {}, or from the command", condition.name)});
         }
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
@@ -139,7 +135,7 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
     const std::vector<std::string> present = predictors_of(conditions);
     const std::vector<std::string> learned = learned_among(present);
     for (const std::string& words : models) {
-        // A file whose name has `=` is no assignment unless a predictor stands before it.
+        // A file name may contain `=`: only the name of a predictor before it makes an assignment.
         const std::string word = words.substr(0, words.find('='));
         const std::vector<std::string> known = prediction::learned_predictor_names();
         const bool is_named = word.size() < words.size() && std::ranges::find(known, word) != known.end();
@@ -148,13 +144,13 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
             throw core::InputError({option, fmt::format("{} is not a file", file),
                                     "a file of clearway train or of torch.save", ""});
         if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
-            throw core::InputError(
-                {option,
-                 is_named
-                     ? fmt::format("no condition has the predictor {}", word)
-                     : fmt::format("no condition has a predictor that takes a model ({})", joined(present)),
-                 joined(learned.empty() ? known : learned),
-                 "Give a condition that predictor, in [[condition]] of the study file"});
+            throw core::InputError({option,
+                                    is_named
+                                        ? fmt::format("no condition has the predictor {}", word)
+                                        : fmt::format("no condition has a predictor that takes a model ({})",
+                                                      core::listed(present)),
+                                    core::listed(learned.empty() ? known : learned),
+                                    "Give a condition that predictor, in [[condition]] of the study file"});
         give_model(predictor_of(file, is_named ? std::vector<std::string>{word} : learned), file, conditions);
     }
 }
