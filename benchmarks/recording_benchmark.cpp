@@ -38,7 +38,7 @@ Size run_through(const std::filesystem::path& file, const std::filesystem::path&
     Size size;
     while (const auto step = reader.next()) {
         size.steps += 1.0;
-        size.vehicle_steps += static_cast<double>(step->snapshot->vehicles.size());
+        size.vehicle_steps += static_cast<double>(step->snapshot->size());
         if (writer) writer->write(*step);
     }
     if (writer) writer->finish();

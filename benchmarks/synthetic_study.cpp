@@ -29,7 +29,7 @@ results::Manifest manifest_of(std::uint32_t runs) {
     }
     experiment::ConditionSpec solo;
     solo.name = "solo";
-    solo.engine = experiment::Engine::solo;
+    solo.traffic_model = experiment::TrafficModel::free_flow;
     manifest.conditions.push_back(solo);
     return manifest;
 }
@@ -48,7 +48,7 @@ void add_traffic(const core::KeyedRandom& random, std::uint64_t run, metrics::Tr
 results::RunRecord run_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
                           int others) {
     const core::KeyedRandom random(core::StudySeed{1}, core::Replication{key.replication});
-    const std::uint64_t number = core::fnv1a64(results::to_text(key));
+    const std::uint64_t number = core::fnv1a64(experiment::to_text(key));
     results::RunRecord run = results::synthetic::record(key);
     run.condition = condition;
     run.vehicles.clear();
@@ -65,7 +65,7 @@ results::RunRecord run_of(const experiment::RunKey& key, const experiment::Condi
         run.vehicles.push_back(results::synthetic::vehicle(
             "human_" + std::to_string(vehicle), traffic::VehicleClass::human,
             90.0 + 30.0 * random.uniform(core::Purpose::demand, number, 100 + vehicle)));
-    run.metrics.emergency_travel_time_s = sum_s / 3.0;
+    run.metrics.emergency_restricted_travel_time_s = run.metrics.emergency_travel_time_s = sum_s / 3.0;
     run.metrics.emergency_time_loss_s = sum_s / 30.0;
     run.metrics.emergency_waiting_time_s = 12.0 * random.uniform(core::Purpose::demand, number, 50);
     run.metrics.others_time_loss_s = 30.0 + random.normal(core::Purpose::demand, number, 51);
@@ -73,7 +73,8 @@ results::RunRecord run_of(const experiment::RunKey& key, const experiment::Condi
     run.metrics.collisions = random.below(3, core::Purpose::demand, number, 53);
     run.metrics.vehicle_count = run.metrics.arrived = run.vehicles.size();
     run.metrics.emergency_count = run.metrics.emergency_arrived = 3;
-    if (condition.engine != experiment::Engine::solo) add_traffic(random, number, run.traffic);
+    if (condition.traffic_model != experiment::TrafficModel::free_flow)
+        add_traffic(random, number, run.traffic);
     return run;
 }
 
