@@ -5,7 +5,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "experiment/settings.hpp"
@@ -17,10 +16,6 @@ namespace {
 using Conditions = std::vector<experiment::ConditionSpec>;
 
 constexpr const char* option = "--model";
-
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
 
 /// Predictors of the conditions, each once.
 std::vector<std::string> predictors_of(const Conditions& conditions) {
@@ -56,7 +51,7 @@ std::string predictor_of(const std::string& file, const std::vector<std::string>
     }
     if (fit.empty()) throw core::InputError(std::move(problems));
     if (fit.size() > 1)
-        throw core::InputError({option, fmt::format("{} is a model of {}", file, joined(fit)),
+        throw core::InputError({option, fmt::format("{} is a model of {}", file, core::listed(fit)),
                                 "one predictor of the conditions",
                                 fmt::format("Say which: --model {}={}", fit.front(), file)});
     return fit.front();
@@ -148,13 +143,13 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
             throw core::InputError({option, fmt::format("{} is not a file", file),
                                     "a file of clearway train or of torch.save", ""});
         if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
-            throw core::InputError(
-                {option,
-                 is_named
-                     ? fmt::format("no condition has the predictor {}", word)
-                     : fmt::format("no condition has a predictor that takes a model ({})", joined(present)),
-                 joined(learned.empty() ? known : learned),
-                 "Give a condition that predictor, in [[condition]] of the study file"});
+            throw core::InputError({option,
+                                    is_named
+                                        ? fmt::format("no condition has the predictor {}", word)
+                                        : fmt::format("no condition has a predictor that takes a model ({})",
+                                                      core::listed(present)),
+                                    core::listed(learned.empty() ? known : learned),
+                                    "Give a condition that predictor, in [[condition]] of the study file"});
         give_model(predictor_of(file, is_named ? std::vector<std::string>{word} : learned), file, conditions);
     }
 }
