@@ -143,9 +143,9 @@ TEST(Sensitivities, do_not_fold_what_too_few_seeds_cannot_tell) {
 
 TEST(Sensitivities, name_the_shipped_value_where_it_does_not_depend_on_the_scenario) {
     const SensitivityRow known{"preempt_signals.lead_s", "8", {}};
-    EXPECT_EQ(known.turned({.value = "16"}, "->"), "8 -> 16");
+    EXPECT_EQ(known.turned({"", "16", {}, {}}, "->"), "8 -> 16");
     const SensitivityRow unknown{"a.small", "", {}};
-    EXPECT_EQ(unknown.turned({.value = "1"}, "->"), "1");
+    EXPECT_EQ(unknown.turned({"", "1", {}, {}}, "->"), "1");
     EXPECT_EQ(one_that_matters()[0].rows[0].shipped, "8");
     EXPECT_EQ(sensitivities(three_settings())[0].rows[0].shipped, "");
 }
