@@ -75,6 +75,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
         paragraph.clear();
     };
     for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("Usage:")) finish_paragraph();  // it follows the description at once
         if (!line.empty() && line.front() != ' ') {
             paragraph.push_back(line);
             continue;

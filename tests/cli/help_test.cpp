@@ -79,6 +79,7 @@ TEST_F(HelpTest, of_every_verb_and_the_list_fit_80_columns) {
 TEST_F(HelpTest, continues_a_long_example_so_that_it_can_be_copied) {
     const std::string run = clearway({"run", "--help"}).out;
     EXPECT_THAT(run, HasSubstr("  clearway run intersection --dense"));
+    EXPECT_THAT(clearway({"--help"}).out, HasSubstr("\nUsage: clearway"));
     EXPECT_THAT(run, testing::ContainsRegex(" \\\\\n      [-a-z]"));
 }
 
