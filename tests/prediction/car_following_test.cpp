@@ -158,7 +158,7 @@ TEST(CarFollowing, FollowsADarkLeaderAcrossAJunction) {
     predictor->predict(support::perfect_observation(scene), belief);
     predictor->predict(testing::after_outage(scene, 60.0, {"a1", "h1"}), belief);
     const float leader_m = belief.find(scene.key("h1"))->state.x_m;
-    EXPECT_NEAR(leader_m, 179.0F, 1.0F);
+    EXPECT_NEAR(leader_m, 159.0F, 1.0F);
     EXPECT_NEAR(belief.find(scene.key("a1"))->state.x_m, leader_m - 7.5F, 1.0F);
 }
 
