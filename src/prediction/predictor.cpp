@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/settings.hpp"
+#include "prediction/car_following.hpp"
 #include "prediction/common_neighbours.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
@@ -65,6 +66,9 @@ constexpr Registration registry[] = {
     registered<make_route_rule, RouteRuleConfig>(
         "route_rule", "route rule",
         "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+    registered<make_car_following, CarFollowingConfig>(
+        "car_following", "car-following twin",
+        "vehicles drive on by the Intelligent Driver Model: behind leaders, before red, along their route"),
     registered<make_common_neighbours, CommonNeighboursConfig>(
         "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen"),
     registered<make_logistic>("logistic", "logistic regression",
