@@ -70,6 +70,14 @@ class Traffic {
 
     const roads::Network& network() const { return network_; }
     const traffic::Observation& observation() const { return observation_; }
+    /// The next report round: who is dark stays so for up to 20 s, then reports once.
+    void pass_second() {
+        observation_.time += core::Seconds(1.0);
+        for (traffic::ObservedVehicle& vehicle : observation_.vehicles) {
+            if (vehicle.freshness == traffic::Freshness::fresh) continue;
+            vehicle.age_s = vehicle.age_s < 20.0F ? vehicle.age_s + 1.0F : 1.0F;
+        }
+    }
 
   private:
     static roads::Network make_network(std::int64_t vehicles, double spacing_m) {
@@ -126,6 +134,19 @@ void predict(benchmark::State& state, const std::string& name, Traffic::Darkness
     note_cost(state, predictor->scores().scene->candidates.size());
 }
 
+/// Of a predictor that drives vehicles from one report to the next: time passes between the calls.
+void follow(benchmark::State& state, const std::string& name) {
+    Traffic traffic(state.range(0), Traffic::Darkness::some, dense_m);
+    const auto predictor = prediction::make_predictor(name, {traffic.network(), {}, "", {}});
+    traffic::BelievedGraph belief;
+    for (auto _ : state) {
+        traffic.pass_second();
+        predictor->predict(traffic.observation(), belief);
+        benchmark::DoNotOptimize(belief.links.data());
+    }
+    note_cost(state, predictor->scores().scene->candidates.size());
+}
+
 /// The net alone: embeddings of all vehicles along observed links and the scores of all candidates.
 void net_alone(benchmark::State& state, std::uint32_t inputs, std::uint32_t hidden, std::uint32_t output,
                prediction::Kernel kernel) {
@@ -165,6 +186,9 @@ BENCHMARK_CAPTURE(predict, corrected_all_dark, "graphsage_corrected", Darkness::
 BENCHMARK_CAPTURE(predict, route_rule_dense_30_dark, "route_rule", Darkness::some, dense_m)
     ->Arg(1000)
     ->Arg(10000);
+BENCHMARK_CAPTURE(follow, car_following_dense_30_dark, "car_following")->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(follow, route_rule_dense_30_dark_moving, "route_rule")->Arg(1000);
+BENCHMARK_CAPTURE(follow, graphsage_dense_30_dark_moving, "graphsage")->Arg(1000);
 BENCHMARK_CAPTURE(predict, graphsage_all_seen, "graphsage", Darkness::nobody, dense_m)->Arg(1000)->Arg(10000);
 BENCHMARK_CAPTURE(predict, graphsage_dense_30_dark, "graphsage", Darkness::some, dense_m)
     ->Arg(1000)

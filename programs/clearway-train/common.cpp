@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +84,7 @@ core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::s
 
 int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
                     const std::function<core::ExitCode()>& train) {
+    app.formatter(std::make_shared<core::HelpFormatter>());
     try {
         app.parse(argument_count, argument_values);
     } catch (const CLI::Success& help) {

@@ -7,6 +7,7 @@
 
 #include "actuation/detail/lease_queue.hpp"
 #include "actuation/detail/signal_control.hpp"
+#include "actuation/detail/stop_line.hpp"
 #include "actuation/detail/vehicle_control.hpp"
 
 namespace clearway::actuation {
@@ -14,8 +15,6 @@ namespace {
 
 /// Reaction time of a driver to yellow, s. Assumed to be short, because drivers expect it.
 constexpr double reaction_s = 0.5;
-/// Drivers stop this far before the line, m: SUMO's own stop-line gap.
-constexpr double stop_line_gap_m = 1.0;
 /// Farther away than this, every vehicle can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
 constexpr double farthest_stop_m = 200.0;
 
@@ -74,7 +73,7 @@ struct Actuator::State {
         const traffic::VehicleInfo* info = roster.find(snapshot.key[row]);
         if (info == nullptr) return false;
         const double stop_m = speed_mps * speed_mps / (2.0 * info->deceleration_mps2);
-        return left_m > stop_m && left_m < stop_m + reaction_s * speed_mps + stop_line_gap_m;
+        return left_m > stop_m && left_m < stop_m + reaction_s * speed_mps + detail::stop_line_gap_m;
     }
     detail::Lanes pressed_lanes(const truth::Snapshot& snapshot, const traffic::Roster& roster) const {
         detail::Lanes lanes;

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <map>
 #include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
 
-#include "analysis/detail/pairing.hpp"
-#include "core/error.hpp"
+#include "analysis/detail/condition_summary.hpp"
 #include "core/fields.hpp"
 #include "experiment/settings.hpp"
 
 namespace clearway::analysis {
 namespace {
 
+using detail::Index;
+using detail::ResampleCache;
 using detail::Runs;
 using experiment::ConditionSpec;
 using experiment::TrafficModel;
@@ -37,22 +37,6 @@ std::optional<detail::VehicleNumber> vehicle_number_of(const std::string& metric
     if (metric == "emergency_time_loss_s") return &metrics::VehicleRow::time_loss_s;
     return std::nullopt;
 }
-
-/// Resamples by number of rows, shared by all metrics with as many pairs.
-class ResampleCache {
-  public:
-    explicit ResampleCache(double level) { config_.level = level; }
-    const Resamples& of(std::size_t rows) {
-        auto found = cache_.find(rows);
-        if (found == cache_.end()) found = cache_.emplace(rows, Resamples(rows, config_)).first;
-        return found->second;
-    }
-    double level() const { return config_.level; }
-
-  private:
-    BootstrapConfig config_;
-    std::map<std::size_t, Resamples> cache_;
-};
 
 /// Values of a condition and its baseline, one per complete pair.
 struct Pairs {
@@ -251,7 +235,10 @@ const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vect
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
 
-/// Adjusts each metric's p values over the conditions of a scenario.
+}  // namespace
+
+namespace detail {
+
 void adjust(ScenarioSummary& scenario) {
     for (std::size_t metric = 0; metric < all_metrics().size(); ++metric) {
         std::vector<double> p_values;
@@ -271,35 +258,6 @@ void adjust(ScenarioSummary& scenario) {
     }
 }
 
-/// Runs and errors of a study by scenario and condition.
-class Index {
-  public:
-    explicit Index(const results::Results& results) : replications_(results.manifest.replications) {
-        for (const results::RunRecord& run : results.runs) {
-            Runs& runs = runs_[{run.key.scenario, run.key.condition}];
-            runs.resize(replications_);
-            runs.at(run.key.replication) = &run;
-        }
-        for (const results::RunError& error : results.errors)
-            ++errors_[{error.key.scenario, error.key.condition}];
-    }
-    Runs runs(const std::string& scenario, const std::string& condition) const {
-        const auto found = runs_.find({scenario, condition});
-        return found == runs_.end() ? Runs(replications_) : found->second;
-    }
-    std::size_t errors(const std::string& scenario, const std::string& condition) const {
-        const auto found = errors_.find({scenario, condition});
-        return found == errors_.end() ? 0 : found->second;
-    }
-
-  private:
-    using Cell = std::pair<std::string, std::string>;
-    std::size_t replications_;
-    std::map<Cell, Runs> runs_;
-    std::map<Cell, std::size_t> errors_;
-};
-
-/// Compares a condition with its baseline, which has been summarised already.
 void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
                         ResampleCache& resamples, ConditionSummary& summary) {
     for (std::size_t metric = 0; metric < summary.metrics.size(); ++metric) {
@@ -340,19 +298,24 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     return summary;
 }
 
-[[noreturn]] void refuse_pair(const std::string& what, const results::Results& first,
-                              const results::Results& second) {
-    throw core::InputError({first.manifest.study + " and " + second.manifest.study,
-                            "cannot be paired: another " + what,
-                            "two folders of the same scenarios, seed and conditions",
-                            "Run both with the same --seed and scenario options"});
+void add_unfinished(const std::string& scenario, const ConditionSummary& condition, const char* folder,
+                    std::vector<Unpaired>& unpaired) {
+    const std::size_t lost = condition.failed_runs + condition.missing_runs;
+    if (lost == 0) return;
+    unpaired.push_back(
+        {scenario, condition.condition.name,
+         fmt::format("{} of {} runs failed or are missing{}", lost, lost + condition.complete_runs, folder)});
 }
+
+}  // namespace detail
+
+namespace {
 
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
                                    const std::vector<ConditionSpec>& conditions, ResampleCache& resamples) {
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
-        scenario.conditions.push_back(describe_condition(index, entry.name, condition, resamples));
+        scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
         const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
@@ -360,11 +323,11 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         summary.baseline = baseline->name;
         const Runs runs = index.runs(entry.name, summary.condition.name);
         const Runs baseline_runs = index.runs(entry.name, baseline->name);
-        compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
+        detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
-    adjust(scenario);
+    detail::adjust(scenario);
     return scenario;
 }
 
@@ -402,84 +365,6 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     return found == conditions.end() ? nullptr : &*found;
 }
 
-namespace {
-
-bool has_scenario(const results::Manifest& manifest, const std::string& name) {
-    return std::ranges::find(manifest.scenarios, name, &results::ScenarioEntry::name) !=
-           manifest.scenarios.end();
-}
-
-bool has_condition(const results::Manifest& manifest, const std::string& name) {
-    return std::ranges::find(manifest.conditions, name, &ConditionSpec::name) != manifest.conditions.end();
-}
-
-/// Adds what `one` has and `other` does not have.
-void add_only_in(const results::Manifest& one, const results::Manifest& other, const char* folder,
-                 std::vector<Unpaired>& unpaired) {
-    const std::string why = fmt::format("is only in the {} folder", folder);
-    for (const results::ScenarioEntry& scenario : one.scenarios) {
-        if (!has_scenario(other, scenario.name)) {
-            unpaired.push_back({scenario.name, "", why});
-            continue;
-        }
-        for (const ConditionSpec& condition : one.conditions) {
-            if (!has_condition(other, condition.name))
-                unpaired.push_back({scenario.name, condition.name, why});
-        }
-    }
-}
-
-/// Adds a condition whose runs are not all there. `folder` says where they belong.
-void add_unfinished(const std::string& scenario, const ConditionSummary& condition, const char* folder,
-                    std::vector<Unpaired>& unpaired) {
-    const std::size_t lost = condition.failed_runs + condition.missing_runs;
-    if (lost == 0) return;
-    unpaired.push_back(
-        {scenario, condition.condition.name,
-         fmt::format("{} of {} runs failed or are missing{}", lost, lost + condition.complete_runs, folder)});
-}
-
-}  // namespace
-
-Summary compare_studies(const results::Results& first, const results::Results& second, double level) {
-    Summary summary;
-    summary.manifest = second.manifest;
-    summary.level = level;
-    const Index first_index(first);
-    const Index second_index(second);
-    ResampleCache resamples(level);
-    if (first.manifest.study_seed != second.manifest.study_seed) refuse_pair("seed", first, second);
-    add_only_in(first.manifest, second.manifest, "first", summary.unpaired);
-    add_only_in(second.manifest, first.manifest, "second", summary.unpaired);
-    if (first.manifest.replications != second.manifest.replications)
-        summary.unpaired.push_back({"", "",
-                                    fmt::format("the first folder has {} replications, the second {}",
-                                                first.manifest.replications, second.manifest.replications)});
-    for (const results::ScenarioEntry& entry : second.manifest.scenarios) {
-        const auto same =
-            std::ranges::find(first.manifest.scenarios, entry.name, &results::ScenarioEntry::name);
-        if (same == first.manifest.scenarios.end()) continue;
-        if (same->configuration_hash != entry.configuration_hash)
-            refuse_pair("configuration of scenario " + entry.name, first, second);
-        ScenarioSummary scenario{entry.name, entry.title, {}};
-        for (const ConditionSpec& condition : second.manifest.conditions) {
-            if (!has_condition(first.manifest, condition.name)) continue;
-            const ConditionSummary before = describe_condition(first_index, entry.name, condition, resamples);
-            ConditionSummary& after = scenario.conditions.emplace_back(
-                describe_condition(second_index, entry.name, condition, resamples));
-            after.baseline = condition.name;
-            compare_conditions(second_index.runs(entry.name, condition.name),
-                               first_index.runs(entry.name, condition.name), before, resamples, after);
-            add_unfinished(entry.name, before, " in the first folder", summary.unpaired);
-            add_unfinished(entry.name, after, " in the second folder", summary.unpaired);
-        }
-        adjust(scenario);
-        if (!scenario.conditions.empty()) summary.scenarios.push_back(std::move(scenario));
-    }
-    if (summary.scenarios.empty()) refuse_pair("set of scenarios and conditions", first, second);
-    return summary;
-}
-
 Summary summarise(const results::Results& results, double level) {
     Summary summary;
     summary.manifest = results.manifest;
@@ -489,7 +374,7 @@ Summary summarise(const results::Results& results, double level) {
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples));
         for (const ConditionSummary& condition : summary.scenarios.back().conditions)
-            add_unfinished(entry.name, condition, "", summary.unpaired);
+            detail::add_unfinished(entry.name, condition, "", summary.unpaired);
     }
     return summary;
 }

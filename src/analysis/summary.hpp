@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/bootstrap.hpp"
+#include "analysis/condition_difference.hpp"
 #include "analysis/estimate.hpp"
 #include "analysis/objections.hpp"
 #include "analysis/traffic.hpp"
@@ -132,6 +133,8 @@ struct Summary {
     double level = usual_level;
     std::vector<ScenarioSummary> scenarios;  ///< In the manifest's order.
     std::vector<Unpaired> unpaired;
+    /// In which the conditions of one name of two studies differ; empty for one study.
+    std::vector<ConditionDifference> differing;
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario

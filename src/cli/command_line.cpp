@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -109,14 +110,14 @@ std::optional<std::string> verb_problem(int argument_count, const char* const* a
     const std::string near = core::nearest(word, names);
     return fmt::format("`{}` is not a verb{}", word,
                        near.empty() ? fmt::format("; verbs are {}", fmt::join(names, ", "))
-                                    : fmt::format(", did you mean `{}`?", near));
+                                    : fmt::format(". Did you mean '{}'?", near));
 }
 
 void declare(CLI::App& app, Action& action) {
     app.name("clearway");
     app.footer(footer);
     app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
-    app.get_formatter()->column_width(30);
+    app.formatter(std::make_shared<core::HelpFormatter>());
     app.require_subcommand(1);
     for (const Verb& verb : all_verbs) {
         CLI::App* const command = app.add_subcommand(verb.name, verb.summary);

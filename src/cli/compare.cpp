@@ -43,7 +43,7 @@ std::vector<std::string> metric_names() {
 std::string gated_metric(const std::vector<std::string>& chosen, const std::string& word) {
     if (chosen.size() > 1)
         throw core::InputError({"--tolerance", fmt::format("`{}` names none of the chosen metrics", word),
-                                joined(chosen),
+                                core::listed(chosen),
                                 fmt::format("Say which: --tolerance {}={}", chosen[0], word)});
     return chosen.empty() ? analysis::primary_metric : chosen[0];
 }

@@ -150,7 +150,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
         names.push_back(config.name);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
-    benchmark.name = joined(names);
+    benchmark.name = core::listed(names);
     benchmark.study_seed = arguments.study_seed;
     benchmark.test = arguments.test;
     benchmark.validation = arguments.validation;

@@ -12,6 +12,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/reference_pages.hpp"
 #include "cli/verb.hpp"
+#include "core/usage.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"
 #include "policy/policy.hpp"
@@ -130,9 +131,9 @@ void print_json(const std::vector<Section>& sections) {
 void print_text(const std::vector<Section>& sections) {
     const char* gap = "";
     for (const Section& section : sections) {
-        fmt::print("{}{}\n", gap, section.title);
+        fmt::print("{}{}\n", gap, core::wrapped(section.title, 2));
         for (const Entry& entry : section.entries) {
-            fmt::print("  {:28} {}\n", entry.name, entry.summary);
+            fmt::print("{}\n", core::wrapped(fmt::format("  {:28} {}", entry.name, entry.summary), 31));
         }
         gap = "\n";
     }
@@ -153,7 +154,7 @@ core::InputError unknown_list(const std::string& word, const std::vector<Referen
     if (word.empty()) return core::InputError({"list", "--markdown needs the name of a page", allowed, ""});
     const std::string near = core::nearest(word, known);
     return core::InputError({"list", fmt::format("`{}` cannot be listed alone", word), allowed,
-                             near.empty() ? "Say `clearway list`" : fmt::format("Did you mean `{}`?", near)});
+                             near.empty() ? "Say `clearway list`" : fmt::format("Did you mean '{}'?", near)});
 }
 
 void list_settings(const Arguments& arguments) {

@@ -28,7 +28,7 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
         fmt::format("{}: {} runs complete, {} failed, {} missing; {} new, {} seen before\n", out,
                     counts.complete, counts.failed, counts.missing, result.adopted, result.duplicates);
     if (!result.absent_shards.empty())
-        text += fmt::format("not there: shard {}\n", joined(result.absent_shards));
+        text += fmt::format("not there: shard {}\n", core::listed(result.absent_shards));
     for (const experiment::RunKey& key : result.missing)
         text += fmt::format("missing: {}\n", experiment::to_text(key));
     if (result.missing.size() < counts.missing)

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
@@ -95,12 +96,38 @@ void drop_what_is_gone(const experiment::ConditionSpec& recorded, experiment::Co
     });
 }
 
+/// Refuses settings that act only where something is simulated. The sensors alone act on the failure log.
+void refuse_idle_settings(const Arguments& arguments, const experiment::ConditionSpec& condition) {
+    std::vector<std::string> acting;
+    for (const std::string& component : experiment::components_of(condition)) {
+        const bool acts = arguments.table == failures_table
+                              ? component == "failure"
+                              : component != "actuation" && component != "siren";
+        if (acts) acting.push_back(component);
+    }
+    std::vector<core::Problem> problems;
+    for (const std::string& words : arguments.settings) {
+        const std::string component = words.substr(0, words.find('.'));
+        const bool is_known =
+            std::ranges::find(experiment::components(), component, &experiment::Component::name) !=
+            experiment::components().end();
+        if (!is_known || std::ranges::find(acting, component) != acting.end()) continue;
+        problems.push_back(
+            {"--set " + words.substr(0, words.find('=')),
+             arguments.table.empty() ? "changes nothing in a replay, where nothing is simulated"
+                                     : "changes nothing in the failure log",
+             "settings of " + core::listed(acting), "Remove it, or simulate with it: clearway run"});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
 experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const Arguments& arguments) {
     experiment::ConditionSpec condition = info.condition;
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
     if (arguments.policies) condition.policies = *arguments.policies;
     drop_what_is_gone(info.condition, condition);
+    refuse_idle_settings(arguments, condition);
     apply_settings(arguments.settings, arguments.model, condition);
     check_names({condition});
     return condition;
@@ -262,7 +289,8 @@ void print_text(const std::string& run, const trace::RecordingInfo& info,
     print_row("failure", info.condition.failure, condition.failure);
     print_row("predictor", info.condition.predictor, condition.predictor);
     print_row("settings", settings_or_dash(info.condition), settings_or_dash(condition));
-    print_row("policy", joined(info.condition.policies, "+"), joined(condition.policies, "+"));
+    print_row("policy", fmt::format("{}", fmt::join(info.condition.policies, "+")),
+              fmt::format("{}", fmt::join(condition.policies, "+")));
     print_row("decisions", std::to_string(result.recorded.decisions),
               std::to_string(result.replayed.decisions));
     print_row("  at report rounds", std::to_string(result.recorded.scored),
@@ -331,7 +359,7 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
 Action configure_replay(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n\n" +
-               "Tables: " + joined(table_names()) + "\n\n" + open_loop);
+               "Tables: " + core::listed(table_names()) + "\n\n" + open_loop);
     app.add_option("run", arguments->file,
                    fmt::format("{} of a recorded run, or a recording", results::run_name_form))
         ->required()

@@ -124,7 +124,8 @@ experiment::ConditionSpec shown_condition(const std::vector<experiment::Conditio
     std::vector<std::string> names;
     for (const experiment::ConditionSpec& condition : chosen)
         names.push_back(condition.name);
-    throw core::InputError({"--gui", fmt::format("cannot show {} at once", joined(names)), "one condition",
+    throw core::InputError({"--gui", fmt::format("cannot show {} at once", core::listed(names)),
+                            "one condition",
                             "Name one with --condition, or describe one of your own (--policy ...)"});
 }
 

@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/detail/condition_options.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/plan_text.hpp"
 #include "cli/detail/run_plan.hpp"
@@ -42,6 +45,7 @@ struct Arguments {
     std::string out;
     study::SubmitEngine engine = study::SubmitEngine::local;
     std::uint32_t shards = 0;
+    std::vector<std::string> models;
     Start start = Start::write_only;
     experiment::RunLimits limits;
     Printing printing = Printing::text;
@@ -93,6 +97,22 @@ std::vector<std::string> limit_options(const experiment::RunLimits& limits) {
     return options;
 }
 
+/// `--model PREDICTOR=FILE` for each model that the command line has given to conditions. The path is
+/// absolute, because a shard runs in another folder.
+std::vector<std::string> model_options(const std::vector<experiment::ConditionSpec>& in_file,
+                                       const std::vector<experiment::ConditionSpec>& conditions) {
+    std::map<std::string, std::string> models;
+    for (std::size_t at = 0; at < conditions.size(); ++at) {
+        const experiment::ConditionSpec& condition = conditions[at];
+        if (condition.model_file != in_file[at].model_file)
+            models[condition.predictor] = condition.model_file;
+    }
+    std::vector<std::string> options;
+    for (const auto& [predictor, file] : models)
+        options.insert(options.end(), {"--model", predictor + "=" + file});
+    return options;
+}
+
 study::Submission submission_of(const Arguments& arguments, const study::Plan& plan) {
     const auto time_s = estimated_time_left_s(plan, arguments.out, 1);
     study::Submission submission;
@@ -129,13 +149,17 @@ void print_submission(const study::Submission& submission, const study::Plan& pl
 }
 
 core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) {
-    const study::StudyConfig config = study::read_study(arguments.file);
+    study::StudyConfig config = study::read_study(arguments.file);
+    const std::vector<experiment::ConditionSpec> in_file = config.conditions;
+    apply_models(arguments.models, config.conditions);
     if (config.precision)
         throw core::InputError({arguments.file, "has a precision target, which needs all its runs at once",
                                 "a study with replications", "Give the number of replications"});
     RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing, invocation.command};
     const study::Plan plan = plan_for(config, options);
-    const study::Submission submission = submission_of(arguments, plan);
+    study::Submission submission = submission_of(arguments, plan);
+    std::ranges::move(model_options(in_file, config.conditions),
+                      std::back_inserter(submission.study_options));
     core::make_folder(submission.folder);
     claim(submission.folder, submission.shards);
     write_scripts(submission);
@@ -162,6 +186,10 @@ Action configure_submit(CLI::App& app) {
     app.add_option("--shards", arguments->shards, "Number of shards; 0: about five minutes of work each")
         ->check(CLI::Range(0U, 1000000U))
         ->option_text("N, 0 to 1000000 [0]");
+    app.add_option("--model", arguments->models,
+                   "Net for the conditions whose predictor it is of, as study takes it; on the shared file "
+                   "system; can be repeated")
+        ->option_text("[PREDICTOR=]FILE ... [as the study file says]");
     app.add_flag_callback(
         "--go", [arguments] { arguments->start = Start::go; }, "Also run submit.sh [only write it]");
     add_limit_options(app, arguments->limits);

@@ -1,7 +1,12 @@
 #include "core/usage.hpp"
 
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 
@@ -18,13 +23,69 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-/// `--dens` -> `, did you mean --dense?`
+/// `--dens` -> `. Did you mean '--dense'?`
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
     const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format(", did you mean {}?", near);
+    return near.empty() ? "" : fmt::format(". Did you mean '{}'?", near);
+}
+
+constexpr std::size_t description_column = 30;
+
+/// One indented line of a help text.
+std::string wrapped_line(const std::string& line) {
+    if (line.size() <= help_columns) return line;
+    if (line.starts_with("  clearway ")) return wrapped(line, 6, " \\");
+    const std::size_t margin = line.find_first_not_of(' ');
+    return wrapped(line, margin <= 2 ? description_column : margin);
 }
 
 }  // namespace
+
+std::string wrapped(const std::string& text, std::size_t indent, const std::string& join) {
+    std::string result;
+    std::string line = text;
+    while (line.size() > help_columns) {
+        const std::size_t first = line.find_first_not_of(' ');
+        std::size_t end = line.rfind(' ', help_columns - join.size());
+        if (end == std::string::npos || end <= first) end = line.find(' ', first);
+        if (end == std::string::npos) break;
+        result += line.substr(0, line.find_last_not_of(' ', end) + 1) + join + '\n';
+        line = std::string(indent, ' ') + line.substr(line.find_first_not_of(' ', end));
+    }
+    return result + line;
+}
+
+HelpFormatter::HelpFormatter() {
+    column_width(description_column);
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
+    std::string text;
+    std::vector<std::string> paragraph;  // lines without an indent
+    const auto finish_paragraph = [&] {
+        const bool is_wide = std::ranges::any_of(
+            paragraph, [](const std::string& line) { return line.size() > help_columns; });
+        if (is_wide) {
+            text += wrapped(fmt::format("{}", fmt::join(paragraph, " ")), 0) + '\n';
+        } else {
+            for (const std::string& line : paragraph)
+                text += line + '\n';
+        }
+        paragraph.clear();
+    };
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("Usage:")) finish_paragraph();  // it follows the description at once
+        if (!line.empty() && line.front() != ' ') {
+            paragraph.push_back(line);
+            continue;
+        }
+        finish_paragraph();
+        text += wrapped_line(line) + '\n';
+    }
+    finish_paragraph();
+    return text;
+}
 
 std::string usage_message(const CLI::App& command, const std::string& name, const CLI::ParseError& error,
                           const std::vector<std::string>& words) {

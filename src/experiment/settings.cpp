@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -97,6 +98,28 @@ void check_model(const ConditionSpec& condition, const std::string& where,
             problem.where = fmt::format("{}model: {}", where, problem.where);
             problems.push_back(std::move(problem));
         }
+    }
+}
+
+/// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the
+/// period is long; a lease which somebody has set is not lengthened in silence.
+void check_leases(const ConditionSpec& condition, const std::string& where,
+                  std::vector<core::Problem>& problems) {
+    const std::string period_name = std::string(loop_name) + ".policy_period_s";
+    const auto set_period = condition.settings.find(period_name);
+    const std::optional<double> period_s = set_period == condition.settings.end()
+                                               ? LoopConfig{}.policy_period_s
+                                               : core::number_from(set_period->second);
+    if (!period_s) return;
+    for (const auto& [name, value] : condition.settings) {
+        const std::optional<double> lease_s = core::number_from(value);
+        if (!name.ends_with("lease_s") || !lease_s || *lease_s >= 2.0 * *period_s - 1e-9) continue;
+        problems.push_back({where + name,
+                            fmt::format("{} s is shorter than two policy periods, {} is {} s", value,
+                                        period_name, *period_s),
+                            fmt::format("at least {:g} s with this period", 2.0 * *period_s),
+                            fmt::format("Set {} to {:g} or more, or {} to {:g} or less", name,
+                                        2.0 * *period_s, period_name, *lease_s / 2.0)});
     }
 }
 
@@ -224,6 +247,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
         const std::vector<core::Problem> found = check_setting(name, value, where);
         problems.insert(problems.end(), found.begin(), found.end());
     }
+    if (problems.empty()) check_leases(condition, where, problems);
     check_model(condition, where, problems);
     return problems;
 }

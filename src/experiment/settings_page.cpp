@@ -48,7 +48,7 @@ std::vector<Component> components_named(const std::string& name) {
         const std::string near = core::nearest(name, known);
         throw core::InputError({"list settings", fmt::format("`{}` is unknown", name),
                                 fmt::format("{}", fmt::join(known, ", ")),
-                                near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
+                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
     }
     return found;
 }

@@ -84,7 +84,7 @@ std::unique_ptr<Policy> make_policy(const std::string& name, const PolicyContext
     const std::string near = core::nearest(name, names);
     throw core::InputError(core::Problem{"policy", "'" + name + "' is not known",
                                          fmt::format("{}", fmt::join(names, ", ")),
-                                         near.empty() ? "" : "did you mean '" + near + "'?"});
+                                         near.empty() ? "" : "Did you mean '" + near + "'?"});
 }
 
 }  // namespace clearway::policy

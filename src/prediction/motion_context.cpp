@@ -23,6 +23,8 @@ constexpr float miss_scale_m = 5.0F;
 constexpr int detection_places = 64;
 constexpr double new_report_s = 1e-3;
 constexpr float slowest_limit_mps = 1.0F;
+/// Slower vehicles before a stop line are in its queue.
+constexpr float queued_mps = 2.0F;
 
 float square(float value) {
     return value * value;
@@ -80,8 +82,9 @@ roads::Point Path::direction_at(float displacement_m, float reach_m) const {
     return {x_m / length_m, y_m / length_m};
 }
 
-MotionContextBuilder::MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules)
-    : network_(network), rules_(rules) {}
+MotionContextBuilder::MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules,
+                                           StartAtGreen start)
+    : network_(network), rules_(rules), start_(start) {}
 
 void MotionContextBuilder::build(const traffic::Observation& observation, const Scene& scene,
                                  std::vector<MotionContext>& ahead) {
@@ -202,13 +205,38 @@ void MotionContextBuilder::look_ahead(const traffic::Observation& observation, c
     steps.count = static_cast<std::uint32_t>(steps_.size()) - steps.first;
     lay_path(tracks, ahead);
     ahead.travelled_m = std::min(last.speed_mps * age_s, ahead.reach_m);
-    ahead.displacement_m = ahead.travelled_m;
-    ahead.held_by_signal = ahead.line.exists() && !traffic::is_green(ahead.line.state) &&
-                           ahead.line.distance_m < ahead.displacement_m;
-    if (ahead.held_by_signal) {
-        ahead.displacement_m = ahead.line.distance_m;
-        ahead.has_left = false;
+    if (start_.acceleration_mps2 > 0.0F && ahead.line.exists()) {
+        const float limit_mps = network_.lane(last.lane).speed_limit_mps;
+        ahead.travelled_m = std::clamp(started_m(tracks, ahead, limit_mps), ahead.travelled_m, ahead.reach_m);
     }
+    hold_at_red(ahead);
+}
+
+/// How far a vehicle that was seen standing has come since its queue began to move.
+float MotionContextBuilder::started_m(const Tracks& tracks, const MotionContext& ahead,
+                                      float desired_mps) const {
+    const float speed_mps = tracks.last[ahead.row].speed_mps;
+    if (speed_mps > queued_mps || !traffic::is_green(ahead.line.state)) return 0.0F;
+    const float moving_s =
+        std::min(tracks.age_s[ahead.row], ahead.line.state_age_s - ahead.line.distance_m / start_.wave_mps);
+    if (moving_s <= 0.0F) return 0.0F;
+    const float faster_mps = std::max(0.0F, desired_mps - speed_mps);
+    const float gaining_s = std::min(moving_s, faster_mps / start_.acceleration_mps2);
+    const float reached_mps = speed_mps + start_.acceleration_mps2 * gaining_s;
+    return 0.5F * (speed_mps + reached_mps) * gaining_s + reached_mps * (moving_s - gaining_s);
+}
+
+void MotionContextBuilder::hold_at_red(MotionContext& ahead) const {
+    const auto holds = [&](const LineOnWay& line) {
+        return line.exists() && !traffic::is_green(line.state) && line.distance_m < ahead.travelled_m;
+    };
+    const bool second = !holds(ahead.line) && start_.acceleration_mps2 > 0.0F && holds(ahead.next_line);
+    ahead.held_by_signal = second || holds(ahead.line);
+    ahead.displacement_m = ahead.travelled_m;
+    if (!ahead.held_by_signal) return;
+    ahead.held_at_m = second ? ahead.next_line.distance_m : ahead.line.distance_m;
+    ahead.displacement_m = ahead.held_at_m;
+    ahead.has_left = false;
 }
 
 /// On the lanes of `walked_`.
@@ -381,7 +409,7 @@ void MotionContextBuilder::hold_behind_leaders(std::vector<MotionContext>& ahead
     for (MotionContext& entry : ahead) {
         if (!entry.leader.exists) continue;
         const float room_m = entry.leader.distance_m - entry.leader.length_m - minimum_gap_m;
-        const float free_m = entry.held_by_signal ? entry.line.distance_m : entry.travelled_m;
+        const float free_m = entry.held_by_signal ? entry.held_at_m : entry.travelled_m;
         entry.held_by_leader = room_m < free_m;
         entry.displacement_m = std::clamp(std::min(free_m, room_m), 0.0F, entry.reach_m);
     }

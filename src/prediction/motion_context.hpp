@@ -66,6 +66,7 @@ struct MotionContext {
     bool has_left = false;        ///< Past the end of its route, where no detector tells of exits.
     float displacement_m = 0.0F;  ///< By the rule: see `MotionContextBuilder`.
     bool held_by_signal = false;
+    float held_at_m = 0.0F;  ///< The line that holds it, where one does.
     bool held_by_leader = false;
     std::uint32_t detections = 0;  ///< Neighbours with known places that still detect it.
 
@@ -74,6 +75,12 @@ struct MotionContext {
 };
 
 inline constexpr float route_horizon_m = 200.0F;
+
+/// How vehicles that were seen standing start again. The default is what trained nets know: they never do.
+struct StartAtGreen {
+    float acceleration_mps2 = 0.0F;  ///< 0: a vehicle that was seen standing stays.
+    float wave_mps = 5.0F;           ///< Speed at which the start runs back through a queue. > 0.
+};
 
 /// Finds the `MotionContext` of all vehicles that are not known, and says where the rule puts them:
 ///
@@ -86,13 +93,18 @@ inline constexpr float route_horizon_m = 200.0F;
 ///      displacement s that makes ((s - s3) / (1 m + 2.5 m/s age))^2 + sum (miss / 5 m)^2 least, where a miss
 ///      is the distance beyond the link radius, or the error of a measured range.
 ///
+/// With a `StartAtGreen`, a vehicle that was seen (nearly) standing before a line that is green now has
+/// started since: when the light turned green and the start had run back to it, it accelerated up to the
+/// speed limit. Step 2 then regards the second line ahead, too.
+///
 /// Keeps what reports do not repeat: which vehicle followed which, mean speeds, and how long a signal has
 /// shown its state. Call it with every observation, in order. One builder, one thread; no allocation once
 /// buffers have grown.
 class MotionContextBuilder {
   public:
     /// `network` outlives the builder.
-    MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules);
+    MotionContextBuilder(const roads::Network& network, const graph::LinkRules& rules,
+                         StartAtGreen start = {});
 
     /// `scene` was built from `observation`. `ahead` gets one entry per row that is not known, by row.
     void build(const traffic::Observation& observation, const Scene& scene,
@@ -137,6 +149,8 @@ class MotionContextBuilder {
     void find_lines(const traffic::Observation& observation, MotionContext& ahead) const;
     void watch_signals(const traffic::Observation& observation);
     void look_ahead(const traffic::Observation& observation, const Tracks& tracks, MotionContext& ahead);
+    float started_m(const Tracks& tracks, const MotionContext& ahead, float desired_mps) const;
+    void hold_at_red(MotionContext& ahead) const;
     void lay_path(const Tracks& tracks, MotionContext& ahead) const;
     void list_places(const Tracks& tracks, const std::vector<MotionContext>& ahead);
     void sort_places();
@@ -155,6 +169,7 @@ class MotionContextBuilder {
 
     const roads::Network& network_;
     graph::LinkRules rules_;
+    StartAtGreen start_;
     std::vector<Memory> memories_, old_memories_;  ///< One per row, by key.
     std::vector<std::string> signal_states_;
     std::vector<std::vector<double>> signal_state_since_s_;

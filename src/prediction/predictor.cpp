@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/settings.hpp"
+#include "prediction/car_following.hpp"
 #include "prediction/common_neighbours.hpp"
 #include "prediction/gradient_boosting.hpp"
 #include "prediction/kinematic.hpp"
@@ -66,6 +67,9 @@ constexpr Registration registry[] = {
     registered<make_route_rule, RouteRuleConfig>(
         "route_rule", "route rule",
         "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+    registered<make_car_following, CarFollowingConfig>(
+        "car_following", "car-following twin",
+        "vehicles drive on by the Intelligent Driver Model: behind leaders, before red, along their route"),
     registered<make_common_neighbours, CommonNeighboursConfig>(
         "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen"),
     registered<make_logistic>("logistic", "logistic regression",
@@ -99,7 +103,7 @@ const Registration& registration_of(const std::string& name) {
     const std::string near = core::nearest(name, names);
     throw core::InputError({"predictor", fmt::format("'{}' is not a predictor", name),
                             fmt::format("{}", fmt::join(names, ", ")),
-                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+                            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
 }
 
 }  // namespace

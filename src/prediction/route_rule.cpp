@@ -18,7 +18,11 @@ using detail::RowBelief;
 class RouteRule final : public PairwisePredictor {
   public:
     RouteRule(const PredictorContext& context, const RouteRuleConfig& config)
-        : PairwisePredictor(context), config_(config), roads_(context.network, context.rules) {}
+        : PairwisePredictor(context),
+          config_(config),
+          roads_(context.network, context.rules,
+                 {static_cast<float>(config.start_acceleration_mps2),
+                  static_cast<float>(config.start_wave_mps)}) {}
     std::string_view name() const override { return "route_rule"; }
 
   private:

@@ -190,6 +190,17 @@ std::string unpaired_line(const analysis::Unpaired& lost) {
     return fmt::format("Not paired: {}{}{}\n", where, where.empty() ? "" : ": ", lost.why);
 }
 
+/// What differs between the conditions of one name.
+std::string differing_text(const analysis::Summary& summary) {
+    std::string text;
+    for (const analysis::ConditionDifference& one : summary.differing)
+        text +=
+            fmt::format("{}: {} is {} in the first folder and {} in the second.\n", printable(one.condition),
+                        printable(one.setting), printable(one.first.value_or("as shipped")),
+                        printable(one.second.value_or("as shipped")));
+    return text.empty() ? text : "Conditions of the same name differ:\n" + text + "\n";
+}
+
 /// The lines before the tables.
 std::string objections_text(const ScenarioSummary& scenario) {
     std::string text;
@@ -242,7 +253,7 @@ std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
 }
 
 std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics) {
-    std::string text;
+    std::string text = differing_text(summary);
     auto out = std::back_inserter(text);
     bool any_unsafe = false;
     bool any_few = false;
@@ -301,10 +312,17 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                          {"condition", one.condition},
                          {"metric", one.metric},
                          {"why", one.why}});
+    Json differing = Json::array();
+    for (const analysis::ConditionDifference& one : summary.differing)
+        differing.push_back({{"condition", one.condition},
+                             {"setting", one.setting},
+                             {"first", one.first ? Json(*one.first) : Json(nullptr)},
+                             {"second", one.second ? Json(*one.second) : Json(nullptr)}});
     Json unpaired = Json::array();
     for (const analysis::Unpaired& lost : summary.unpaired)
         unpaired.push_back({{"scenario", lost.scenario}, {"condition", lost.condition}, {"why", lost.why}});
     const Json result = {{"comparisons", std::move(comparisons)},
+                         {"differing_settings", std::move(differing)},
                          {"unpaired", std::move(unpaired)},
                          {"short_of_tolerance", std::move(gates)}};
     return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

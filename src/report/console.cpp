@@ -129,7 +129,9 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
         const Outcome& outcome = condition.outcome(measure.measure);
         std::string line =
             row_start(condition) + split_cell(outcome.value, {.decimals = decimals}, measure.printed_factor);
-        if (condition.is_compared()) {
+        if (is_void_for_lost(condition, measure.measure)) {
+            line += std::string(split_cell({}, {}, 1.0).size(), ' ') + "lost EVs";
+        } else if (condition.is_compared()) {
             line += split_cell(outcome.difference, {.decimals = decimals, .sign = Sign::always},
                                measure.printed_factor) +
                     effect_word(condition, measure.measure);
@@ -231,6 +233,23 @@ bool is_essential(Measure measure) {
     return measure == Measure::emergency_restricted_time || measure == Measure::other_time_loss;
 }
 
+/// The scenario without the conditions that have one setting turned alone: the table of sensitivities speaks
+/// for them, unless they stand out.
+ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scenario) {
+    ScenarioFacts kept = scenario;
+    std::vector<std::size_t> places;
+    kept.conditions.clear();
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const ConditionFacts* const reference = reference_of(study, scenario, condition);
+        places.push_back(kept.conditions.size());
+        if (reference == nullptr || stands_out(condition, *reference)) kept.conditions.push_back(condition);
+    }
+    for (ConditionFacts& condition : kept.conditions) {
+        if (condition.baseline) condition.baseline = places[*condition.baseline];
+    }
+    return kept;
+}
+
 void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
@@ -285,13 +304,18 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     std::string text;
     bool any_unsafe = false;
     for (const ScenarioFacts& scenario : study.scenarios) {
-        append_scenario(scenario, tables, text);
+        for (const Sensitivity& sensitivity : study.sensitivities) {
+            if (sensitivity.scenario == scenario.name)
+                append_wrapped(printable(sensitivity_sentence(sensitivity)) + ".", text);
+        }
+        append_scenario(tables == Tables::all ? scenario : without_levels(study, scenario), tables, text);
         any_unsafe =
             any_unsafe || std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
                                       [](const ConditionFacts& one) { return one.safety_checks_off; });
     }
     text += safe_table(failure_table(study.failure_curves));
-    text += safe_table(sensitivity_table(study.sensitivities));
+    text += safe_table(sensitivity_table(
+        study.sensitivities, tables == Tables::all ? SensitivityRows::all : SensitivityRows::with_effect));
     append_wrapped(few_seeds_sentence(study), text);
     append_wrapped(
         "here: mean and half width of its 95 % interval; (<x): upper end of an asymmetric interval, as none "

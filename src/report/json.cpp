@@ -184,10 +184,13 @@ Json to_json(const Sensitivity& sensitivity) {
     for (const SensitivityRow& row : sensitivity.rows) {
         Json levels = Json::array();
         for (const SensitivityLevel& level : row.levels)
-            levels.push_back({{"value", level.value},
+            levels.push_back({{"condition", level.condition},
+                              {"value", level.value},
                               {"emergency_travel_time_difference_s", to_json(level.emergency)},
                               {"others_time_loss_difference_s", to_json(level.others)}});
-        settings.push_back({{"setting", row.setting}, {"levels", std::move(levels)}});
+        settings.push_back({{"setting", row.setting},
+                            {"shipped", row.shipped.empty() ? Json(nullptr) : Json(row.shipped)},
+                            {"levels", std::move(levels)}});
     }
     return {{"scenario", sensitivity.scenario},
             {"condition", sensitivity.condition},

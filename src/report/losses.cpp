@@ -79,7 +79,7 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (pairs == "true-links") curve.title = named("graphsage_as_published", "list of true links only");
     if (pairs == "candidates") curve.title = named("graphsage_as_published", "list of candidate pairs");
     curve.constant_loss = number_of(summary, "constant_test_loss_nat");
-    if (curve.constant_loss && !curve.held_out.empty()) {
+    if (curve.constant_loss) {
         curve.note = fmt::format("Loss of the best constant answer on the test pairs: {}.",
                                  number(*curve.constant_loss, {3, Script::typeset}));
     }

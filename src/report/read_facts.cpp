@@ -111,7 +111,9 @@ void fill_outcomes(const analysis::ConditionSummary& summary, const analysis::Co
     for (const MeasureInfo& measure : measures()) {
         Outcome& outcome = facts.outcome(measure.measure);
         if (measure.measure == Measure::gap_closed) {
-            if (!summary.gap_closed) continue;
+            // An EV that did not arrive counts with the horizon, so the share would be a large negative
+            // number.
+            if (!summary.gap_closed || summary.objections.loses_emergency()) continue;
             outcome.value = estimate_with(summary.gap_closed->value, summary.gap_closed->interval,
                                           summary.gap_replications);
         } else if (measure.measure == Measure::unfinished) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/settings.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -29,10 +30,27 @@ std::optional<analysis::Estimate> difference(const analysis::ConditionSummary& c
     return analysis::estimate_paired(values.values, reference.metric(metric).values, values.metric.kind);
 }
 
+/// The scenario decides about sirens, so they have no shipped value.
+std::string shipped_value(const std::string& setting) {
+    const std::size_t dot = setting.find('.');
+    for (const experiment::Component& component : experiment::components()) {
+        if (component.name != setting.substr(0, dot) || component.name == "siren") continue;
+        for (const core::SettingInfo& row : component.table.rows) {
+            if (component.name + "." + row.name == setting) return core::setting_text(row.preset);
+        }
+    }
+    return "";
+}
+
+bool has_interval(const std::optional<analysis::Estimate>& difference) {
+    return difference && difference->interval && difference->n >= analysis::fewest_for_interval;
+}
+
 SensitivityRow& row_of(Sensitivity& sensitivity, const std::string& setting) {
     const auto found = std::ranges::find(sensitivity.rows, setting, &SensitivityRow::setting);
-    return found != sensitivity.rows.end() ? *found
-                                           : sensitivity.rows.emplace_back(SensitivityRow{setting, {}});
+    return found != sensitivity.rows.end()
+               ? *found
+               : sensitivity.rows.emplace_back(SensitivityRow{setting, shipped_value(setting), {}});
 }
 
 Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
@@ -43,7 +61,8 @@ Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
         if (condition.condition.settings.size() != 1 || recipe_of(condition.condition) != recipe) continue;
         const auto& [setting, value] = *condition.condition.settings.begin();
         row_of(result, setting)
-            .levels.push_back({value, difference(condition, reference, analysis::primary_metric),
+            .levels.push_back({condition.condition.name, value,
+                               difference(condition, reference, analysis::primary_metric),
                                difference(condition, reference, others_metric)});
     }
     std::ranges::stable_sort(result.rows, std::ranges::greater(), &SensitivityRow::reach_s);
@@ -72,21 +91,76 @@ std::vector<Sensitivity> sensitivities(const analysis::Summary& summary) {
     return all;
 }
 
-std::string sensitivity_table(const std::vector<Sensitivity>& all) {
+std::string SensitivityRow::turned(const SensitivityLevel& level, const char* arrow) const {
+    return shipped.empty() ? level.value : fmt::format("{} {} {}", shipped, arrow, level.value);
+}
+
+bool SensitivityRow::changes(std::optional<analysis::Estimate> SensitivityLevel::*difference) const {
+    return std::ranges::any_of(levels, [&](const SensitivityLevel& level) {
+        return has_interval(level.*difference) && !(level.*difference)->interval->contains(0.0);
+    });
+}
+
+bool SensitivityRow::shows_nothing() const {
+    const auto includes_zero = [](const std::optional<analysis::Estimate>& difference) {
+        return has_interval(difference) && difference->interval->contains(0.0);
+    };
+    return std::ranges::all_of(levels, [&](const SensitivityLevel& level) {
+        return includes_zero(level.emergency) && includes_zero(level.others);
+    });
+}
+
+bool Sensitivity::has_level(const std::string& of_scenario, const std::string& named) const {
+    return scenario == of_scenario && std::ranges::any_of(rows, [&](const SensitivityRow& row) {
+               return std::ranges::find(row.levels, named, &SensitivityLevel::condition) != row.levels.end();
+           });
+}
+
+std::string sensitivity_sentence(const Sensitivity& sensitivity) {
+    const auto changing = [&](std::optional<analysis::Estimate> SensitivityLevel::*difference) {
+        return std::ranges::count_if(sensitivity.rows,
+                                     [&](const SensitivityRow& row) { return row.changes(difference); });
+    };
+    const bool too_few = std::ranges::none_of(sensitivity.rows, [](const SensitivityRow& row) {
+        return std::ranges::any_of(row.levels, [](const SensitivityLevel& level) {
+            return has_interval(level.emergency) || has_interval(level.others);
+        });
+    });
+    if (too_few)
+        return fmt::format(
+            "{}: {} settings of {} were each turned alone, but fewer than {} seeds give no interval",
+            sensitivity.scenario, sensitivity.rows.size(), sensitivity.condition,
+            analysis::fewest_for_interval);
+    return fmt::format(
+        "{}: EV travel time is changed by {} of {} settings of {}, each turned alone, and the others' time "
+        "loss by {} (the 95 % interval of a paired difference excludes 0)",
+        sensitivity.scenario, changing(&SensitivityLevel::emergency), sensitivity.rows.size(),
+        sensitivity.condition, changing(&SensitivityLevel::others));
+}
+
+std::string sensitivity_table(const std::vector<Sensitivity>& all, SensitivityRows rows) {
     std::string text;
     auto out = std::back_inserter(text);
     const NumberStyle style{.decimals = 1, .sign = Sign::always};
     for (const Sensitivity& sensitivity : all) {
         fmt::format_to(out, "Sensitivity: {}, {}; differences to the defaults\n\n", sensitivity.scenario,
                        sensitivity.condition);
-        fmt::format_to(out, "{:<32}{:<24}{}\n{:-<80}\n", "Setting", "EV travel time, s",
+        fmt::format_to(out, "{:<32}{:<24}{}\n{:-<80}\n", "Setting, shipped -> turned to", "EV travel time, s",
                        "others' time loss, s", "");
+        std::size_t left_out = 0;
         for (const SensitivityRow& row : sensitivity.rows) {
+            if (rows == SensitivityRows::with_effect && row.shows_nothing()) {
+                ++left_out;
+                continue;
+            }
             fmt::format_to(out, "{}\n", row.setting);
             for (const SensitivityLevel& level : row.levels)
-                fmt::format_to(out, "  {:<30}{:<24}{}\n", level.value, estimate(level.emergency, style),
-                               estimate(level.others, style));
+                fmt::format_to(out, "  {:<30}{:<24}{}\n", row.turned(level, "->"),
+                               estimate(level.emergency, style), estimate(level.others, style));
         }
+        if (left_out > 0)
+            fmt::format_to(out, "{} without a shown effect: both intervals include 0 (--tables)\n",
+                           counted(left_out, "setting"));
         text += '\n';
     }
     return text;

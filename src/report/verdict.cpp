@@ -142,6 +142,11 @@ Effect effect_of(const ConditionFacts& condition, Measure measure) {
     return ruled_out ? Effect::ruled_out : effect;
 }
 
+bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
+    return measure == Measure::gap_closed && condition.objections.loses_emergency() &&
+           !condition.outcome(measure).value.mean;
+}
+
 std::string lease_sentence(const ConditionFacts& condition) {
     if (!condition.has_policy) return "has no policy that could ask for anything";
     if (!condition.leases) return "records of an older version hold totals only; run again for actions";
@@ -199,13 +204,36 @@ constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost"
 
 }  // namespace
 
+const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
+                                   const ConditionFacts& condition) {
+    for (const Sensitivity& sensitivity : study.sensitivities) {
+        if (!sensitivity.has_level(scenario.name, condition.name)) continue;
+        const auto found =
+            std::ranges::find(scenario.conditions, sensitivity.condition, &ConditionFacts::name);
+        if (found != scenario.conditions.end()) return &*found;
+    }
+    return nullptr;
+}
+
+bool stands_out(const ConditionFacts& condition, const ConditionFacts& reference) {
+    const auto turned_worse = [&](Measure measure) {
+        return effect_of(condition, measure) == Effect::worse &&
+               effect_of(reference, measure) != Effect::worse;
+    };
+    return finding_of(condition) != finding_of(reference) || turned_worse(Measure::collisions) ||
+           turned_worse(Measure::teleports) || turned_worse(Measure::unfinished) || !condition.failed.empty();
+}
+
 std::string headline(const StudyFacts& study) {
+    std::string turned;
+    for (const Sensitivity& sensitivity : study.sensitivities)
+        turned += sensitivity_sentence(sensitivity) + ". ";
     std::vector<std::string> parts;
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::size_t compared = 0;
         std::array<std::size_t, finding_words.size()> seen = {};
         for (const ConditionFacts& condition : scenario.conditions) {
-            if (!condition.is_compared()) continue;
+            if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
             ++compared;
             ++seen[finding_of(condition)];
         }
@@ -219,8 +247,10 @@ std::string headline(const StudyFacts& study) {
         }
         parts.push_back(fmt::format("{}: {}", scenario.name, fmt::join(findings, ", ")));
     }
-    if (parts.empty()) return "No condition was compared with a baseline.";
-    return fmt::format("{}.", fmt::join(parts, "; "));
+    if (!parts.empty()) return fmt::format("{}{}.", turned, fmt::join(parts, "; "));
+    if (turned.empty()) return "No condition was compared with a baseline.";
+    turned.pop_back();
+    return turned;
 }
 
 }  // namespace clearway::report

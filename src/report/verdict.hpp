@@ -35,6 +35,9 @@ Effect effect_of(const Outcome& outcome, Better better);
 /// The same, unless objections against the condition rule it out. All output uses this.
 Effect effect_of(const ConditionFacts& condition, Measure measure);
 
+/// Whether a measure has no value because the condition lost more EVs than its baseline.
+bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
+
 /// What the condition's policy asked for and what became of it, in one sentence; lane changes are named even
 /// if none was asked for. Plain text.
 std::string lease_sentence(const ConditionFacts& condition);
@@ -43,7 +46,16 @@ std::string lease_sentence(const ConditionFacts& condition);
 /// by how much, and what it cost the others. Plain text, not escaped.
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
-/// One sentence for the whole study, from EV travel time of every condition but the baselines. Plain text.
+/// The condition at its defaults of which this one has a setting turned alone; null for other conditions.
+const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
+                                   const ConditionFacts& condition);
+
+/// Whether a condition must be named beside the one from which it differs in a setting: another finding on
+/// EVs, more collisions, teleports or unfinished vehicles, failed runs.
+bool stands_out(const ConditionFacts& condition, const ConditionFacts& reference);
+
+/// One or two sentences for the whole study: how many settings matter where they were turned one at a time,
+/// and what EV travel time says of every other condition but the baselines. Plain text.
 std::string headline(const StudyFacts& study);
 
 }  // namespace clearway::report

@@ -56,7 +56,7 @@ void require_known(const std::string& where, const std::string& name, const std:
     const std::string near = core::nearest(name, known);
     problems.push_back({where, fmt::format("`{}` is not in this study", name),
                         fmt::format("{}", fmt::join(known, ", ")),
-                        near.empty() ? "" : fmt::format("Did you mean `{}`?", near)});
+                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
 }
 
 std::optional<std::uint32_t> number_from(const std::string& text) {

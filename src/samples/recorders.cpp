@@ -63,14 +63,17 @@ void GraphSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
 }
 
 /// For graphsage: its inputs, the true displacements, and the route rule's probabilities of the same pairs.
-/// Input builder and route rule keep state, so they see every report.
+/// Input builder and route rule keep state, so they see every report. The rule is the one of the inputs,
+/// under which vehicles that were seen standing stay: training draws pairs by it, and shipped nets shall be
+/// trained alike again.
 class RepairSampleRecorder final : public SampleRecorder {
   public:
     explicit RepairSampleRecorder(Setup setup)
         : SampleRecorder(std::move(setup)),
           inputs_(network(), rules()),
           rule_(prediction::make_predictor("route_rule",
-                                           {.network = network(), .rules = rules(), .model_file = ""})),
+                                           {.network = network(), .rules = rules(), .model_file = ""},
+                                           {{"start_acceleration_mps2", "0"}})),
           writer_(with_features(origin(), prediction::repair_schema())) {}
     std::string write(const std::filesystem::path& file) const override {
         writer_.write(file);

@@ -100,7 +100,7 @@ void slow_down(const ScenarioConfig& config, NetworkDocument& document) {
             const std::string near = core::nearest(edge, {known.begin(), known.end()});
             problems.push_back({config.where(fmt::format("road.stretch.{}.edges", stretch.name)),
                                 fmt::format("the network has no edge '{}'", edge), "ids of its edges",
-                                near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
         }
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));

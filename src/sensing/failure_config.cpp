@@ -93,9 +93,10 @@ void check_together(const FailureConfig& config, const std::string& where,
                             "0.1 to 1 s, or 0 for a report at every step", ""});
     }
     if (interval_s == 0.0 && needs_rounds(config)) {
-        problems.push_back({where + ".report_interval_s", "0 together with failures",
-                            "0 for perfect sensing alone",
-                            "failures and observations are drawn per report: give an interval, such as 1"});
+        problems.push_back({where + ".report_interval_s",
+                            "is 0, which reports at every step, but failures are drawn for each report",
+                            "0.1 to 1 s with failures, 0 for perfect sensing alone",
+                            "Add report_interval_s=1 to the failure, or --set failure.report_interval_s=1"});
     }
     check_errors(config, where, problems);
     // With shorter outages, losses would follow each other less often than by chance; independent loss is the
@@ -140,7 +141,7 @@ std::optional<std::string> set(Enum& value, std::string_view text) {
 core::Problem unknown(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
     const std::string near = core::nearest(std::string(name), known);
     return {"failure", fmt::format("'{}' is not a {}", name, what), fmt::format("{}", fmt::join(known, ", ")),
-            near.empty() ? "" : fmt::format("did you mean {}?", near)};
+            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
 }
 
 /// Reads `FIELD=VALUE` items one after the other.

@@ -306,6 +306,23 @@ TEST_F(SmallStudy, PairsTheSameUnitsOfTwoStudies) {
     EXPECT_DOUBLE_EQ(comparison.difference->mean, 2.0);
 }
 
+TEST_F(SmallStudy, NamesSettingsInWhichConditionsOfOneNameDiffer) {
+    add_all();
+    EXPECT_THAT(compare_studies(results_, results_).differing, testing::IsEmpty());
+    results::Results second = results_;
+    for (experiment::ConditionSpec& condition : second.manifest.conditions) {
+        if (condition.name != "treated") continue;
+        condition.settings["loop.link_radius_m"] = "80";
+        condition.failure = "B20";
+    }
+    const auto differing = compare_studies(results_, second).differing;
+    ASSERT_EQ(differing.size(), 2U);
+    EXPECT_EQ(differing[0].condition, "treated");
+    EXPECT_EQ(differing[0].setting, "failure");
+    EXPECT_EQ(differing[0].second, "B20");
+    EXPECT_EQ(differing[1], (ConditionDifference{"treated", "loop.link_radius_m", std::nullopt, "80"}));
+}
+
 TEST_F(SmallStudy, RefusesToPairWhatWasNotMadeFromTheSame) {
     add_all();
     results::Results second = results_;

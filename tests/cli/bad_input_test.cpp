@@ -17,7 +17,7 @@ class BadInputTest : public UserTest {
 TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
     const Ended ended = clearway({"run", "mergee"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("mergee"), HasSubstr("did you mean 'merge'?")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("mergee"), HasSubstr("Did you mean 'merge'?")));
     EXPECT_THAT(ended.out, IsEmpty());
 }
 
@@ -94,6 +94,8 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     refused({"--set", "preempt_signals.leed_s=12"}, "Did you mean 'lead_s'?");
     refused({"--set", "preempt_signals.lead_s=99"}, "99 is out of range (allowed: 0 to 60)");
     refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is not an assignment");
+    refused({"--set", "clear_lane.lease_s=0.5"}, "shorter than two policy periods");
+    refused({"--set", "failure.loss_rate=0.1"}, "--set failure.report_interval_s=1");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
     refused({"--model", "none.weights"}, "none.weights is not a file");
     write("net.weights", "no weights");
@@ -111,7 +113,7 @@ TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("condition dissertation_B10_dark_share_1.5_onbord_range_m_50: "
                                            "failure `B10,dark_share=1.5,onbord_range_m=50`"),
-                                 HasSubstr("did you mean onboard_range_m?")));
+                                 HasSubstr("Did you mean 'onboard_range_m'?")));
     const Ended data =
         clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "loss_rate=2"});
     EXPECT_EQ(data.code, 3);
@@ -145,8 +147,8 @@ TEST_F(BadInputTest, unknown_failure_predictor_and_policy_are_told_before_anythi
     const Ended ended = clearway({"run", "line", "--out", "out", "--failure", "B11", "--predictor",
                                   "dead_reckonin", "--policy", "disertation"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean `dead_reckoning`?"),
-                                 HasSubstr("Did you mean `dissertation`?")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean 'dead_reckoning'?"),
+                                 HasSubstr("Did you mean 'dissertation'?")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 

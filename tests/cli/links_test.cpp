@@ -127,7 +127,7 @@ TEST_F(LinksTest, unknown_names_are_told_with_the_nearest_before_anything_runs) 
     const Ended ended = clearway(evaluate({"--failure", "B11", "--predictor", "last_sen", "none", "--against",
                                            "kalmann", "--set", "none.link_treshold=1"}));
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean `last_seen`?"),
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("`B11`"), HasSubstr("Did you mean 'last_seen'?"),
                                  HasSubstr("kalmann"), HasSubstr("Did you mean 'link_threshold'?")));
     EXPECT_THAT(ended.out, IsEmpty());
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
@@ -163,7 +163,7 @@ TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refus
     EXPECT_EQ(clearway({"links", "evaluate", "--benchmark", "eval_v1", "--seeds", "2"}).code, 2);
     EXPECT_EQ(clearway({"links"}).code, 2);
     EXPECT_THAT(clearway({"links", "evaluate", "line", "--predicto", "none"}).err,
-                AllOf(HasSubstr("clearway links evaluate"), HasSubstr("did you mean --predictor?")));
+                AllOf(HasSubstr("clearway links evaluate"), HasSubstr("Did you mean '--predictor'?")));
 }
 
 TEST_F(LinksTest, seeds_must_suffice_and_not_overlap) {

@@ -101,6 +101,17 @@ TEST_F(ModelTest, a_study_gives_a_net_to_the_conditions_whose_predictor_it_is_of
     EXPECT_TRUE(model_of("runs/mine", "baseline").is_null());
 }
 
+TEST_F(ModelTest, a_submission_passes_a_net_on_to_its_shards) {
+    const Ended ended = clearway({"submit", "my.toml", "--model", "good.pth", "--shards", "1", "--out", "sub",
+                                  "--engine", "local", "--go"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string net = std::filesystem::absolute(folder() / "good.pth").lexically_normal().string();
+    EXPECT_THAT(read("sub/shard.sh"), HasSubstr("--model graphsage_as_published=" + net));
+    EXPECT_EQ(model_of("sub/merged", "published").at("file"), net);
+    EXPECT_TRUE(model_of("sub/merged", "rule").is_null());
+    expect_refused({"submit", "my.toml", "--model", "none.pth"}, "--model: none.pth is not a file");
+}
+
 TEST_F(ModelTest, a_study_refuses_a_net_that_no_condition_or_more_than_one_would_take) {
     const auto refused = [&](const std::vector<std::string>& models, const std::string& message) {
         std::vector<std::string> words = {"study", "my.toml"};

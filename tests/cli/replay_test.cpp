@@ -147,7 +147,7 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     EXPECT_THAT(none.err, HasSubstr("none.h5"));
     const Ended name = clearway({"replay", recording, "--predictor", "dead_reckonin"});
     EXPECT_EQ(name.code, 3);
-    EXPECT_THAT(name.err, HasSubstr("Did you mean `dead_reckoning`?"));
+    EXPECT_THAT(name.err, HasSubstr("Did you mean 'dead_reckoning'?"));
     const Ended window = clearway({"replay", recording, "--csv", "belief", "--from", "9000"});
     EXPECT_EQ(window.code, 3);
     EXPECT_THAT(window.err, HasSubstr("allowed: "));
@@ -172,6 +172,23 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
     EXPECT_THAT(cut.err, AllOf(HasSubstr("00000.h5"), HasSubstr("cut short")));
 }
 
+TEST_F(ReplayTest, settings_that_only_a_run_uses_are_refused) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    for (const char* const setting : {"actuation.hold_cap_s=30", "siren.memory_s=5"}) {
+        const Ended ended = clearway({"replay", recording, "--set", setting});
+        EXPECT_EQ(ended.code, 3) << setting;
+        const std::string name = std::string(setting).substr(0, std::string(setting).find('='));
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("--set " + name + ": changes nothing in a replay"),
+                                     HasSubstr("settings of loop, failure"), HasSubstr("clearway run")));
+    }
+    EXPECT_EQ(clearway({"replay", recording, "--set", "dissertation.lease_s=3"}).code, 0);
+    const Ended sensors =
+        clearway({"replay", recording, "--csv", "failures", "--set", "dissertation.lease_s=3"});
+    EXPECT_EQ(sensors.code, 3);
+    EXPECT_THAT(sensors.err, AllOf(HasSubstr("changes nothing in the failure log"),
+                                   HasSubstr("allowed: settings of failure)")));
+}
+
 TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
     ASSERT_EQ(run({"--record"}).code, 0);
     const Ended replayed = clearway({"replay", run_of_mine});
@@ -186,7 +203,7 @@ TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
     for (const char* const verb : {"replay", "verify", "trajectories"}) {
         const Ended unknown = clearway({verb, "out/lin/mime/3"});
         EXPECT_EQ(unknown.code, 3) << verb;
-        EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `mine`?"),
+        EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean 'line'?"), HasSubstr("Did you mean 'mine'?"),
                                        HasSubstr("`3` is not in this study (allowed: 0 to 0)")))
             << verb;
         const Ended nowhere = clearway({verb, "line/mine/0"});
@@ -224,7 +241,7 @@ TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {
     ASSERT_EQ(run().code, 0);
     const Ended unknown = clearway({"verify", "out/lin/basline/4"});
     EXPECT_EQ(unknown.code, 3);
-    EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean `line`?"), HasSubstr("Did you mean `baseline`?"),
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("Did you mean 'line'?"), HasSubstr("Did you mean 'baseline'?"),
                                    HasSubstr("`4` is not in this study")));
     EXPECT_EQ(clearway({"verify", "out/line"}).code, 3);
     EXPECT_EQ(clearway({"verify", "out"}).code, 3);

@@ -133,6 +133,7 @@ TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
     EXPECT_EQ(same.code, 0) << same.err;
     const auto tables = nlohmann::json::parse(same.out);
     ASSERT_EQ(tables.at("comparisons").size(), 2U);
+    EXPECT_TRUE(tables.at("differing_settings").empty());
     EXPECT_EQ(tables["comparisons"][0]["metrics"]["emergency_restricted_travel_time_s"]["difference"], 0.0);
     const Ended short_of =
         clearway({"compare", "one", "--metric", "simulated_s", "--tolerance", "collisions=0"});

@@ -98,6 +98,19 @@ TEST(Settings, ThatCannotBeNameTheNearest) {
     EXPECT_THAT(problems_of("preempt_signals.lead_s", "nan"), HasSubstr("out of range"));
 }
 
+TEST(Settings, OfALeaseThatIsShorterThanTwoPolicyPeriodsAreRefused) {
+    EXPECT_THAT(problems_of("clear_lane.lease_s", "1"), IsEmpty());
+    EXPECT_THAT(problems_of("clear_lane.lease_s", "0.6"),
+                testing::AllOf(HasSubstr("clear_lane.lease_s: 0.6 s is shorter than two policy periods"),
+                               HasSubstr("loop.policy_period_s is 0.5 s"), HasSubstr("at least 1 s"),
+                               HasSubstr("or loop.policy_period_s to 0.3 or less")));
+    ConditionSpec slow = corridor();
+    set(slow, "loop.policy_period_s", "2");
+    EXPECT_THAT(problems_of(slow), IsEmpty()) << "a lease that nobody set lasts two periods";
+    set(slow, "recover_signals.lease_s", "3");
+    EXPECT_THAT(problems_of(slow), HasSubstr("Set recover_signals.lease_s to 4 or more"));
+}
+
 TEST(Settings, OfASoloConditionAreRefused) {
     ConditionSpec solo;
     solo.traffic_model = TrafficModel::free_flow;
@@ -192,7 +205,7 @@ TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
         components_named("corridr");
         FAIL();
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("Did you mean `corridor`?"));
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean 'corridor'?"));
     }
 }
 

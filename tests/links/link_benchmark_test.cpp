@@ -93,7 +93,7 @@ TEST_F(LinkBenchmarkFile, refuses_a_scenario_that_is_not_what_it_was) {
     EXPECT_THAT(
         refusal("variant = \"dense\"", "variant = \"standard\""),
         AllOf(HasSubstr("merge has changed since the benchmark was frozen"), HasSubstr("mine.toml:16")));
-    EXPECT_THAT(refusal("name = \"merge\"", "name = \"mergee\""), HasSubstr("did you mean 'merge'?"));
+    EXPECT_THAT(refusal("name = \"merge\"", "name = \"mergee\""), HasSubstr("Did you mean 'merge'?"));
 }
 
 TEST(SeedRanges, are_judged_before_anything_runs) {

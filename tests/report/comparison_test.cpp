@@ -88,6 +88,19 @@ TEST(Shortfalls, IncludeRunsThatAreNotThere) {
     EXPECT_EQ(json["unpaired"][0]["condition"], "gone");
 }
 
+TEST(ComparisonText, NamesSettingsInWhichConditionsOfOneNameDifferBeforeTheFigures) {
+    analysis::Summary summary = summary_with(-5.0);
+    summary.differing = {{"treated", "preempt_signals.lead_s", std::nullopt, "12"}};
+    EXPECT_THAT(
+        comparison_text(summary, {"collisions"}),
+        testing::StartsWith("Conditions of the same name differ:\ntreated: preempt_signals.lead_s is as "
+                            "shipped in the first folder and 12 in the second.\n"));
+    const auto json = nlohmann::json::parse(comparison_json(summary, {"collisions"}, {}));
+    EXPECT_EQ(json["differing_settings"][0]["setting"], "preempt_signals.lead_s");
+    EXPECT_TRUE(json["differing_settings"][0]["first"].is_null());
+    EXPECT_THAT(comparison_text(summary_with(-5.0), {"collisions"}), Not(HasSubstr("same name")));
+}
+
 TEST(Shortfalls, IncludeLostEmergencyVehiclesHoweverGoodTheMeanOfTheRest) {
     analysis::Summary summary = summary_with(-20.0);
     analysis::Objections& objections = summary.scenarios[0].conditions[1].objections;

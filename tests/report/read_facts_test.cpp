@@ -117,6 +117,41 @@ TEST_F(RunFolder, gives_means_paired_differences_and_outcomes) {
     EXPECT_FALSE(merge.conditions[3].is_compared());
 }
 
+TEST(GapClosed, is_a_dash_for_a_condition_that_lost_emergency_vehicles) {
+    const support::TemporaryFolder folder;
+    results::Manifest manifest;
+    manifest.study = "lossy";
+    manifest.clearway_version = "0.1.0";
+    manifest.sumo_version = "1.15.0";
+    manifest.replications = 3;
+    manifest.scenarios = {{"merge", "v1", "Merge", "name = \"merge\"\n", "abc", ""}};
+    const experiment::ConditionSpec baseline{.name = "baseline", .policies = {}};
+    const experiment::ConditionSpec lossy{.name = "lossy", .policies = {"dissertation"}};
+    const experiment::ConditionSpec solo{
+        .name = "solo", .policies = {}, .traffic_model = experiment::TrafficModel::free_flow};
+    manifest.conditions = {baseline, lossy, solo};
+    {
+        const results::Store store = results::Store::create(folder.path() / "study", manifest);
+        for (std::uint32_t replication = 0; replication < 3; ++replication) {
+            store.write(run(baseline, replication, 100.0 + replication), {});
+            results::RunRecord record = run(lossy, replication, 1900.0);
+            record.vehicles[0].outcome = metrics::VehicleOutcome::running_at_end;
+            store.write(record, {});
+            store.write(run(solo, replication, 60.0), {});
+        }
+    }
+    const StudyFacts facts = read_facts(folder.path() / "study");
+    const ConditionFacts& lost = facts.scenarios.at(0).conditions.at(1);
+    ASSERT_TRUE(lost.objections.loses_emergency());
+    EXPECT_FALSE(lost.outcome(Measure::gap_closed).value.mean);
+    EXPECT_THAT(json_tables(facts), testing::ContainsRegex("\"gap_closed\": .\n *\"mean\": null"));
+    EXPECT_THAT(console_tables(facts, Tables::all),
+                testing::ContainsRegex("Gap closed, %\n.*\n  lossy +- +lost EVs\n"));
+    std::ostringstream page;
+    write_html(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr("<span class=\"delta worse\">lost EVs</span>"));
+}
+
 TEST(Titles, of_the_dissertations_conditions_name_the_predictor_and_its_weights) {
     using Conditions = std::vector<experiment::ConditionSpec>;
     experiment::ConditionSpec own;

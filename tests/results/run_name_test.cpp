@@ -47,7 +47,7 @@ TEST_F(RunName, MayBeTheFolderOfTheRunsFiles) {
 
 TEST_F(RunName, OfNoRunIsRefusedWithTheNearest) {
     EXPECT_THAT(error_of(name("alpa/treatd/7")),
-                AllOf(HasSubstr("Did you mean `alpha`?"), HasSubstr("Did you mean `treated`?"),
+                AllOf(HasSubstr("Did you mean 'alpha'?"), HasSubstr("Did you mean 'treated'?"),
                       HasSubstr("`7` is not in this study"), HasSubstr("0 to 1")));
     for (const char* const word : {"", "7", "alpha/7", "nowhere/alpha/treated/0"})
         EXPECT_THAT(error_of(word), AllOf(HasSubstr("is not a run"), HasSubstr(run_name_form))) << word;

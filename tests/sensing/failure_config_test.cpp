@@ -51,7 +51,7 @@ TEST(FailurePresets, NameTheNearestOfAnUnknownOne) {
         failure_from("C.lnk");
         FAIL() << "accepted";
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("did you mean C.link?"));
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean 'C.link'?"));
         EXPECT_THAT(error.what(), HasSubstr("D3B10"));
     }
 }
@@ -78,7 +78,9 @@ std::string refusal(const char* text) {
 }
 
 TEST(FailureText, IsRefusedWithAllThatIsWrong) {
-    EXPECT_THAT(refusal("B10,dark_shore=0.5"), HasSubstr("did you mean dark_share?"));
+    EXPECT_THAT(refusal("perfect,loss_rate=0.1"),
+                HasSubstr("Add report_interval_s=1 to the failure, or --set failure.report_interval_s=1"));
+    EXPECT_THAT(refusal("B10,dark_shore=0.5"), HasSubstr("Did you mean 'dark_share'?"));
     EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: 'half'"));
     EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
     EXPECT_THAT(refusal("B10,exits=maybe"), HasSubstr("known, unknown"));

@@ -171,12 +171,12 @@ TEST_F(TrainProgramTest, wrong_usage_exits_with_2) {
 
 TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
     EXPECT_THAT(train({"graphsag", "--data", data(), "--out", out()}).output,
-                HasSubstr("clearway train: graphsag is not known here, did you mean graphsage?"));
+                HasSubstr("clearway train: graphsag is not known here. Did you mean 'graphsage'?"));
     EXPECT_THAT(train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
-                HasSubstr("clearway train graphsage: --epoch is not known here, did you mean --epochs?"));
+                HasSubstr("clearway train graphsage: --epoch is not known here. Did you mean '--epochs'?"));
     EXPECT_THAT(
         train({"gradient_boosting", "--data", data(), "--out", out(), "--tree", "3"}).output,
-        HasSubstr("clearway train gradient_boosting: --tree is not known here, did you mean --trees?"));
+        HasSubstr("clearway train gradient_boosting: --tree is not known here. Did you mean '--trees'?"));
     EXPECT_THAT(train({"--as-published", "--data", data()}).output,
                 HasSubstr("clearway train: --out is required"));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actuation/detail/stop_line.hpp"
 #include "roads/route.hpp"
 
 namespace clearway::actuation::detail {
@@ -12,8 +13,6 @@ namespace {
 constexpr double speed_tolerance_mps = 0.01;
 /// Smaller changes of speed are not sent, m/s.
 constexpr double speed_resolution_mps = 1e-3;
-/// A vehicle that gives way stops this far before the line, m (SUMO's own stop-line gap is 1 m).
-constexpr double stop_line_gap_m = 1.0;
 /// Longest single lane request, s: if a request outlives its lease by a fault, it does not bind the vehicle
 /// longer (3 s: found in first trials).
 constexpr double longest_lane_request_s = 3.0;

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/number_range.hpp"
 
@@ -55,10 +54,6 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
     app.add_option("--memory-limit", limits.memory_mib, "Memory above which a run is ended, MiB; 0: none")
         ->check(CLI::Range(0L, 100000000L))
         ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
-}
-
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-    return fmt::format("{}", fmt::join(words, separator));
 }
 
 }  // namespace clearway::cli

@@ -33,7 +33,4 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
 
-/// `a, b, c`.
-std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
-
 }  // namespace clearway::cli

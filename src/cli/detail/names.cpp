@@ -15,8 +15,8 @@ namespace clearway::cli {
 core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
     const std::string near = core::nearest(name, known);
-    return {where, fmt::format("`{}` is unknown", name), joined(known),
-            near.empty() ? "`clearway list` describes them" : fmt::format("Did you mean `{}`?", near)};
+    return {where, fmt::format("`{}` is unknown", name), core::listed(known),
+            near.empty() ? "`clearway list` describes them" : fmt::format("Did you mean '{}'?", near)};
 }
 
 std::vector<std::string> failure_names() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
@@ -104,8 +105,8 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
     const std::string settings = experiment::settings_text(condition);
-    return (means.empty() ? "-" : joined(means, "+")) + (is_checked ? "" : ", safety checks off (!)") +
-           (settings.empty() ? "" : ", " + settings);
+    return (means.empty() ? "-" : fmt::format("{}", fmt::join(means, "+"))) +
+           (is_checked ? "" : ", safety checks off (!)") + (settings.empty() ? "" : ", " + settings);
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "core/match_rows.hpp"
+#include "metrics/detail/standing.hpp"
 
 namespace clearway::metrics::detail {
 namespace {
-
-constexpr float standing_mps = 0.1F;  // SUMO's own threshold for waiting
 
 bool is_red(const std::string& state, std::uint16_t link) {
     return link < state.size() && (state[link] == 'r' || state[link] == 'u');

@@ -5,13 +5,13 @@
 #include <string_view>
 
 #include "core/match_rows.hpp"
+#include "metrics/detail/standing.hpp"
 
 namespace clearway::metrics::detail {
 namespace {
 
 using traffic::VehicleClass;
 
-constexpr float standing_mps = 0.1F;  // SUMO's own threshold for waiting
 constexpr double sample_period_s = 5.0;
 constexpr double first_offset_s = -60.0;
 constexpr double last_offset_s = 240.0;

@@ -146,6 +146,12 @@ void Plot::vertical(double value) {
                    x_.place(value), y_.from, y_.to);
 }
 
+void Plot::blank(double top, double bottom) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<rect class=\"blank\" x=\"0\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.1f}\"/>\n", top,
+                   width, bottom - top);
+}
+
 void Plot::horizontal(double value) {
     fmt::format_to(std::back_inserter(svg_), "<path class=\"zero\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", x_.from,
                    y_.place(value), x_.to);

@@ -79,6 +79,8 @@ class Plot {
     /// A horizontal line between two values of x at a value of y, with the CSS class `style`.
     void stripe(std::pair<double, double> bounds, double value, const char* style);
     void vertical(double value);
+    /// Hides what was drawn between two heights, in figure units, so that a line of text is not crossed.
+    void blank(double top, double bottom);
     /// A vertical interval at `x`.
     void whisker(double x, std::pair<double, double> bounds, std::size_t series);
     /// A horizontal line across the figure at a value of y.

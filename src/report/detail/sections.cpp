@@ -71,11 +71,11 @@ bool has_failure_curves(const StudyFacts& study) {
 
 constexpr std::array<Section, 15> all_sections = {{
     {"verdict", "Verdict", always, verdict_section},
+    {"sensitivity", "Sensitivity to each setting", has_sensitivities, sensitivity_section},
     {"tables", "Tables", always, tables_section},
     {"differences", "Paired differences", has_comparison, forest_section},
     {"travel-time", "Distribution of EV travel time", has_travel_times, distribution_section},
     {"failure", "Benefit against failure", has_failure_curves, failure_section},
-    {"sensitivity", "Sensitivity to each setting", has_sensitivities, sensitivity_section},
     {"cost", "Cost to the others", has_approaches, cost_section},
     {"safety", "Safety, comfort and flow", has_safety, safety_section},
     {"journeys", "An EV's journey", has_journeys, journeys_section},
@@ -113,6 +113,30 @@ std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& c
     return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>{}</dd>\n", condition_label(condition),
                        effect_class(effect), escaped(sentence.substr(0, colon)),
                        escaped(sentence.substr(colon)));
+}
+
+/// Verdicts of a scenario. Those of a setting turned alone are folded unless they say something else than the
+/// condition at its defaults.
+std::string verdict_card(const StudyFacts& study, const ScenarioFacts& scenario) {
+    std::string entries;
+    std::string folded;
+    std::size_t count = 0;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.is_compared()) continue;
+        const ConditionFacts* const reference = reference_of(study, scenario, condition);
+        const bool folds = reference != nullptr && !stands_out(condition, *reference);
+        (folds ? folded : entries) += verdict_entry(scenario, condition);
+        count += folds ? 1 : 0;
+    }
+    if (entries.empty() && folded.empty()) entries = "<dt>No condition was compared with a baseline.</dt>";
+    if (!entries.empty()) entries = fmt::format("<dl>{}</dl>", entries);
+    if (count > 0)
+        entries += fmt::format(
+            "<details class=\"fold\"><summary>{} with a setting turned alone, whose finding on EVs is the "
+            "same</summary><dl>{}</dl></details>",
+            counted(count, "condition"), folded);
+    return fmt::format("<div class=\"card\"><h3>{}</h3><small>{}</small>{}</div>\n", escaped(scenario.name),
+                       counted(scenario.replications, "replication"), entries);
 }
 
 DataTable events_of(const ScenarioFacts& scenario) {
@@ -168,13 +192,7 @@ std::string verdict_section(const StudyFacts& study) {
         "<p>Each condition against its baseline: what it did for emergency vehicles (EV) and to the "
         "others.</p>\n<div class=\"cards\">\n";
     for (const ScenarioFacts& scenario : study.scenarios) {
-        std::string entries;
-        for (const ConditionFacts& condition : scenario.conditions) {
-            if (condition.is_compared()) entries += verdict_entry(scenario, condition);
-        }
-        if (entries.empty()) entries = "<dt>No condition was compared with a baseline.</dt>";
-        html += fmt::format("<div class=\"card\"><h3>{}</h3><small>{}</small><dl>{}</dl></div>\n",
-                            escaped(scenario.name), counted(scenario.replications, "replication"), entries);
+        html += verdict_card(study, scenario);
     }
     return html +
            "</div>\n"

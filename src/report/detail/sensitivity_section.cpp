@@ -12,12 +12,14 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double chart_left = 26.0;
+constexpr double label_left = 12.0;
+constexpr double chart_left = 96.0;    // the values, shipped and turned to, are to the left of the drawing
 constexpr double chart_right = 262.0;  // the numbers are to the right of the drawing
 constexpr double level_height = 17.0;
 constexpr double heading_height = 20.0;
 constexpr NumberStyle signed_tenths{.decimals = 1, .script = Script::typeset, .sign = Sign::always};
 
+using Rows = std::vector<const SensitivityRow*>;
 using Member = std::optional<analysis::Estimate> SensitivityLevel::*;
 
 void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
@@ -28,8 +30,8 @@ void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
     range.include(estimate->interval->high);
 }
 
-void draw(Plot& plot, const SensitivityLevel& level, Member member, double y) {
-    plot.text(chart_left, y + 4.0, level.value, Plot::Anchor::start, "label");
+void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, Member member, double y) {
+    plot.text(label_left, y + 4.0, row.turned(level, "\u2192"), Plot::Anchor::start, "label");
     plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
     const std::optional<analysis::Estimate>& estimate = level.*member;
     if (!estimate) return;
@@ -41,65 +43,93 @@ void draw(Plot& plot, const SensitivityLevel& level, Member member, double y) {
     }
 }
 
-std::string tornado(const Sensitivity& sensitivity, Member member, const std::string& label) {
+/// Of all rows, so that the charts above and below the fold have one scale.
+Range range_of(const Sensitivity& sensitivity, Member member) {
     Range range;
     range.include(0.0);
-    double height = 8.0;
     for (const SensitivityRow& row : sensitivity.rows) {
-        height += heading_height + level_height * static_cast<double>(row.levels.size());
         for (const SensitivityLevel& level : row.levels)
             include(level.*member, range);
     }
-    height += label_space;
+    return padded(range, 0.06);
+}
+
+std::string tornado(const Sensitivity& sensitivity, const Rows& rows, Member member,
+                    const std::string& label) {
+    double height = 8.0 + label_space;
+    for (const SensitivityRow* const row : rows)
+        height += heading_height + level_height * static_cast<double>(row->levels.size());
     Plot plot(fmt::format("{}, {}: {}", sensitivity.scenario, sensitivity.condition, label), height,
-              {padded(range, 0.06), label, chart_left + 46.0, chart_right},
+              {range_of(sensitivity, member), label, chart_left, chart_right},
               {{}, "", 4.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);
     double top = 4.0;
-    for (const SensitivityRow& row : sensitivity.rows) {
-        plot.text(chart_left - 16.0, top + 13.0, row.setting, Plot::Anchor::start, "heading");
+    for (const SensitivityRow* const row : rows) {
+        plot.blank(top, top + heading_height);
+        plot.text(2.0, top + 14.0, row->setting, Plot::Anchor::start, "heading");
         top += heading_height;
-        for (const SensitivityLevel& level : row.levels) {
-            draw(plot, level, member, top + level_height / 2.0);
+        for (const SensitivityLevel& level : row->levels) {
+            draw(plot, *row, level, member, top + level_height / 2.0);
             top += level_height;
         }
     }
     return plot.finish();
 }
 
-DataTable data_of(const Sensitivity& sensitivity) {
-    DataTable table{
-        {"Setting", "value", "EV travel time, s [95 %]", "others\u2019 time loss, s [95 %]", "pairs"}, {}};
-    for (const SensitivityRow& row : sensitivity.rows) {
-        for (const SensitivityLevel& level : row.levels)
-            table.rows.push_back({row.setting, level.value, estimate(level.emergency, signed_tenths),
-                                  estimate(level.others, signed_tenths),
-                                  level.emergency ? grouped(level.emergency->n) : missing(Script::typeset)});
+DataTable data_of(const Rows& rows) {
+    DataTable table{{"Setting", "shipped", "turned to", "EV travel time, s [95 %]",
+                     "others\u2019 time loss, s [95 %]", "pairs"},
+                    {}};
+    for (const SensitivityRow* const row : rows) {
+        for (const SensitivityLevel& level : row->levels)
+            table.rows.push_back(
+                {row->setting, row->shipped.empty() ? missing(Script::typeset) : row->shipped, level.value,
+                 estimate(level.emergency, signed_tenths), estimate(level.others, signed_tenths),
+                 level.emergency ? grouped(level.emergency->n) : missing(Script::typeset)});
     }
     return table;
+}
+
+std::string figures_of(const Sensitivity& sensitivity, const Rows& rows) {
+    return "<div class=\"figures\">\n" +
+           to_html(Figure{
+               "Emergency vehicles",
+               tornado(sensitivity, rows, &SensitivityLevel::emergency, "EV travel time, difference, s"), "",
+               "", data_of(rows)}) +
+           to_html(Figure{"The others",
+                          tornado(sensitivity, rows, &SensitivityLevel::others,
+                                  "time loss of the others, difference, s"),
+                          "", "", data_of(rows)}) +
+           "</div>\n";
+}
+
+std::string chart(const Sensitivity& sensitivity) {
+    Rows shown;
+    Rows folded;
+    for (const SensitivityRow& row : sensitivity.rows)
+        (row.shows_nothing() ? folded : shown).push_back(&row);
+    std::string html =
+        fmt::format("<h3>{}, {}</h3>\n", escaped(sensitivity.scenario), escaped(sensitivity.condition));
+    html += shown.empty() ? "<p>No setting has a shown effect.</p>\n" : figures_of(sensitivity, shown);
+    if (folded.empty()) return html;
+    return html + fmt::format(
+                      "<details class=\"fold\"><summary>{} without a shown effect: both intervals include 0 "
+                      "at every level</summary>\n{}</details>\n",
+                      counted(folded.size(), "setting"), figures_of(sensitivity, folded));
 }
 
 }  // namespace
 
 std::string sensitivity_section(const StudyFacts& study) {
     std::string html =
-        "<p>Each setting of a condition varied alone, compared with the same condition at its defaults: "
-        "paired differences with 95 % intervals. Below 0 is a gain. The setting with the largest effect on "
-        "emergency vehicles comes first.</p>\n"
-        "<div class=\"figures\">\n";
-    for (const Sensitivity& sensitivity : study.sensitivities) {
-        const std::string caption = fmt::format("{}, {}", sensitivity.scenario, sensitivity.condition);
-        html += to_html(
-            Figure{caption + ": emergency vehicles",
-                   tornado(sensitivity, &SensitivityLevel::emergency, "EV travel time, difference, s"), "",
-                   "", data_of(sensitivity)});
-        html += to_html(
-            Figure{caption + ": the others",
-                   tornado(sensitivity, &SensitivityLevel::others, "time loss of the others, difference, s"),
-                   "", "", data_of(sensitivity)});
-    }
-    return html + "</div>\n";
+        "<p>Each setting of a condition varied alone, from its shipped value to another one (shipped \u2192 "
+        "turned to), compared with the same condition at its defaults: paired differences with 95 % "
+        "intervals. Below 0 is a gain. The setting with the largest effect on emergency vehicles comes "
+        "first. With many settings, one interval in twenty excludes 0 by chance.</p>\n";
+    for (const Sensitivity& sensitivity : study.sensitivities)
+        html += chart(sensitivity);
+    return html;
 }
 
 }  // namespace clearway::report::detail

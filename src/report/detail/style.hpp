@@ -70,6 +70,7 @@ stroke-width:4px;stroke-linejoin:round}.network text{font-size:26px!important}
 .legend li{display:flex;align-items:center;gap:.45em}.swatch{width:28px;height:10px;flex:none}
 details{margin:.4rem 0;font-size:.9rem}summary{cursor:pointer;color:var(--muted);padding:.2rem 0}
 details .scroll{max-height:24rem;overflow:auto}
+.plot .blank{fill:var(--paper)}
 code,pre{font-family:ui-monospace,"Liberation Mono",monospace;font-size:.88em}
 pre{background:var(--panel);border-radius:8px;padding:.8rem 1rem;overflow-x:auto;max-width:100%}
 dl.facts{display:grid;grid-template-columns:minmax(8rem,auto) 1fr;gap:.25rem 1.2rem;font-size:.9rem;margin:.6rem 0}
@@ -82,7 +83,8 @@ background:var(--paper)}}
 @media print{:root{color-scheme:light}body{font-size:10.5pt}nav{display:none}h2{break-after:avoid}
 figure,.card,tr{break-inside:avoid}.scroll,details .scroll{overflow:visible;max-height:none}table{font-size:7.5pt}
 th,td,table.data th,table.data td{padding:.2rem .3rem}thead th{white-space:normal}tbody th{min-width:0}
-td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}}
+td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}
+details.fold:not([open]){display:block}details.fold::details-content{display:block;content-visibility:visible}}
 )css";
 
 }  // namespace clearway::report::detail

@@ -38,6 +38,7 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
             fmt::format("<span class=\"{}\">{}</span>", delta_class(effect_of(condition, measure.measure)),
                         estimate(outcome.difference, signed_style, measure.printed_factor));
     }
+    if (is_void_for_lost(condition, measure.measure)) html += "<span class=\"delta worse\">lost EVs</span>";
     return html + "</td>";
 }
 

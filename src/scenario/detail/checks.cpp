@@ -56,7 +56,7 @@ void apply_dense(ScenarioConfig& config, Problems& problems) {
 
 std::string nearest_hint(const std::string& word, const std::vector<std::string>& known) {
     const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
 }
 
 /// Divides the human and automated vehicles of a generated demand anew; measured demand has its own setting

@@ -77,7 +77,7 @@ std::optional<RouteEdges> route_between(const DemandContext& context, const std:
             problems.push_back({context.config.where(key + "." + end),
                                 fmt::format("the network has no edge \"{}\"", id),
                                 "id of an edge outside junctions",
-                                near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
             return std::optional<core::EdgeIndex>();
         }
         return found;

@@ -51,7 +51,7 @@ std::filesystem::path scenario_file(const std::string& name_or_path) {
     const std::string near = core::nearest(name_or_path, names);
     throw core::InputError(core::Problem{
         name_or_path, "is neither a scenario, nor a folder with a scenario.toml, nor a file",
-        known + ", a folder or a TOML file", near.empty() ? "" : fmt::format("did you mean '{}'?", near)});
+        known + ", a folder or a TOML file", near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
 }
 
 std::string quoted(const std::string& text) {

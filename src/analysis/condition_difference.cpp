@@ -1,0 +1,46 @@
+#include "analysis/condition_difference.hpp"
+
+#include <map>
+
+#include "core/error.hpp"
+
+namespace clearway::analysis {
+namespace {
+
+using experiment::ConditionSpec;
+
+std::map<std::string, std::string> values_of(const ConditionSpec& condition) {
+    std::map<std::string, std::string> values = condition.settings;
+    values["failure"] = condition.failure;
+    values["predictor"] = condition.predictor;
+    values["policy"] = condition.policies.empty() ? "none" : core::listed(condition.policies);
+    values["traffic_model"] = experiment::name(condition.traffic_model);
+    values["safety_checks"] = condition.safety_checks == traffic::SafetyChecks::on ? "on" : "off";
+    values["bluelight"] = condition.bluelight == traffic::BlueLight::on ? "on" : "off";
+    if (!condition.model_hash.empty()) values["model (content hash)"] = condition.model_hash;
+    return values;
+}
+
+}  // namespace
+
+std::vector<ConditionDifference> condition_differences(const ConditionSpec& first,
+                                                       const ConditionSpec& second) {
+    const std::map<std::string, std::string> before = values_of(first);
+    const std::map<std::string, std::string> after = values_of(second);
+    const auto value = [](const std::map<std::string, std::string>& values, const std::string& name) {
+        const auto found = values.find(name);
+        return found == values.end() ? std::nullopt : std::optional(found->second);
+    };
+    std::map<std::string, std::string> names = before;
+    names.insert(after.begin(), after.end());
+    std::vector<ConditionDifference> differences;
+    for (const auto& entry : names) {
+        const std::string& name = entry.first;
+        const std::optional<std::string> one = value(before, name);
+        const std::optional<std::string> other = value(after, name);
+        if (one != other) differences.push_back({second.name, name, one, other});
+    }
+    return differences;
+}
+
+}  // namespace clearway::analysis

@@ -1,0 +1,94 @@
+#include "prediction/car_following.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "prediction/detail/pairwise.hpp"
+#include "prediction/graphsage.hpp"
+#include "prediction/twin_traffic.hpp"
+
+namespace clearway::prediction {
+namespace {
+
+using detail::PairwisePredictor;
+using detail::RowBelief;
+
+/// Standard deviation of the logistic distribution of spread 1: pi / sqrt(3).
+constexpr float deviation_of_spread = 1.8138F;
+
+class CarFollowing final : public PairwisePredictor {
+  public:
+    CarFollowing(const PredictorContext& context, const CarFollowingConfig& config)
+        : PairwisePredictor(context), config_(config), twins_(context.network, config) {}
+    std::string_view name() const override { return "car_following"; }
+
+  private:
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
+        const Tracks& tracks = scene.tracks;
+        twins_.follow(observation(), tracks);
+        sensor_sigma_m_.resize(tracks.size());
+        for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+            const bool as_reported = tracks.age_s[row] <= 0.0F && tracks.sensor_sigma_m[row] == 0.0F;
+            const bool drives = !as_reported && twins_.is_twin(row);
+            sensor_sigma_m_[row] = drives ? twins_.seen_sigma_m(row) : tracks.sensor_sigma_m[row];
+            RowBelief& belief = beliefs[row];
+            belief.state = drives ? twins_.state(row) : tracks.state[row];
+            belief.sigma_m = std::hypot(
+                sensor_sigma_m_[row], deviation_of_spread * twin_spread_m(tracks.age_s[row], 0.0F, config_));
+            belief.present = tracks.exits_known || !(drives ? twins_.at_end(row) : tracks.has_left(row));
+        }
+    }
+
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        const Tracks& tracks = scene.tracks;
+        const auto within_m = static_cast<float>(rules().radius_m + config_.bias_m);
+        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+            const auto [left, right] = scene.candidates.rows[at];
+            if (!beliefs[left].present || !beliefs[right].present) continue;
+            const float distance_m = std::hypot(beliefs[left].state.x_m - beliefs[right].state.x_m,
+                                                beliefs[left].state.y_m - beliefs[right].state.y_m);
+            const float sensors_m =
+                std::hypot(sensor_sigma_m_[left], sensor_sigma_m_[right]) / deviation_of_spread;
+            probabilities[at] = twin_link_probability(
+                within_m - distance_m, sensors_m,
+                twin_spread_m(tracks.age_s[left], tracks.age_s[right], config_), config_);
+        }
+    }
+
+    CarFollowingConfig config_;
+    TwinTraffic twins_;
+    std::vector<float> sensor_sigma_m_;
+};
+
+}  // namespace
+
+float twin_spread_m(float one_age_s, float other_age_s, const CarFollowingConfig& config) {
+    const float older_s = std::max(0.0F, std::max(one_age_s, other_age_s));
+    const float younger_s = std::max(0.0F, std::min(one_age_s, other_age_s));
+    const auto power = static_cast<float>(config.growth_power);
+    return static_cast<float>(config.older_growth_m) * std::pow(older_s, power) +
+           static_cast<float>(config.younger_growth_m) * std::pow(younger_s, power);
+}
+
+float twin_link_probability(float room_m, float sensor_spread_m, float twin_spread_m,
+                            const CarFollowingConfig& config) {
+    const float step = room_m > 0.0F ? 1.0F : 0.0F;
+    const float by_sensors = sensor_spread_m > 0.0F ? room_m / sensor_spread_m : 0.0F;
+    const float by_motion = twin_spread_m > 0.0F
+                                ? static_cast<float>(config.tail_power) * std::asinh(room_m / twin_spread_m)
+                                : 0.0F;
+    if (sensor_spread_m <= 0.0F) return twin_spread_m > 0.0F ? probability_from_logit(by_motion) : step;
+    if (twin_spread_m <= 0.0F) return probability_from_logit(by_sensors);
+    const float both = std::hypot(by_sensors, by_motion);
+    return both > 0.0F ? probability_from_logit(by_sensors * std::abs(by_motion) / both) : 0.5F;
+}
+
+std::unique_ptr<Predictor> make_car_following(const PredictorContext& context,
+                                              const CarFollowingConfig& config) {
+    return std::make_unique<CarFollowing>(context, config);
+}
+
+}  // namespace clearway::prediction
