@@ -194,6 +194,9 @@ BENCHMARK_CAPTURE(predict, graphsage_dense_30_dark, "graphsage", Darkness::some,
     ->Arg(1000)
     ->Arg(10000);
 BENCHMARK_CAPTURE(predict, graphsage_jammed_30_dark, "graphsage", Darkness::some)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(predict, gradient_boosting_dense_30_dark, "gradient_boosting", Darkness::some, dense_m)
+    ->Arg(1000)
+    ->Arg(10000);
 BENCHMARK_CAPTURE(predict, graphsage_all_dark, "graphsage", Darkness::everybody, dense_m)->Arg(1000);
 
 }  // namespace

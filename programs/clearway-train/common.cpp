@@ -41,16 +41,16 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
                figure(quality.f1), quality.threshold, figure(quality.log_loss), figure(quality.ece));
 }
 
-TrainingHooks hooks_with_lines(Printing printing, std::uint32_t epochs) {
+TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const char* round) {
     TrainingHooks hooks;
     hooks.should_stop = stop_requested;
     if (printing != Printing::epochs) return hooks;
     const auto started = std::chrono::steady_clock::now();
-    hooks.on_epoch = [started, epochs](std::uint32_t epoch, const EpochLoss& loss) {
+    hooks.on_epoch = [started, rounds, round](std::uint32_t epoch, const EpochLoss& loss) {
         const double passed_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-        fmt::print("epoch {} of {}: training loss {:.5f}, validation loss {:.5f} nat, {:.0f} s\n", epoch + 1,
-                   epochs, loss.train, loss.held_out, passed_s);
+        fmt::print("{} {} of {}: training loss {:.5f}, validation loss {:.5f} nat, {:.0f} s\n", round,
+                   epoch + 1, rounds, loss.train, loss.held_out, passed_s);
         std::fflush(stdout);
     };
     return hooks;
@@ -60,23 +60,23 @@ void print_json(const nlohmann::ordered_json& summary) {
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t epochs,
-                             bool has_model) {
+core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t rounds, bool has_model,
+                             const char* round) {
     if (outcome == Outcome::diverged) {
         fmt::print(stderr,
-                   "clearway-train: training diverged after {} good epoch{}: a loss is not finite. {}. Try a "
+                   "clearway-train: training diverged after {} good {}{}: a loss is not finite. {}. Try a "
                    "smaller --learning-rate, or features of a smaller scale\n",
-                   epochs - 1, epochs == 2 ? "" : "s",
+                   rounds - 1, round, rounds == 2 ? "" : "s",
                    has_model ? "The parameters before it are kept"
-                             : "No epoch had finite losses, so no model was written");
+                             : "None had finite losses, so no model was written");
         return core::ExitCode::runs_failed;
     }
     if (outcome == Outcome::interrupted) {
         const char* const kept = folder.is_whole() ? "the whole training that was there stays"
                                  : has_model       ? "the model so far is written"
                                                    : "no model was written";
-        fmt::print(stderr, "clearway-train: interrupted after {} epoch{}; {}\n", epochs,
-                   epochs == 1 ? "" : "s", kept);
+        fmt::print(stderr, "clearway-train: interrupted after {} {}{}; {}\n", rounds, round,
+                   rounds == 1 ? "" : "s", kept);
         return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
     }
     return core::ExitCode::ok;
@@ -90,7 +90,8 @@ int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "{}", core::usage_message(app, app.get_name(), error, {graphsage_word}));
+        fmt::print(stderr, "{}",
+                   core::usage_message(app, app.get_name(), error, {graphsage_word, gradient_boosting_word}));
         return static_cast<int>(core::ExitCode::usage);
     }
     std::signal(SIGINT, remember_signal);

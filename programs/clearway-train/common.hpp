@@ -93,14 +93,16 @@ auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& 
 std::string figure(const std::optional<double>& value);
 void print_quality(const std::string& label, const metrics::LinkQuality& quality);
 
-/// Hooks that print a line for each of `epochs`, counted from 1, if `printing` is `Printing::epochs`.
-TrainingHooks hooks_with_lines(Printing printing, std::uint32_t epochs);
+/// Hooks that print a line for each of `rounds`, counted from 1, if `printing` is `Printing::epochs`. `round`
+/// is what one is called.
+TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const char* round = "epoch");
 
 void print_json(const nlohmann::ordered_json& summary);
 
-/// The exit code of a training. If it ended early, this is reported on standard error. `epochs` is the number
-/// of epochs it ran, including one that diverged.
-core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t epochs, bool has_model);
+/// The exit code of a training. If it ended early, this is reported on standard error. `rounds` is the number
+/// of rounds that it ran, including one that diverged, and `round` what one is called.
+core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t rounds, bool has_model,
+                             const char* round = "epoch");
 
 /// Parses the command line and trains. Returns the program's exit code. Throws core::Error.
 int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
@@ -109,5 +111,9 @@ int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
 /// `clearway train graphsage`.
 inline constexpr const char* graphsage_word = "graphsage";
 int run_graphsage(int argument_count, char** argument_values);
+
+/// `clearway train gradient_boosting`.
+inline constexpr const char* gradient_boosting_word = "gradient_boosting";
+int run_gradient_boosting(int argument_count, char** argument_values);
 
 }  // namespace clearway::training

@@ -87,7 +87,8 @@ void declare_options(CLI::App& app, Arguments& arguments) {
     for (CLI::Option* option : add_field_options(app, arguments.config, "Only with --corrected"))
         option->needs(corrected);
     app.footer(
-        "`clearway train graphsage --help` explains how the improved net is trained.\n\n"
+        "`clearway train graphsage --help` explains how the improved net is trained, `clearway train\n"
+        "gradient_boosting --help` how trees are grown on the same data.\n\n"
         "Results: losses.csv, train_test_curve.svg, summary.json, GraphSAGENet.pth (for Python's "
         "torch.load),\n"
         "graphsage_*.weights (for `clearway run city --predictor graphsage_corrected --model FILE`), and\n"
@@ -104,13 +105,15 @@ void declare_options(CLI::App& app, Arguments& arguments) {
 constexpr const char* choices =
     "clearway train: which net? Name one of these:\n"
     "  clearway train graphsage --data DIR --out DIR        recommended: the net that repairs links best\n"
+    "  clearway train gradient_boosting --data DIR --out DIR  boosted trees on the same data: quick\n"
     "  clearway train --logistic --data DIR --out DIR       a logistic model of pairs: small and quick\n"
     "  clearway train --corrected --data DIR --out DIR      the dissertation's net, trained soundly\n"
     "                                                       (--convolution gcn, gat: others to compare)\n"
     "  clearway train --as-published --data DIR --out DIR   the dissertation's net and training: no better\n"
     "                                                       than a constant, kept for comparison\n"
-    "The data set comes from `clearway dataset SCENARIO --out DIR`, with `--samples --net graphsage`,\n"
-    "`--samples --net logistic`, `--samples` and nothing else, in this order. `clearway train graphsage "
+    "The data set comes from `clearway dataset SCENARIO --out DIR`, with `--samples --net graphsage` (the\n"
+    "first two), `--samples --net logistic`, `--samples` and nothing else, in this order. `clearway train "
+    "graphsage "
     "--help`\n"
     "and `clearway train --help` describe the options.\n";
 
@@ -251,6 +254,9 @@ core::ExitCode train_as(const Arguments& arguments) {
 int run(int argument_count, char** argument_values) {
     if (argument_count > 1 && std::string_view(argument_values[1]) == graphsage_word) {
         return run_graphsage(argument_count - 1, argument_values + 1);
+    }
+    if (argument_count > 1 && std::string_view(argument_values[1]) == gradient_boosting_word) {
+        return run_gradient_boosting(argument_count - 1, argument_values + 1);
     }
     if (!names_a_net(argument_count, argument_values)) {
         fmt::print(stderr, "{}", choices);

@@ -8,6 +8,7 @@
 #include "core/settings.hpp"
 #include "prediction/car_following.hpp"
 #include "prediction/common_neighbours.hpp"
+#include "prediction/gradient_boosting.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
 #include "prediction/logistic.hpp"
@@ -73,6 +74,10 @@ constexpr Registration registry[] = {
         "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen"),
     registered<make_logistic>("logistic", "logistic regression",
                               "logistic regression on distances, ages and speeds of a pair", check_logistic),
+    registered<make_gradient_boosting>(
+        "gradient_boosting", "gradient boosting",
+        "boosted trees on what graphsage is given of a pair and of both ends, without messages",
+        check_gradient_boosting),
     registered<make_graphsage_as_published>("graphsage_as_published", "GraphSAGE, as published",
                                             "the dissertation's net on raw coordinates",
                                             check_graphsage_as_published),
@@ -98,7 +103,7 @@ const Registration& registration_of(const std::string& name) {
     const std::string near = core::nearest(name, names);
     throw core::InputError({"predictor", fmt::format("'{}' is not a predictor", name),
                             fmt::format("{}", fmt::join(names, ", ")),
-                            near.empty() ? "" : fmt::format("did you mean {}?", near)});
+                            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
 }
 
 }  // namespace

@@ -57,13 +57,8 @@ void append_pairs(const samples::RepairSample& sample, const std::vector<std::in
                   const PairSampling& sampling, RepairBatch& batch) {
     const RepairInputs& inputs = sample.inputs;
     for (std::size_t at = 0; at < inputs.pairs.size(); ++at) {
-        float weight = 1.0F;
-        if (sampling.easy_share < 1.0 && is_easy(sample.rule[at])) {
-            const auto moment = static_cast<std::uint64_t>(sample.time_s * 1000.0);
-            const double draw = sampling.random.uniform(core::Purpose::negative_sampling, moment, at);
-            if (draw >= sampling.easy_share) continue;
-            weight = static_cast<float>(1.0 / sampling.easy_share);
-        }
+        const float weight = weight_of(sample, at, sampling);
+        if (weight == 0.0F) continue;
         batch.pair_left.push_back(numbers[inputs.pairs[at].left]);
         batch.pair_right.push_back(numbers[inputs.pairs[at].right]);
         const float* const features = &inputs.pair_features[at * prediction::pair_width];
@@ -74,6 +69,13 @@ void append_pairs(const samples::RepairSample& sample, const std::vector<std::in
 }
 
 }  // namespace
+
+float weight_of(const samples::RepairSample& sample, std::size_t at, const PairSampling& sampling) {
+    if (sampling.easy_share >= 1.0 || !is_easy(sample.rule[at])) return 1.0F;
+    const auto moment = static_cast<std::uint64_t>(sample.time_s * 1000.0);
+    const double draw = sampling.random.uniform(core::Purpose::negative_sampling, moment, at);
+    return draw < sampling.easy_share ? static_cast<float>(1.0 / sampling.easy_share) : 0.0F;
+}
 
 RepairBatch batch_of(std::span<const samples::RepairSample* const> samples, MessageEdges edges,
                      const PairSampling& sampling) {

@@ -46,6 +46,9 @@ struct PairSampling {
     core::KeyedRandom random{core::StudySeed{0}, core::Replication{0}};
 };
 
+/// How often pair `at` of the sample counts; 0: it is left out.
+float weight_of(const samples::RepairSample& sample, std::size_t at, const PairSampling& sampling);
+
 RepairBatch batch_of(std::span<const samples::RepairSample* const> samples, MessageEdges edges,
                      const PairSampling& sampling = {});
 

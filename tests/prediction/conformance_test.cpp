@@ -216,7 +216,7 @@ TEST(Predictors, NameTheNearestOfAnUnknownOne) {
         make_predictor("dead_reckonning", {scene.network(), {}, "", {}});
         FAIL() << "accepted";
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("did you mean dead_reckoning?"));
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean 'dead_reckoning'?"));
     }
 }
 

@@ -169,6 +169,7 @@ TEST(ShippedModels, WereLeftByTheTrainingsThatAreShippedWithThem) {
     for (const auto& [name, training] : {std::pair("graphsage", "training/graphsage"),
                                          {"graphsage_corrected", "training/corrected"},
                                          {"graphsage_as_published", "training/as_published"},
+                                         {"gradient_boosting", "comparison/gradient_boosting"},
                                          {"gcn", "comparison/gcn"},
                                          {"gat", "comparison/gat"}}) {
         const std::vector<std::string> notes = shipped_model(name).notes;

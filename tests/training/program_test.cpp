@@ -174,6 +174,9 @@ TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
                 HasSubstr("clearway train: graphsag is not known here. Did you mean 'graphsage'?"));
     EXPECT_THAT(train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
                 HasSubstr("clearway train graphsage: --epoch is not known here. Did you mean '--epochs'?"));
+    EXPECT_THAT(
+        train({"gradient_boosting", "--data", data(), "--out", out(), "--tree", "3"}).output,
+        HasSubstr("clearway train gradient_boosting: --tree is not known here. Did you mean '--trees'?"));
     EXPECT_THAT(train({"--as-published", "--data", data()}).output,
                 HasSubstr("clearway train: --out is required"));
 }
@@ -182,7 +185,8 @@ TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
     const std::vector<std::vector<std::string>> calls = {{"--as-published", "--learning-rate"},
                                                          {"--corrected", "--validation-share"},
                                                          {"--logistic", "--ridge"},
-                                                         {"graphsage", "--easy-share"}};
+                                                         {"graphsage", "--easy-share"},
+                                                         {"gradient_boosting", "--learning-rate"}};
     for (std::vector<std::string> call : calls) {
         const std::string option = call.back();
         call.insert(call.end(), {"nan", "--data", data(), "--out", out()});

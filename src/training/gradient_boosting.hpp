@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "metrics/link_quality.hpp"
+#include "prediction/weights.hpp"
+#include "samples/repair_sample.hpp"
+#include "training/output_folder.hpp"
+#include "training/seeds.hpp"
+#include "training/trainer.hpp"
+
+namespace clearway::training {
+
+/// How the trees are grown. Names of settings are XGBoost's where it has them.
+struct BoostingConfig {
+    std::uint32_t trees = 400;
+    std::uint32_t max_depth = 6;
+    double learning_rate = 0.1;
+    double min_child_weight = 20.0;
+    double subsample = 0.7;
+    double columns = 0.5;
+    std::uint32_t patience = 30;
+    std::uint64_t seed = 1;
+    std::uint64_t split_seed = 1;
+    double validation_share = 0.2;
+    double test_share = 0.2;
+    double easy_share = 0.25;
+
+    static constexpr auto fields() {
+        using C = BoostingConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"trees", "1", &C::trees, 1.0, 10000.0, "Trees at most", "assumed"},
+            Field{"max_depth", "1", &C::max_depth, 1.0, 16.0, "Depth of a tree", "XGBoost's default"},
+            Field{"learning_rate", "1", &C::learning_rate, 1e-4, 1.0, "Share of each tree that counts",
+                  "assumed"},
+            Field{"min_child_weight", "1", &C::min_child_weight, 0.0, 1e9, "Least sum of p (1 - p) in a leaf",
+                  "assumed: leaves of a few pairs learn noise"},
+            Field{"subsample", "1", &C::subsample, 0.01, 1.0, "Share of the pairs that each tree sees",
+                  "assumed"},
+            Field{"columns", "1", &C::columns, 0.01, 1.0, "Share of the inputs that each tree sees",
+                  "assumed"},
+            Field{"patience", "1", &C::patience, 1.0, 10000.0,
+                  "Trees without a better validation loss before training stops", "assumed"},
+            Field{"seed", "1", &C::seed, 0.0, 2e9, "Seed of every draw", "assumed"},
+            Field{"split_seed", "1", &C::split_seed, 0.0, 9e15,
+                  "Seed of the draw that deals the data's seeds", "as graphsage"},
+            Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
+                  "Share of the data's seeds that choose the number of trees and the threshold",
+                  "as graphsage"},
+            Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the data's seeds that only measure",
+                  "as graphsage"},
+            Field{"easy_share", "1", &C::easy_share, 0.001, 1.0,
+                  "Share kept of the pairs that the route rule is sure of, which then count for all",
+                  "as graphsage"});
+    }
+};
+
+/// Quality on the test seeds: for all pairs, or those of a failure, or of a scenario and a failure.
+struct BoostingGroup {
+    std::string scenario;  ///< Empty: all.
+    std::string failure;   ///< Empty: all.
+    metrics::LinkQuality trees;
+    metrics::LinkQuality rule;  ///< The route rule on the same pairs.
+};
+
+struct BoostingResult {
+    Outcome outcome = Outcome::finished;
+    std::vector<EpochLoss> losses;  ///< One per tree; held out: the validation seeds.
+    std::uint32_t best_tree = 0;    ///< The last that is kept, from 0.
+    prediction::Weights weights;    ///< As prediction::BoostedTrees takes them.
+    SeedSplit seeds;
+    std::uint64_t train_pairs = 0;
+    double threshold = 0.5;  ///< Of greatest F1 on the validation seeds.
+    double rule_threshold = 0.5;
+    std::vector<BoostingGroup> groups;  ///< On the test seeds: all, by failure, by scenario and failure.
+};
+
+/// Grows trees by XGBoost (Chen and Guestrin 2016) on the samples of the improved net, with its split by
+/// seed. Deterministic: one thread. Throws core::InputError for fewer than three seeds, a part of the split
+/// with pairs of only one class, or another link radius than the trees are made for.
+BoostingResult train_gradient_boosting(const std::vector<samples::RepairSampleFile>& files,
+                                       const BoostingConfig& config, const TrainingHooks& hooks = {});
+
+/// Identifies a training.
+Identity identity_of(const BoostingConfig& config, const std::string& data_hash);
+
+/// What `--json` prints and `summary.json` holds.
+nlohmann::ordered_json summary_of(const BoostingResult& result, const BoostingConfig& config,
+                                  const std::filesystem::path& data, const std::string& data_hash);
+
+/// Writes losses.csv, train_test_curve.svg, summary.json, metrics.csv and gradient_boosting.weights, each
+/// whole or not at all. Throws core::EnvironmentError.
+void write_outputs(const std::filesystem::path& folder, const BoostingResult& result,
+                   const nlohmann::ordered_json& summary);
+
+}  // namespace clearway::training
