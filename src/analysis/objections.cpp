@@ -57,7 +57,7 @@ std::string amount(const Estimate& more) {
                        more.interval->high);
 }
 
-/// `12 teleported, 1 still on the road`.
+/// `12 teleported, 1 still on the road`; empty if all arrived.
 std::string endings(const OutcomeCounts& counts) {
     std::vector<std::string> words;
     const auto add = [&](std::uint64_t number, const char* how) {
@@ -120,9 +120,10 @@ std::string emergency_objections(const Objections& objections) {
     std::vector<std::string> found;
     const OutcomeCounts& lost = objections.emergency;
     if (objections.loses_emergency()) {
+        const OutcomeCounts& baseline = objections.baseline_emergency;
         found.push_back(fmt::format("lost {} of {} emergency vehicle{} ({}; baseline {})", lost.lost(),
                                     lost.total(), lost.total() == 1 ? "" : "s", endings(lost),
-                                    objections.baseline_emergency.lost()));
+                                    baseline.lost() == 0 ? "0" : endings(baseline)));
     }
     if (objections.collisions)
         found.push_back(fmt::format("collided more often with an emergency vehicle ({})",

@@ -29,6 +29,8 @@ struct OutcomeCounts {
     std::uint64_t total() const { return arrived + lost(); }
     /// Those that did not arrive.
     std::uint64_t lost() const { return running_at_end + teleported + not_inserted + removed; }
+    /// Of these, taken off the road: more time would not have let them arrive.
+    std::uint64_t taken_off() const { return teleported + removed; }
 };
 
 /// Emergency vehicles of a run, by how they ended.
@@ -46,8 +48,12 @@ struct Objections {
     std::optional<Estimate> not_inserted;  ///< Likewise.
     bool unchecked = false;                ///< Ran without the simulator's safety checks.
 
-    /// Whether it loses more than the baseline, by number: one lost ambulance needs no interval.
-    bool loses_emergency() const { return emergency.lost() > baseline_emergency.lost(); }
+    /// Whether it loses more than the baseline, in all or of those that were taken off the road. By number:
+    /// one lost ambulance needs no interval.
+    bool loses_emergency() const {
+        return emergency.lost() > baseline_emergency.lost() ||
+               emergency.taken_off() > baseline_emergency.taken_off();
+    }
     /// Against any claim of a benefit for, or no effect on, emergency vehicles.
     bool on_emergency() const { return loses_emergency() || collisions || unchecked; }
     /// Against any claim of that kind about the other vehicles.

@@ -89,7 +89,7 @@ std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments) {
         }
     }
     for (const std::string& words : arguments.models) {
-        const auto [name, file] = assignment("--model", words);
+        const auto [name, file] = assignment("--model", words, "PREDICTOR=FILE");
         predictor_named("--model", name, predictors).model_file = file;
     }
     return predictors;

@@ -102,7 +102,7 @@ const FeatureSchema& features_of(const StateDictKind& kind, std::uint32_t inputs
         allowed.push_back(fmt::format("{} ({})", schema.width, schema.name));
     throw core::InputError({source, fmt::format("the net takes {} features of a vehicle", inputs),
                             fmt::format("{}, what {} gives it", fmt::join(allowed, " or "), kind.predictor),
-                            "Train it on the features of docs/reference/link-prediction.md"});
+                            "Train it on the features that docs/guides/your-net.md lists"});
 }
 
 Weights weights_from_pth(const std::string& predictor, std::string_view bytes, const std::string& source) {

@@ -184,10 +184,12 @@ Json to_json(const Sensitivity& sensitivity) {
     for (const SensitivityRow& row : sensitivity.rows) {
         Json levels = Json::array();
         for (const SensitivityLevel& level : row.levels)
-            levels.push_back({{"condition", level.condition},
-                              {"value", level.value},
-                              {"emergency_travel_time_difference_s", to_json(level.emergency)},
-                              {"others_time_loss_difference_s", to_json(level.others)}});
+            levels.push_back(
+                {{"condition", level.condition},
+                 {"value", level.value},
+                 {"emergency_travel_time_difference_s", to_json(level.emergency)},
+                 {"others_time_loss_difference_s", to_json(level.others)},
+                 {"objection", level.objection.empty() ? Json(nullptr) : Json(level.objection)}});
         settings.push_back({{"setting", row.setting},
                             {"shipped", row.shipped.empty() ? Json(nullptr) : Json(row.shipped)},
                             {"levels", std::move(levels)}});

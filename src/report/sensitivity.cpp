@@ -63,7 +63,8 @@ Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
         row_of(result, setting)
             .levels.push_back({condition.condition.name, value,
                                difference(condition, reference, analysis::primary_metric),
-                               difference(condition, reference, others_metric)});
+                               difference(condition, reference, others_metric),
+                               analysis::emergency_objection_word(condition.objections)});
     }
     std::ranges::stable_sort(result.rows, std::ranges::greater(), &SensitivityRow::reach_s);
     return result;
@@ -106,7 +107,7 @@ bool SensitivityRow::shows_nothing() const {
         return has_interval(difference) && difference->interval->contains(0.0);
     };
     return std::ranges::all_of(levels, [&](const SensitivityLevel& level) {
-        return includes_zero(level.emergency) && includes_zero(level.others);
+        return level.objection.empty() && includes_zero(level.emergency) && includes_zero(level.others);
     });
 }
 
@@ -155,8 +156,10 @@ std::string sensitivity_table(const std::vector<Sensitivity>& all, SensitivityRo
             }
             fmt::format_to(out, "{}\n", row.setting);
             for (const SensitivityLevel& level : row.levels)
-                fmt::format_to(out, "  {:<30}{:<24}{}\n", row.turned(level, "->"),
-                               estimate(level.emergency, style), estimate(level.others, style));
+                fmt::format_to(
+                    out, "  {:<30}{:<24}{}\n",
+                    row.turned(level, "->") + (level.objection.empty() ? "" : ", " + level.objection),
+                    estimate(level.emergency, style), estimate(level.others, style));
         }
         if (left_out > 0)
             fmt::format_to(out, "{} without a shown effect: both intervals include 0 (--tables)\n",

@@ -16,6 +16,8 @@ struct SensitivityLevel {
     std::string value;                            ///< As set.
     std::optional<analysis::Estimate> emergency;  ///< Restricted mean travel time of emergency vehicles, s.
     std::optional<analysis::Estimate> others;     ///< Time loss of the other vehicles, s.
+    /// What rules a gain out against the baseline (`lost EVs`); empty if nothing does.
+    std::string objection;
 };
 
 /// One setting, varied alone.
@@ -28,7 +30,7 @@ struct SensitivityRow {
     double reach_s() const;
     /// Whether the interval of some level excludes 0.
     bool changes(std::optional<analysis::Estimate> SensitivityLevel::*difference) const;
-    /// Whether every level has both intervals, and all of them include 0.
+    /// Whether every level has both intervals, all of them include 0, and nothing is objected to any.
     bool shows_nothing() const;
     /// `60 -> 30`, with `arrow` between the shipped value and the level's.
     std::string turned(const SensitivityLevel& level, const char* arrow) const;

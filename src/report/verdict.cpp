@@ -132,7 +132,9 @@ Effect effect_of(const Outcome& outcome, Better better) {
 
 Effect effect_of(const ConditionFacts& condition, Measure measure) {
     const Effect effect = effect_of(condition.outcome(measure), info(measure).better);
-    if (effect == Effect::worse || effect == Effect::undecided) return effect;
+    // The gap closed has no difference, and what rules a gain out rules it out, too.
+    const bool undecided = effect == Effect::undecided && measure != Measure::gap_closed;
+    if (effect == Effect::worse || undecided) return effect;
     const bool of_emergency = info(measure).relevance == Relevance::least || measure == Measure::gap_closed;
     const bool of_others = measure == Measure::waiting_time || measure == Measure::other_time_loss ||
                            measure == Measure::depart_delay;
@@ -157,7 +159,7 @@ std::string lease_sentence(const ConditionFacts& condition) {
         const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
         std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
                                        grouped(row.acted));
-        if (row.refusals() > 0) text += fmt::format(", refused: {}", reasons_of(row));
+        if (row.refusals() > 0) text += fmt::format(", refused at some time: {}", reasons_of(row));
         found.push_back(std::move(text));
     }
     if (!lane_changes) found.insert(found.begin(), "asked 0 vehicles to change lanes");
@@ -169,6 +171,9 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
     if (!condition.failed.empty())
         text = fmt::format("{} of {} runs failed; ", condition.failed.size(),
                            condition.failed.size() + condition.runs + condition.missing_runs);
+    if (condition.missing_runs > 0)
+        text += fmt::format("{} of {} runs are missing; ", condition.missing_runs,
+                            condition.failed.size() + condition.runs + condition.missing_runs);
     text += lead(scenario, condition, script);
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;

@@ -97,6 +97,18 @@ TEST_F(SmallStudy, ClosesNoGapByLosingEmergencyVehicles) {
     EXPECT_EQ(treated.gap_replications, 4U);
 }
 
+/// Two that were taken off the road are not made good by two of the baseline that ran out of time.
+TEST(Objections, WeighVehiclesThatWereTakenOffTheRoadApart) {
+    Objections objections;
+    objections.emergency = {.arrived = 8, .teleported = 2};
+    objections.baseline_emergency = {.arrived = 8, .running_at_end = 2};
+    EXPECT_TRUE(objections.loses_emergency());
+    EXPECT_EQ(emergency_objections(objections),
+              "lost 2 of 10 emergency vehicles (2 teleported; baseline 2 still on the road at the end)");
+    std::swap(objections.emergency, objections.baseline_emergency);
+    EXPECT_FALSE(objections.loses_emergency());
+}
+
 TEST_F(SmallStudy, ObjectsOnlyToMoreLossesThanTheBaselineHas) {
     add_all();
     lose_the_second("treated", 2);

@@ -97,6 +97,7 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     refused({"--set", "clear_lane.lease_s=0.5"}, "shorter than two policy periods");
     refused({"--set", "failure.loss_rate=0.1"}, "--set failure.report_interval_s=1");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
+    refused({"--model", ""}, "--model: is empty");
     refused({"--model", "none.weights"}, "none.weights is not a file");
     write("net.weights", "no weights");
     refused({"--predictor", "graphsage", "--model", "net.weights"},

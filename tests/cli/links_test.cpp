@@ -148,6 +148,7 @@ TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refus
     EXPECT_THAT(message({"--set", "link_threshold"}), HasSubstr("NAME=VALUE"));
     EXPECT_THAT(message({"--predictor", "none", "--set", "last_seen.link_threshold=0.5"}),
                 HasSubstr("last_seen"));
+    EXPECT_THAT(message({"--model", "good.pth"}), HasSubstr("PREDICTOR=FILE"));
     EXPECT_THAT(message({"--model", "graphsage_corrected=none.weights"}), HasSubstr("none.weights"));
     core::write_atomically(folder() / "text.weights", "no weights\n");
     EXPECT_THAT(message({"--model", "graphsage=text.weights"}), HasSubstr("text.weights:1"));

@@ -129,6 +129,21 @@ TEST(Sensitivities, fold_settings_without_a_shown_effect_and_count_them) {
     EXPECT_THAT(page, HasSubstr(">8 \u2192 4</text>"));
 }
 
+TEST(Sensitivities, name_what_is_objected_to_a_level) {
+    auto all = one_that_matters();
+    SensitivityRow& harmless = all[0].rows.back();
+    ASSERT_TRUE(harmless.shows_nothing());
+    harmless.levels[0].objection = "lost EVs";
+    EXPECT_FALSE(harmless.shows_nothing()) << "it is not folded away";
+    EXPECT_THAT(sensitivity_table(all, SensitivityRows::with_effect), HasSubstr(", lost EVs  "));
+    StudyFacts study;
+    study.sensitivities = all;
+    EXPECT_THAT(json_tables(study), HasSubstr("\"objection\": \"lost EVs\""));
+    std::ostringstream stream;
+    write_html(study, stream);
+    EXPECT_THAT(stream.str(), HasSubstr(" (!)</text>"));
+}
+
 TEST(Sensitivities, do_not_fold_what_too_few_seeds_cannot_tell) {
     const auto all = sensitivities(
         summary_of({condition({}, {100, 102}, {40, 40}), condition({{"a.small", "1"}}, {100, 103}, {40, 41}),
@@ -143,9 +158,9 @@ TEST(Sensitivities, do_not_fold_what_too_few_seeds_cannot_tell) {
 
 TEST(Sensitivities, name_the_shipped_value_where_it_does_not_depend_on_the_scenario) {
     const SensitivityRow known{"preempt_signals.lead_s", "8", {}};
-    EXPECT_EQ(known.turned({"", "16", {}, {}}, "->"), "8 -> 16");
+    EXPECT_EQ(known.turned({"", "16", {}, {}, ""}, "->"), "8 -> 16");
     const SensitivityRow unknown{"a.small", "", {}};
-    EXPECT_EQ(unknown.turned({"", "1", {}, {}}, "->"), "1");
+    EXPECT_EQ(unknown.turned({"", "1", {}, {}, ""}, "->"), "1");
     EXPECT_EQ(one_that_matters()[0].rows[0].shipped, "8");
     EXPECT_EQ(sensitivities(three_settings())[0].rows[0].shipped, "");
 }

@@ -125,6 +125,22 @@ TEST(Verdict, never_calls_a_condition_without_safety_checks_a_help) {
     EXPECT_EQ(effect_of(scenario.conditions[1], Measure::other_time_loss), Effect::ruled_out);
 }
 
+TEST(Effect, on_the_gap_is_ruled_out_as_every_gain_is) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[1];
+    EXPECT_NE(effect_of(condition, Measure::gap_closed), Effect::ruled_out);
+    condition.objections.unchecked = true;
+    EXPECT_EQ(effect_of(condition, Measure::gap_closed), Effect::ruled_out);
+}
+
+TEST(Verdict, says_how_many_runs_are_missing) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    scenario.conditions[1].missing_runs = 2;
+    scenario.conditions[1].runs = 5;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain),
+                StartsWith("2 of 7 runs are missing; "));
+}
+
 TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     ScenarioFacts scenario = tests::scenario("merge");
     ConditionFacts& condition = scenario.conditions[1];
@@ -144,7 +160,7 @@ TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
     condition.leases->push_back({"corridor", "change_lane", 1200, 5, 800, 900, {{"a", 1}, {"no_room", 400}}});
     EXPECT_EQ(lease_sentence(condition),
               "corridor: asked a vehicle to change lanes 1,200 times, 800 carried "
-              "out, refused: no_room 400, a 1");
+              "out, refused at some time: no_room 400, a 1");
     condition.leases.reset();
     EXPECT_THAT(lease_sentence(condition), HasSubstr("older version"));
 }

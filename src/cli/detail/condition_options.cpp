@@ -103,14 +103,16 @@ void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std:
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
         ->group(group);
     app.add_option(option, model, "Net of a learned predictor: a file of clearway train or of torch.save")
+        ->check([](const std::string& file) { return file.empty() ? "is empty" : ""; })
         ->option_text("FILE [" + usual + "]")
         ->group(group);
 }
 
-std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words) {
+std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words,
+                                               const std::string& form) {
     const std::size_t equals = words.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
-        throw core::InputError({option, fmt::format("`{}` is not an assignment", words), "NAME=VALUE", ""});
+        throw core::InputError({option, fmt::format("`{}` is not an assignment", words), form, ""});
     return {words.substr(0, equals), words.substr(equals + 1)};
 }
 

@@ -27,7 +27,8 @@ void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std:
                          const std::string& usual, const std::string& group);
 
 /// Name and value of `NAME=VALUE`. Throws core::InputError, naming `option`.
-std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words);
+std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words,
+                                               const std::string& form = "NAME=VALUE");
 
 /// Applies `--set` and `--model` to a condition. Throws core::InputError for words that are not assignments,
 /// unknown names, values out of range and a model that cannot be read.

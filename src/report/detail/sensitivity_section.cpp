@@ -31,7 +31,8 @@ void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
 }
 
 void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, Member member, double y) {
-    plot.text(label_left, y + 4.0, row.turned(level, "\u2192"), Plot::Anchor::start, "label");
+    const char* const mark = level.objection.empty() ? "" : " (!)";
+    plot.text(label_left, y + 4.0, row.turned(level, "\u2192") + mark, Plot::Anchor::start, "label");
     plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
     const std::optional<analysis::Estimate>& estimate = level.*member;
     if (!estimate) return;
@@ -79,14 +80,14 @@ std::string tornado(const Sensitivity& sensitivity, const Rows& rows, Member mem
 
 DataTable data_of(const Rows& rows) {
     DataTable table{{"Setting", "shipped", "turned to", "EV travel time, s [95 %]",
-                     "others\u2019 time loss, s [95 %]", "pairs"},
+                     "others\u2019 time loss, s [95 %]", "pairs", "objection"},
                     {}};
     for (const SensitivityRow* const row : rows) {
         for (const SensitivityLevel& level : row->levels)
             table.rows.push_back(
                 {row->setting, row->shipped.empty() ? missing(Script::typeset) : row->shipped, level.value,
                  estimate(level.emergency, signed_tenths), estimate(level.others, signed_tenths),
-                 level.emergency ? grouped(level.emergency->n) : missing(Script::typeset)});
+                 level.emergency ? grouped(level.emergency->n) : missing(Script::typeset), level.objection});
     }
     return table;
 }
@@ -126,7 +127,8 @@ std::string sensitivity_section(const StudyFacts& study) {
         "<p>Each setting of a condition varied alone, from its shipped value to another one (shipped \u2192 "
         "turned to), compared with the same condition at its defaults: paired differences with 95 % "
         "intervals. Below 0 is a gain. The setting with the largest effect on emergency vehicles comes "
-        "first. With many settings, one interval in twenty excludes 0 by chance.</p>\n";
+        "first. (!): against the baseline, the level loses or hits more emergency vehicles or ran without "
+        "safety checks. With many settings, one interval in twenty excludes 0 by chance.</p>\n";
     for (const Sensitivity& sensitivity : study.sensitivities)
         html += chart(sensitivity);
     return html;
