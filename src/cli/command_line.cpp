@@ -20,7 +20,7 @@ namespace clearway::cli {
 namespace {
 
 constexpr std::array all_verbs = {
-    Verb{"reproduce", "Run the dissertation's three scenarios and print its tables with intervals",
+    Verb{"reproduce", "Run the dissertation's scenarios and print its tables with intervals",
          "clearway reproduce --quick --out runs/first", configure_reproduce},
     Verb{"run", "Run one scenario under chosen conditions",
          "clearway run intersection --dense --policy dissertation --failure B10 --predictor dead_reckoning",

@@ -98,10 +98,10 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
 
 /// Mean right-aligned, then the interval.
 std::string split_cell(const Estimate& value, NumberStyle style, double factor) {
-    if (!value.mean) return fmt::format("{:>7}  {:<15}", missing(style.script), "");
+    if (!value.mean) return fmt::format("{:>7}  {:<14} ", missing(style.script), "");
     const std::string whole = estimate(value, style, factor);
     const std::size_t space = whole.find(' ');
-    return fmt::format("{:>7}  {:<15}", whole.substr(0, space),
+    return fmt::format("{:>7}  {:<14} ", whole.substr(0, space),
                        space != std::string::npos ? whole.substr(space + 1)
                        : value.too_few()          ? "too few seeds"
                                                   : "(no interval)");
@@ -262,7 +262,7 @@ void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
 
 void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     const bool has_emergency = emergency_vehicles(scenario) > 0;
-    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<15}{:>7}  {:<15}{}\n{:-<{}}\n",
+    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<14} {:>7}  {:<14} {}\n{:-<{}}\n",
                    "Measure, condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
                    "effect", "", page_width);
     for (const MeasureInfo& measure : measures()) {

@@ -97,7 +97,9 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     refused({"--set", "clear_lane.lease_s=0.5"}, "shorter than two policy periods");
     refused({"--set", "failure.loss_rate=0.1"}, "--set failure.report_interval_s=1");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
-    refused({"--model", ""}, "--model: is empty");
+    const Ended empty = clearway({"run", "line", "--out", "out", "--model", ""});
+    EXPECT_EQ(empty.code, 2);
+    EXPECT_THAT(empty.err, HasSubstr("clearway run: --model: is empty"));
     refused({"--model", "none.weights"}, "none.weights is not a file");
     write("net.weights", "no weights");
     refused({"--predictor", "graphsage", "--model", "net.weights"},
@@ -191,7 +193,7 @@ TEST_F(BadInputTest, compare_and_results_refuse_what_is_no_run_folder) {
 TEST_F(BadInputTest, compare_names_unknown_metrics_and_tolerances_that_are_none) {
     const Ended metric = clearway({"compare", ".", "--metric", "emergency_travel_times_s"});
     EXPECT_EQ(metric.code, 3);
-    EXPECT_THAT(metric.err, HasSubstr("`emergency_travel_time_s`"));
+    EXPECT_THAT(metric.err, HasSubstr("Did you mean 'emergency_travel_time_s'?"));
     EXPECT_EQ(clearway({"compare", ".", "--tolerance", "colisions=1"}).code, 3);
     for (const std::string none : {"little", "-1", "nan", "collisions=", "collisions=1s"}) {
         const Ended ended = clearway({"compare", ".", "--tolerance=" + none});
