@@ -35,8 +35,10 @@ struct BoostingConfig {
         using C = BoostingConfig;
         using core::Field;
         return std::make_tuple(
-            Field{"trees", "1", &C::trees, 1.0, 10000.0, "Trees at most", "250 were worse on validation seeds"},
-            Field{"max_depth", "1", &C::max_depth, 1.0, 16.0, "Depth of a tree", "6 was worse on validation seeds"},
+            Field{"trees", "1", &C::trees, 1.0, 10000.0, "Trees at most",
+                  "250 were worse on validation seeds"},
+            Field{"max_depth", "1", &C::max_depth, 1.0, 16.0, "Depth of a tree",
+                  "6 was worse on validation seeds"},
             Field{"learning_rate", "1", &C::learning_rate, 1e-4, 1.0, "Share of each tree that counts",
                   "assumed"},
             Field{"min_child_weight", "1", &C::min_child_weight, 0.0, 1e9, "Least sum of p (1 - p) in a leaf",

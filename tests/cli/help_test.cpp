@@ -202,7 +202,8 @@ TEST_F(HelpTest, reference_pages_are_those_that_are_committed) {
 TEST_F(HelpTest, a_list_that_is_unknown_is_told_the_nearest) {
     const Ended ended = clearway({"list", "colums"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("settings, columns, scenario-keys"), HasSubstr("Did you mean 'columns'?")));
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("settings, columns, scenario-keys"), HasSubstr("Did you mean 'columns'?")));
     EXPECT_EQ(clearway({"list", "--markdown"}).code, 3);
     EXPECT_EQ(clearway({"list", "columns", "more"}).code, 3);
 }
