@@ -69,16 +69,22 @@ std::vector<detail::Booster::Parameter> parameters_of(const BoostingConfig& conf
             {"seed", fmt::format("{}", config.seed)}};
 }
 
+/// The pairs of two parts of the split.
+struct Parts {
+    detail::BoostingData train;
+    detail::BoostingData validation;
+};
+
 /// Grows trees until the validation loss has not improved for `patience` of them.
-void grow(detail::Booster& booster, const detail::BoostingData& train, const detail::BoostingData& validation,
-          const BoostingConfig& config, const TrainingHooks& hooks, BoostingResult& result) {
+void grow(detail::Booster& booster, const Parts& parts, const BoostingConfig& config,
+          const TrainingHooks& hooks, BoostingResult& result) {
     for (std::uint32_t tree = 0; tree < config.trees; ++tree) {
         if (hooks.should_stop && hooks.should_stop()) {
             result.outcome = Outcome::interrupted;
             return;
         }
         booster.grow();
-        result.losses.push_back({booster.loss(train), booster.loss(validation)});
+        result.losses.push_back({booster.loss(parts.train), booster.loss(parts.validation)});
         if (hooks.on_epoch) hooks.on_epoch(tree, result.losses.back());
         if (result.losses.back().held_out < result.losses[result.best_tree].held_out) {
             result.best_tree = tree;
@@ -179,11 +185,11 @@ BoostingResult train_gradient_boosting(const std::vector<RepairSampleFile>& file
     result.seeds =
         detail::split_files(files, {config.split_seed, config.validation_share, config.test_share});
     check_test_part(files, result.seeds.test);
-    const detail::BoostingData train = data_of(files, result.seeds.train, config, "training");
-    const detail::BoostingData validation = data_of(files, result.seeds.validation, config, "validation");
-    result.train_pairs = train.labels().size();
-    detail::Booster booster(train, validation, parameters_of(config));
-    grow(booster, train, validation, config, hooks, result);
+    const Parts parts{data_of(files, result.seeds.train, config, "training"),
+                      data_of(files, result.seeds.validation, config, "validation")};
+    result.train_pairs = parts.train.labels().size();
+    detail::Booster booster(parts.train, parts.validation, parameters_of(config));
+    grow(booster, parts, config, hooks, result);
     if (result.losses.empty()) return result;
     result.weights = weights_of(booster, result.best_tree + 1);
     if (result.outcome != Outcome::interrupted) measure(files, result);
