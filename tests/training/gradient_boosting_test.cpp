@@ -19,14 +19,6 @@ using samples::RepairSampleFile;
 using support::message_of;
 using ::testing::HasSubstr;
 
-std::vector<RepairSampleFile> runs(std::uint32_t count, int samples = 12) {
-    SyntheticRepair world(3);
-    std::vector<RepairSampleFile> files;
-    for (std::uint32_t replication = 0; replication < count; ++replication)
-        files.push_back(world.file(replication, samples, replication % 2 == 0 ? "B10" : "A.5"));
-    return files;
-}
-
 BoostingConfig short_training() {
     BoostingConfig config;
     config.trees = 40;

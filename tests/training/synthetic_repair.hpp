@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "samples/repair_sample.hpp"
 
@@ -103,5 +104,14 @@ class SyntheticRepair {
 
     std::mt19937 random_;
 };
+
+/// Runs with two failures in turn.
+inline std::vector<samples::RepairSampleFile> runs(std::uint32_t count, int samples = 12) {
+    SyntheticRepair world(3);
+    std::vector<samples::RepairSampleFile> files;
+    for (std::uint32_t replication = 0; replication < count; ++replication)
+        files.push_back(world.file(replication, samples, replication % 2 == 0 ? "B10" : "A.5"));
+    return files;
+}
 
 }  // namespace clearway::training
