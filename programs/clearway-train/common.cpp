@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <memory>
 
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/usage.hpp"
+#include "samples/graph_sample.hpp"
 
 namespace clearway::training {
 namespace {
@@ -20,11 +22,22 @@ extern "C" void remember_signal(int signal) {
 
 }  // namespace
 
+void add_folder_options(CLI::App& app, CommonArguments& arguments, const char* data_doc,
+                        const char* out_doc) {
+    app.add_option("--data", arguments.data, data_doc)->required()->option_text("DIR (required)");
+    app.add_option("--out", arguments.out, out_doc)->required()->option_text("DIR (required)");
+}
+
 void add_printing_options(CLI::App& app, Printing& printing) {
     app.add_flag_callback(
         "--quiet", [&] { printing = Printing::closing_only; }, "Do not print the losses of each epoch");
     app.add_flag_callback(
         "--json", [&] { printing = Printing::json; }, "Print the summary as JSON, and nothing else");
+}
+
+RepairData read_repair_data(const std::filesystem::path& folder) {
+    auto [files, hashes] = read_distinct(samples::find_graph_samples(folder), samples::read_repair_samples);
+    return {std::move(files), core::content_hash(fmt::format("{}", fmt::join(hashes, "")))};
 }
 
 std::string figure(const std::optional<double>& value) {
@@ -58,6 +71,20 @@ TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const ch
 
 void print_json(const nlohmann::ordered_json& summary) {
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_result(Printing printing, const RepairTraining& result, const nlohmann::ordered_json& summary,
+                  const std::string& kept) {
+    if (printing == Printing::json) print_json(summary);
+    if (printing == Printing::json || result.groups.empty()) return;
+    fmt::print("{}; seeds: {} training, {} validation, {} test\n", kept, result.seeds.train.size(),
+               result.seeds.validation.size(), result.seeds.test.size());
+    for (const RepairGroup& group : result.groups) {
+        std::string label = group.failure.empty() ? "all test seeds" : group.failure;
+        if (!group.scenario.empty()) label += ", " + group.scenario;
+        print_quality(label, group.model);
+        print_quality("  route rule", group.rule);
+    }
 }
 
 core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t rounds, bool has_model,

@@ -18,8 +18,10 @@
 #include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "metrics/link_quality.hpp"
+#include "samples/repair_sample.hpp"
 #include "training/output_folder.hpp"
 #include "training/outputs.hpp"
+#include "training/repair_scores.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -27,6 +29,12 @@ namespace clearway::training {
 // What all trainings share on the command line.
 
 enum class Printing { epochs, closing_only, json };
+
+struct CommonArguments {
+    std::filesystem::path data;
+    std::filesystem::path out;
+    Printing printing = Printing::epochs;
+};
 
 /// Whether SIGINT or SIGTERM was received. Training then ends after the current epoch and keeps what it has.
 bool stop_requested();
@@ -69,6 +77,10 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
     return options;
 }
 
+/// `--data` and `--out` with their descriptions.
+void add_folder_options(CLI::App& app, CommonArguments& arguments, const char* data_doc, const char* out_doc);
+inline constexpr const char* repair_data_doc = "Data set of `clearway dataset --samples --net graphsage`";
+
 /// `--quiet` and `--json`.
 void add_printing_options(CLI::App& app, Printing& printing);
 
@@ -89,6 +101,14 @@ auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& 
     return std::pair(std::move(files), std::move(hashes));
 }
 
+/// The data of the improved net, and the hash of their content.
+struct RepairData {
+    std::vector<samples::RepairSampleFile> files;
+    std::string hash;
+};
+/// Throws core::InputError.
+RepairData read_repair_data(const std::filesystem::path& folder);
+
 /// Three decimals, or `undefined`.
 std::string figure(const std::optional<double>& value);
 void print_quality(const std::string& label, const metrics::LinkQuality& quality);
@@ -98,6 +118,9 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
 TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const char* round = "epoch");
 
 void print_json(const nlohmann::ordered_json& summary);
+/// The summary for `--json`; otherwise, if it was measured, what was `kept` and the quality of each group.
+void print_result(Printing printing, const RepairTraining& result, const nlohmann::ordered_json& summary,
+                  const std::string& kept);
 
 /// The exit code of a training. If it ended early, this is reported on standard error. `rounds` is the number
 /// of rounds that it ran, including one that diverged, and `round` what one is called.

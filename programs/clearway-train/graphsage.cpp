@@ -1,39 +1,22 @@
 // clearway train graphsage: the improved net.
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "common.hpp"
-#include "core/files.hpp"
-#include "samples/graph_sample.hpp"
-#include "samples/repair_sample.hpp"
-#include "training/outputs.hpp"
 #include "training/repair.hpp"
 #include "training/repair_outputs.hpp"
 
 namespace clearway::training {
 namespace {
 
-struct Arguments {
-    std::filesystem::path data;
-    std::filesystem::path out;
-    Printing printing = Printing::epochs;
+struct Arguments : CommonArguments {
     RepairConfig config;
 };
 
 void declare_options(CLI::App& app, Arguments& arguments) {
-    app.add_option("--data", arguments.data, "Data set of `clearway dataset --samples --net graphsage`")
-        ->required()
-        ->option_text("DIR (required)");
-    app.add_option("--out", arguments.out,
-                   "Folder for the results and the checkpoint; a training found there is continued")
-        ->required()
-        ->option_text("DIR (required)");
+    add_folder_options(app, arguments, repair_data_doc,
+                       "Folder for the results and the checkpoint; a training found there is continued");
     add_printing_options(app, arguments.printing);
     add_field_options(app, arguments.config, "Training (losses in nat)");
     app.footer(
@@ -47,34 +30,17 @@ void declare_options(CLI::App& app, Arguments& arguments) {
         "  clearway train graphsage --data data/graphsage --out trained/graphsage");
 }
 
-void print_closing(const RepairResult& result) {
-    fmt::print("{} parameters; best epoch {} of {}; seeds: {} training, {} validation, {} test\n",
-               result.parameter_count, result.best_epoch + 1, result.losses.size(), result.seeds.train.size(),
-               result.seeds.validation.size(), result.seeds.test.size());
-    for (const RepairGroup& group : result.groups) {
-        std::string label = group.failure.empty() ? "all test seeds" : group.failure;
-        if (!group.scenario.empty()) label += ", " + group.scenario;
-        print_quality(label, group.net);
-        print_quality("  route rule", group.rule);
-    }
-}
-
 core::ExitCode train(const Arguments& arguments) {
-    const std::vector<std::filesystem::path> paths = samples::find_graph_samples(arguments.data);
-    const auto [files, hashes] = read_distinct(paths, samples::read_repair_samples);
-    const Checkpoint checkpoint{arguments.out, core::content_hash(fmt::format("{}", fmt::join(hashes, "")))};
-    const OutputFolder folder(arguments.out, identity_of(arguments.config, checkpoint.data_hash));
-    const RepairResult result = train_repair(files, arguments.config, checkpoint,
+    const RepairData data = read_repair_data(arguments.data);
+    const OutputFolder folder(arguments.out, identity_of(arguments.config, data.hash));
+    const RepairResult result = train_repair(data.files, arguments.config, {arguments.out, data.hash},
                                              hooks_with_lines(arguments.printing, arguments.config.epochs));
-    const nlohmann::ordered_json summary =
-        summary_of(result, arguments.config, arguments.data, checkpoint.data_hash);
+    const nlohmann::ordered_json summary = summary_of(result, arguments.config, arguments.data, data.hash);
     if (!folder.keeps_earlier(result.outcome, result.losses.size()))
         write_outputs(folder.path(), result, arguments.config, summary);
-    if (arguments.printing == Printing::json) {
-        print_json(summary);
-    } else if (!result.groups.empty()) {
-        print_closing(result);
-    }
+    print_result(arguments.printing, result, summary,
+                 fmt::format("{} parameters; best epoch {} of {}", result.parameter_count,
+                             result.best_epoch + 1, result.losses.size()));
     return exit_code_for(folder, result.outcome, result.losses.size(), !result.state.empty());
 }
 

@@ -30,25 +30,18 @@ namespace {
 
 enum class Mode { as_published, corrected, logistic };
 
-struct Arguments {
-    std::filesystem::path data;
-    std::filesystem::path out;
+struct Arguments : CommonArguments {
     Mode mode = Mode::as_published;  ///< Set by an option.
     PairChoice pairs = PairChoice::candidates;
     std::vector<std::filesystem::path> unseen;
-    Printing printing = Printing::epochs;
     CorrectedConfig config;
     LogisticConfig logistic;
 };
 
 void declare_options(CLI::App& app, Arguments& arguments) {
-    app.add_option("--data", arguments.data,
-                   "Data set of `clearway dataset`; for --corrected, --logistic with --samples")
-        ->required()
-        ->option_text("DIR (required)");
-    app.add_option("--out", arguments.out, "Folder for the results; made when absent")
-        ->required()
-        ->option_text("DIR (required)");
+    add_folder_options(app, arguments,
+                       "Data set of `clearway dataset`; for --corrected, --logistic with --samples",
+                       "Folder for the results; made when absent");
     auto* const as_published = app.add_flag_callback(
         "--as-published", [&] { arguments.mode = Mode::as_published; },
         "Train as the dissertation did: one snapshot, no better than a constant");

@@ -65,8 +65,8 @@ void score(TorchNet& net, const GraphBatch& train, const GraphBatch& test, AsPub
     net.load(result.state);
     result.logits = net.logits(train);
     const std::vector<float> test_logits = net.logits(test);
-    result.train_quality = quality_of_logits(result.logits, train.label);
-    result.test_quality = quality_of_logits(test_logits, test.label);
+    result.train_quality = quality_of_logits(result.logits, link_flags(train.label));
+    result.test_quality = quality_of_logits(test_logits, link_flags(test.label));
     result.logits.insert(result.logits.end(), test_logits.begin(), test_logits.end());
 }
 
@@ -136,7 +136,7 @@ UnseenQuality score_unseen(const StateDict& state, const TrainingConfig& config,
     TorchNet net({{input, config.hidden, config.output}, config.seed, config.learning_rate});
     net.load(state);
     const auto quality = [&](const GraphBatch& batch) {
-        return quality_of_logits(net.logits(batch), batch.label);
+        return quality_of_logits(net.logits(batch), link_flags(batch.label));
     };
     UnseenQuality result;
     result.data = data;

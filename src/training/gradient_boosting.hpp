@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "metrics/link_quality.hpp"
 #include "prediction/weights.hpp"
 #include "samples/repair_sample.hpp"
 #include "training/output_folder.hpp"
-#include "training/seeds.hpp"
-#include "training/trainer.hpp"
+#include "training/repair_scores.hpp"
 
 namespace clearway::training {
 
@@ -63,24 +61,9 @@ struct BoostingConfig {
     }
 };
 
-/// Quality on the test seeds: for all pairs, or those of a failure, or of a scenario and a failure.
-struct BoostingGroup {
-    std::string scenario;  ///< Empty: all.
-    std::string failure;   ///< Empty: all.
-    metrics::LinkQuality trees;
-    metrics::LinkQuality rule;  ///< The route rule on the same pairs.
-};
-
-struct BoostingResult {
-    Outcome outcome = Outcome::finished;
-    std::vector<EpochLoss> losses;  ///< One per tree; held out: the validation seeds.
-    std::uint32_t best_tree = 0;    ///< The last that is kept, from 0.
-    prediction::Weights weights;    ///< As prediction::BoostedTrees takes them.
-    SeedSplit seeds;
-    std::uint64_t train_pairs = 0;
-    double threshold = 0.5;  ///< Of greatest F1 on the validation seeds.
-    double rule_threshold = 0.5;
-    std::vector<BoostingGroup> groups;  ///< On the test seeds: all, by failure, by scenario and failure.
+struct BoostingResult : RepairTraining {
+    std::uint32_t best_tree = 0;  ///< The last that is kept, from 0.
+    prediction::Weights weights;  ///< As prediction::BoostedTrees takes them.
 };
 
 /// Grows trees by XGBoost (Chen and Guestrin 2016) on the samples of the improved net, with its split by

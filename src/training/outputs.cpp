@@ -51,15 +51,6 @@ std::string mode_of(Convolution convolution) {
     return convolution == Convolution::sage ? "corrected" : std::string(name(convolution));
 }
 
-void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
-                  const std::string& held_out, const std::string& label, const Json& summary) {
-    core::make_folder(folder);
-    core::write_atomically(folder / "losses.csv", losses_csv(losses, held_out));
-    core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(losses, label));
-    core::write_atomically(folder / "summary.json",
-                           summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
 }  // namespace
 
 Identity identity_of(PairChoice pairs, const RunDescription& run) {
@@ -162,6 +153,15 @@ std::string metrics_csv(const CorrectedResult& result) {
                             csv_value(group.dead_reckoning.ap), csv_value(group.dead_reckoning.f1));
     }
     return text;
+}
+
+void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
+                  const std::string& held_out, const std::string& label, const Json& summary) {
+    core::make_folder(folder);
+    core::write_atomically(folder / "losses.csv", losses_csv(losses, held_out));
+    core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(losses, label));
+    core::write_atomically(folder / "summary.json",
+                           summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void write_outputs(const std::filesystem::path& folder, const AsPublishedResult& result, const Json& summary,

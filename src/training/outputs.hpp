@@ -35,6 +35,11 @@ std::string predictions_csv(const AsPublishedResult& result);
 /// Text of `metrics.csv`: a row for all test pairs and one for each scenario and failure.
 std::string metrics_csv(const CorrectedResult& result);
 
+/// Writes losses.csv, train_test_curve.svg and summary.json; `held_out` and `label` name the second loss.
+void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
+                  const std::string& held_out, const std::string& label,
+                  const nlohmann::ordered_json& summary);
+
 /// Writes into `folder`: losses.csv, train_test_curve.svg, summary.json; and, unless no parameters are good,
 /// GraphSAGENet.pth, predictions.csv (as published) or metrics.csv (corrected), and
 /// graphsage_as_published.weights or graphsage_corrected.weights; with another convolution gcn.pth and

@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 #include "core/random.hpp"
 #include "training/detail/sample_parts.hpp"
 #include "training/repair_checkpoint.hpp"
@@ -18,48 +14,18 @@ namespace {
 
 using samples::RepairSample;
 using samples::RepairSampleFile;
-using Samples = std::vector<const RepairSample*>;
-
-Samples samples_of(const std::vector<RepairSampleFile>& files, const std::vector<DataSeed>& seeds) {
-    Samples samples;
-    for (const RepairSampleFile& file : files) {
-        if (!detail::is_of(file, seeds)) continue;
-        for (const RepairSample& sample : file.samples)
-            samples.push_back(&sample);
-    }
-    return samples;
-}
-
-detail::LabelCounts labels_of(const Samples& samples) {
-    detail::LabelCounts counts;
-    for (const RepairSample* const sample : samples)
-        counts.add(sample->linked);
-    return counts;
-}
-
-void check_radius(const std::vector<RepairSampleFile>& files) {
-    for (const RepairSampleFile& file : files) {
-        if (file.origin.link_radius_m == prediction::repair_link_radius_m) continue;
-        throw core::InputError(
-            {fmt::format("--data: {}, {}, replication {}", file.origin.scenario, file.origin.failure,
-                         file.origin.replication),
-             fmt::format("links below {} m", file.origin.link_radius_m),
-             fmt::format("{} m, for which the net is made", prediction::repair_link_radius_m),
-             "Record with link_radius_m = 50"});
-    }
-}
 
 /// A share of the samples, evenly spread.
-Samples thinned(const Samples& samples, std::size_t most) {
+RepairSamples thinned(const RepairSamples& samples, std::size_t most) {
     if (most == 0 || samples.size() <= most) return samples;
-    Samples kept;
+    RepairSamples kept;
     for (std::size_t i = 0; i < most; ++i)
         kept.push_back(samples[i * samples.size() / most]);
     return kept;
 }
 
 template <class Visit>
-void for_each_batch(const Samples& samples, std::size_t size, const Visit& visit) {
+void for_each_batch(const RepairSamples& samples, std::size_t size, const Visit& visit) {
     for (std::size_t first = 0; first < samples.size(); first += size) {
         visit(std::span(samples).subspan(first, std::min(size, samples.size() - first)));
     }
@@ -84,7 +50,8 @@ class MeanLoss {
 /// One training, epoch by epoch.
 class Training {
   public:
-    Training(const RepairConfig& config, const Checkpoint& checkpoint, Samples train, Samples validation)
+    Training(const RepairConfig& config, const Checkpoint& checkpoint, RepairSamples train,
+             RepairSamples validation)
         : config_(config),
           checkpoint_(checkpoint),
           train_(std::move(train)),
@@ -128,7 +95,7 @@ class Training {
         const double rate = config_.learning_rate * 0.5 * (1.0 + std::cos(std::numbers::pi * share));
         const PairSampling sampling{
             config_.easy_share, core::KeyedRandom(core::StudySeed{config_.seed}, core::Replication{epoch})};
-        Samples order = train_;
+        RepairSamples order = train_;
         detail::shuffle(order, config_.seed, epoch);
         MeanLoss loss;
         bool finite = true;
@@ -169,91 +136,27 @@ class Training {
 
     const RepairConfig& config_;
     const Checkpoint& checkpoint_;
-    Samples train_, validation_;
+    RepairSamples train_, validation_;
     TorchRepairNet net_;
     RepairProgress progress_;
 };
 
-/// Scores of pairs by the net and by the rule, with labels, and errors of displacements.
-struct Scores {
-    std::vector<float> logits;
-    std::vector<double> rule;
-    std::vector<std::uint8_t> linked;
-    double error_m = 0.0, rule_error_m = 0.0;
-    std::size_t moved = 0;
-
-    void append(const Scores& more) {
-        logits.insert(logits.end(), more.logits.begin(), more.logits.end());
-        rule.insert(rule.end(), more.rule.begin(), more.rule.end());
-        linked.insert(linked.end(), more.linked.begin(), more.linked.end());
-        error_m += more.error_m;
-        rule_error_m += more.rule_error_m;
-        moved += more.moved;
-    }
-};
-
-Scores scores_of(const TorchRepairNet& net, const RepairConfig& config, const RepairSampleFile& file) {
-    Scores scores;
+void score(const TorchRepairNet& net, MessageEdges edges, const RepairSampleFile& file,
+           RepairScores& scores) {
+    DisplacementErrors& errors = scores.displacements.emplace();
     for (const RepairSample& sample : file.samples) {
         const RepairSample* const one = &sample;
-        const RepairBatch batch = batch_of(std::span(&one, 1), config.edges);
+        const RepairBatch batch = batch_of(std::span(&one, 1), edges);
         const RepairOutput output = net.run(batch);
         scores.logits.insert(scores.logits.end(), output.logits.begin(), output.logits.end());
-        scores.rule.insert(scores.rule.end(), sample.rule.begin(), sample.rule.end());
-        scores.linked.insert(scores.linked.end(), sample.linked.begin(), sample.linked.end());
         for (std::size_t i = 0; i < batch.receiver_count(); ++i) {
             const float truth = batch.true_displacement_m[i];
             if (truth < 0.0F) continue;
-            scores.error_m += std::abs(std::clamp(output.displacement_m[i], 0.0F, batch.reach_m[i]) - truth);
-            scores.rule_error_m += std::abs(batch.displacement_m[i] - truth);
-            ++scores.moved;
+            errors.model_m += std::abs(std::clamp(output.displacement_m[i], 0.0F, batch.reach_m[i]) - truth);
+            errors.rule_m += std::abs(batch.displacement_m[i] - truth);
+            ++errors.count;
         }
     }
-    return scores;
-}
-
-/// AUC and AP rank by logits, because beyond 37 all probabilities round to 1 and would tie.
-metrics::LinkQuality quality_by_net(const Scores& scores, double threshold) {
-    metrics::LinkQuality quality =
-        metrics::link_quality({probabilities(scores.logits), scores.linked}, threshold);
-    const std::vector<double> ranks(scores.logits.begin(), scores.logits.end());
-    quality.auc = metrics::area_under_roc({ranks, scores.linked});
-    quality.ap = metrics::average_precision({ranks, scores.linked});
-    return quality;
-}
-
-RepairGroup group_of(const std::string& scenario, const std::string& failure, const Scores& scores,
-                     const RepairResult& result) {
-    const double moved = static_cast<double>(std::max<std::size_t>(scores.moved, 1));
-    return {scenario,
-            failure,
-            quality_by_net(scores, result.threshold),
-            metrics::link_quality({scores.rule, scores.linked}, result.rule_threshold),
-            scores.error_m / moved,
-            scores.rule_error_m / moved};
-}
-
-/// Chooses thresholds on the validation seeds and measures on the test seeds.
-void measure(const TorchRepairNet& net, const std::vector<RepairSampleFile>& files,
-             const RepairConfig& config, RepairResult& result) {
-    Scores validation, all;
-    std::map<std::string, Scores> by_failure;
-    std::map<std::pair<std::string, std::string>, Scores> by_both;
-    for (const RepairSampleFile& file : files) {
-        if (detail::is_of(file, result.seeds.validation)) validation.append(scores_of(net, config, file));
-        if (!detail::is_of(file, result.seeds.test)) continue;
-        const Scores scores = scores_of(net, config, file);
-        all.append(scores);
-        by_failure[file.origin.failure].append(scores);
-        by_both[{file.origin.failure, file.origin.scenario}].append(scores);
-    }
-    result.threshold = metrics::best_f1_threshold({probabilities(validation.logits), validation.linked});
-    result.rule_threshold = metrics::best_f1_threshold({validation.rule, validation.linked});
-    result.groups.push_back(group_of("", "", all, result));
-    for (const auto& [failure, scores] : by_failure)
-        result.groups.push_back(group_of("", failure, scores, result));
-    for (const auto& [both, scores] : by_both)
-        result.groups.push_back(group_of(both.second, both.first, scores, result));
 }
 
 }  // namespace
@@ -277,27 +180,26 @@ bool RepairConfig::is_whole() const {
 
 RepairResult train_repair(const std::vector<RepairSampleFile>& files, const RepairConfig& config,
                           const Checkpoint& checkpoint, const TrainingHooks& hooks) {
-    if (files.empty()) {
-        throw core::InputError({"--data", "no samples", "",
-                                "Record some with clearway dataset SCENARIO --samples --net graphsage"});
-    }
-    check_radius(files);
     RepairResult result;
-    result.seeds =
-        detail::split_files(files, {config.split_seed, config.validation_share, config.test_share});
-    const Samples train = thinned(samples_of(files, result.seeds.train), config.most_snapshots);
-    const Samples validation = samples_of(files, result.seeds.validation);
-    detail::require_both_classes(labels_of(train), "training");
-    detail::require_both_classes(labels_of(validation), "validation");
-    detail::require_both_classes(labels_of(samples_of(files, result.seeds.test)), "test");
+    result.seeds = split_repair_files(files, {config.split_seed, config.validation_share, config.test_share},
+                                      "the net is");
+    const RepairSamples train = thinned(samples_of(files, result.seeds.train), config.most_snapshots);
+    const RepairSamples validation = samples_of(files, result.seeds.validation);
+    require_both_classes(train, "training");
+    require_both_classes(validation, "validation");
+    require_both_classes(samples_of(files, result.seeds.test), "test");
     result.train_snapshots = train.size();
     for (const RepairSample* const sample : train)
         result.train_pairs += sample->linked.size();
 
     Training training(config, checkpoint, train, validation);
     training.run(hooks, result);
-    const bool measured = !result.state.empty() && result.outcome != Outcome::interrupted;
-    if (measured) measure(training.net(), files, config, result);
+    if (!result.state.empty() && result.outcome != Outcome::interrupted) {
+        const auto by_net = [&](const RepairSampleFile& file, RepairScores& scores) {
+            score(training.net(), config.edges, file, scores);
+        };
+        measure(files, by_net, result);
+    }
     return result;
 }
 

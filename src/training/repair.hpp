@@ -9,11 +9,9 @@
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
-#include "metrics/link_quality.hpp"
 #include "samples/repair_sample.hpp"
-#include "training/seeds.hpp"
+#include "training/repair_scores.hpp"
 #include "training/torch_repair_net.hpp"
-#include "training/trainer.hpp"
 
 namespace clearway::training {
 
@@ -85,28 +83,11 @@ constexpr core::Spellings<MessageEdges, 2> spellings(MessageEdges) {
     return {{{MessageEdges::believed, "believed"}, {MessageEdges::observed, "observed"}}};
 }
 
-/// Quality on the test seeds: for all pairs, or those of a failure, or of a scenario and a failure.
-struct RepairGroup {
-    std::string scenario;  ///< Empty: all.
-    std::string failure;   ///< Empty: all.
-    metrics::LinkQuality net;
-    metrics::LinkQuality rule;          ///< The route rule on the same pairs.
-    double displacement_error_m = 0.0;  ///< Mean absolute error of displacements, m; 0 without any.
-    double rule_displacement_error_m = 0.0;
-};
-
-struct RepairResult {
-    Outcome outcome = Outcome::finished;
-    std::vector<EpochLoss> losses;  ///< Of the links; held out: the validation seeds.
+struct RepairResult : RepairTraining {
     std::uint32_t best_epoch = 0;
     StateDict state;  ///< Of the best epoch; none when no epoch had finite losses.
-    SeedSplit seeds;
     std::uint64_t train_snapshots = 0;
-    std::uint64_t train_pairs = 0;
     std::size_t parameter_count = 0;
-    double threshold = 0.5;  ///< Of greatest F1 on the validation seeds.
-    double rule_threshold = 0.5;
-    std::vector<RepairGroup> groups;  ///< On the test seeds: all, by failure, by scenario and failure.
 };
 
 /// Where a training keeps what it needs to go on after an interruption.

@@ -3,7 +3,6 @@
 #include "core/files.hpp"
 #include "prediction/repair_net.hpp"
 #include "training/detail/figures.hpp"
-#include "training/loss_curve.hpp"
 #include "training/outputs.hpp"
 #include "training/state_dict.hpp"
 
@@ -16,17 +15,14 @@ using detail::field_name;
 using detail::Json;
 using detail::json_from;
 
-/// An interrupted training ends before it is measured.
-bool is_measured(const RepairResult& result) {
-    return !result.groups.empty();
-}
-
-std::vector<std::string> notes_of(const RepairResult& result, const RepairConfig& config,
-                                  const std::string& data_hash) {
-    return {fmt::format("trained by clearway train graphsage, seed {}, data {}", config.seed, data_hash),
-            is_measured(result)
-                ? fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold)
-                : fmt::format("interrupted after epoch {}, not measured", result.losses.size())};
+/// What weights say of their training; `round` is what one of its rounds is called.
+std::vector<std::string> notes_of(const RepairTraining& result, const Json& summary, const char* round) {
+    return {fmt::format("trained by clearway train {}, seed {}, data {}", summary["mode"].get<std::string>(),
+                        summary["configuration"]["seed"].get<std::uint64_t>(),
+                        summary["data_hash"].get<std::string>()),
+            result.groups.empty()
+                ? fmt::format("interrupted after {} {}, not measured", round, result.losses.size())
+                : fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold)};
 }
 
 }  // namespace
@@ -62,50 +58,60 @@ Json summary_of(const RepairResult& result, const RepairConfig& config, const st
         result.losses.empty() ? Json(nullptr) : Json(result.losses.back().train);
     summary["final_validation_loss_nat"] =
         result.losses.empty() ? Json(nullptr) : Json(result.losses.back().held_out);
-    summary["test"] = Json::array();
-    for (const RepairGroup& group : result.groups) {
-        summary["test"].push_back({{"scenario", group.scenario.empty() ? Json("all") : Json(group.scenario)},
-                                   {"failure", group.failure.empty() ? Json("all") : Json(group.failure)},
-                                   {"net", json_from(group.net)},
-                                   {"route_rule", json_from(group.rule)},
-                                   {"displacement_error_m", group.displacement_error_m},
-                                   {"route_rule_displacement_error_m", group.rule_displacement_error_m}});
-    }
+    summary["test"] = test_summary(result.groups, "net");
     return summary;
 }
 
-std::string metrics_csv(const RepairResult& result) {
+Json test_summary(const std::vector<RepairGroup>& groups, const char* model) {
+    Json list = Json::array();
+    for (const RepairGroup& group : groups) {
+        list.push_back({{"scenario", group.scenario.empty() ? Json("all") : Json(group.scenario)},
+                        {"failure", group.failure.empty() ? Json("all") : Json(group.failure)},
+                        {model, json_from(group.model)},
+                        {"route_rule", json_from(group.rule)}});
+        if (!group.displacement_error_m) continue;
+        list.back()["displacement_error_m"] = *group.displacement_error_m;
+        list.back()["route_rule_displacement_error_m"] = group.rule_displacement_error_m.value();
+    }
+    return list;
+}
+
+std::string metrics_csv(const std::vector<RepairGroup>& groups, const std::string& predictor) {
     std::string text = "scenario,failure,predictor";
     core::for_each_field<metrics::LinkQuality>(
         [&](const auto& field) { text += "," + field_name(field.name, field.unit); });
-    text += ",displacement_error_m\n";
-    const auto row = [&](const RepairGroup& group, const char* predictor, const metrics::LinkQuality& quality,
-                         double error_m) {
-        text += fmt::format("{},{},{}", csv_group(group.scenario), csv_group(group.failure), predictor);
+    const bool moves = groups.front().displacement_error_m.has_value();
+    text += moves ? ",displacement_error_m\n" : "\n";
+    const auto row = [&](const RepairGroup& group, const std::string& name,
+                         const metrics::LinkQuality& quality, const std::optional<double>& error_m) {
+        text += fmt::format("{},{},{}", csv_group(group.scenario), csv_group(group.failure), name);
         core::for_each_field<metrics::LinkQuality>(
             [&](const auto& field) { text += "," + csv_value(quality.*field.member); });
-        text += fmt::format(",{}\n", csv_value(error_m));
+        text += moves ? "," + csv_value(error_m) + "\n" : "\n";
     };
-    for (const RepairGroup& group : result.groups) {
-        row(group, "graphsage", group.net, group.displacement_error_m);
+    for (const RepairGroup& group : groups) {
+        row(group, predictor, group.model, group.displacement_error_m);
         row(group, "route_rule", group.rule, group.rule_displacement_error_m);
     }
     return text;
 }
 
+void write_outputs(const std::filesystem::path& folder, const RepairTraining& result, const Json& summary,
+                   const char* round, prediction::Weights weights) {
+    write_common(folder, result.losses, "validation", "Validation Loss", summary);
+    const auto predictor = summary["mode"].get<std::string>();
+    if (!result.groups.empty())
+        core::write_atomically(folder / "metrics.csv", metrics_csv(result.groups, predictor));
+    if (weights.tensors.empty()) return;
+    weights.notes = notes_of(result, summary, round);
+    prediction::write_weights(folder / (predictor + ".weights"), weights);
+}
+
 void write_outputs(const std::filesystem::path& folder, const RepairResult& result,
                    const RepairConfig& config, const Json& summary) {
-    core::make_folder(folder);
-    core::write_atomically(folder / "losses.csv", losses_csv(result.losses, "validation"));
-    core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(result.losses, "Validation Loss"));
-    core::write_atomically(folder / "summary.json",
-                           summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    if (result.state.empty()) return;
-    if (is_measured(result)) core::write_atomically(folder / "metrics.csv", metrics_csv(result));
-    if (!config.is_whole()) return;
-    prediction::Weights weights = repair_weights(result.state, config.net().dimensions);
-    weights.notes = notes_of(result, config, summary["data_hash"].get<std::string>());
-    prediction::write_weights(folder / "graphsage.weights", weights);
+    const bool runs = config.is_whole() && !result.state.empty();
+    write_outputs(folder, result, summary, "epoch",
+                  runs ? repair_weights(result.state, config.net().dimensions) : prediction::Weights{});
 }
 
 }  // namespace clearway::training

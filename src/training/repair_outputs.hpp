@@ -20,12 +20,20 @@ Identity identity_of(const RepairConfig& config, const std::string& data_hash);
 nlohmann::ordered_json summary_of(const RepairResult& result, const RepairConfig& config,
                                   const std::filesystem::path& data, const std::string& data_hash);
 
-/// Text of `metrics.csv`: rows for all test pairs, each failure, and each scenario and failure.
-std::string metrics_csv(const RepairResult& result);
+/// "test" of a summary; `model` is the name of the model's entry.
+nlohmann::ordered_json test_summary(const std::vector<RepairGroup>& groups, const char* model);
 
-/// Writes losses.csv, train_test_curve.svg, summary.json, and, unless no parameters are good, (of a whole
-/// net) graphsage.weights and, unless interrupted before the measuring, metrics.csv. Each file whole or not
-/// at all. Throws core::EnvironmentError.
+/// Text of `metrics.csv`: rows for all test pairs, each failure, and each scenario and failure. `groups` are
+/// not empty.
+std::string metrics_csv(const std::vector<RepairGroup>& groups, const std::string& predictor);
+
+/// Writes losses.csv, train_test_curve.svg, summary.json, metrics.csv unless nothing was measured, and,
+/// unless `weights` are empty, these with notes, named after the summary's mode. `round` is what an epoch is
+/// called. Each file whole or not at all. Throws core::EnvironmentError.
+void write_outputs(const std::filesystem::path& folder, const RepairTraining& result,
+                   const nlohmann::ordered_json& summary, const char* round, prediction::Weights weights);
+
+/// The same with the weights of a whole net, unless no parameters are good.
 void write_outputs(const std::filesystem::path& folder, const RepairResult& result,
                    const RepairConfig& config, const nlohmann::ordered_json& summary);
 

@@ -34,9 +34,9 @@ std::vector<std::uint8_t> link_flags(const std::vector<float>& labels) {
     return result;
 }
 
-metrics::LinkQuality quality_of_logits(const std::vector<float>& logits, const std::vector<float>& labels) {
-    const std::vector<std::uint8_t> linked = link_flags(labels);
-    metrics::LinkQuality quality = metrics::link_quality({probabilities(logits), linked});
+metrics::LinkQuality quality_of_logits(const std::vector<float>& logits,
+                                       const std::vector<std::uint8_t>& linked, double threshold) {
+    metrics::LinkQuality quality = metrics::link_quality({probabilities(logits), linked}, threshold);
     const std::vector<double> scores(logits.begin(), logits.end());
     quality.auc = metrics::area_under_roc({scores, linked});
     quality.ap = metrics::average_precision({scores, linked});

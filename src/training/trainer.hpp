@@ -65,6 +65,7 @@ std::vector<std::uint8_t> link_flags(const std::vector<float>& labels);
 
 /// Quality of logits. AUC and AP rank by the logits themselves: beyond 37 all probabilities round to 1 and
 /// would tie.
-metrics::LinkQuality quality_of_logits(const std::vector<float>& logits, const std::vector<float>& labels);
+metrics::LinkQuality quality_of_logits(const std::vector<float>& logits,
+                                       const std::vector<std::uint8_t>& linked, double threshold = 0.5);
 
 }  // namespace clearway::training

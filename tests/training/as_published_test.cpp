@@ -178,7 +178,7 @@ TEST(TrainAsPublished, data_that_diverge_at_once_leave_no_parameters) {
 }
 
 TEST(QualityOfLogits, ranks_logits_whose_probabilities_round_to_one) {
-    const metrics::LinkQuality quality = quality_of_logits({100.0F, 90.0F, 80.0F}, {1.0F, 0.0F, 0.0F});
+    const metrics::LinkQuality quality = quality_of_logits({100.0F, 90.0F, 80.0F}, {1, 0, 0});
     EXPECT_EQ(quality.auc, 1.0);
     EXPECT_EQ(quality.ap, 1.0);
     EXPECT_EQ(quality.f1, 0.5);
@@ -200,7 +200,7 @@ TEST(ScoreUnseen, messages_are_listed_pairs_true_links_or_none) {
             batch.message_source.push_back(unseen.source[pair]);
             batch.message_target.push_back(unseen.target[pair]);
         }
-        return quality_of_logits(net.logits(batch), batch.label).auc;
+        return quality_of_logits(net.logits(batch), link_flags(batch.label)).auc;
     };
     EXPECT_EQ(quality.listed.auc, auc([](std::size_t) { return true; }));
     EXPECT_EQ(quality.true_links.auc, auc([&](std::size_t pair) { return unseen.label[pair] == 1.0F; }));

@@ -29,7 +29,7 @@ BoostingConfig short_training() {
 TEST(TrainGradientBoosting, BeatsTheRuleWhereThereIsSomethingToLearn) {
     const BoostingResult result = train_gradient_boosting(runs(10, 30), short_training());
     ASSERT_FALSE(result.groups.empty());
-    EXPECT_GT(result.groups.front().trees.ap.value(), result.groups.front().rule.ap.value() + 0.005);
+    EXPECT_GT(result.groups.front().model.ap.value(), result.groups.front().rule.ap.value() + 0.005);
     EXPECT_LT(result.losses.back().train, 0.5 * result.losses.front().train);
     EXPECT_EQ(result.groups.size(), 1u + 2u + 2u) << "all, by failure, by scenario and failure";
     EXPECT_EQ(result.seeds.train.size(), 6u);

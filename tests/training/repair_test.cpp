@@ -42,8 +42,8 @@ TEST(TrainRepair, beats_the_rule_where_there_is_something_to_learn) {
     const RepairResult result = train_repair(runs(10, 30), config, {});
     ASSERT_FALSE(result.groups.empty());
     const RepairGroup& all = result.groups.front();
-    EXPECT_GT(all.net.ap.value(), all.rule.ap.value());
-    EXPECT_LT(all.displacement_error_m, 0.7 * all.rule_displacement_error_m);
+    EXPECT_GT(all.model.ap.value(), all.rule.ap.value());
+    EXPECT_LT(all.displacement_error_m.value(), 0.7 * all.rule_displacement_error_m.value());
     EXPECT_EQ(result.groups.size(), 1u + 2u + 2u) << "all, by failure, by scenario and failure";
 }
 
@@ -64,7 +64,7 @@ TEST(TrainRepair, goes_on_from_its_checkpoint_as_if_never_interrupted) {
     const RepairResult second = train_repair(files, config, checkpoint);
     EXPECT_EQ(second.losses.size(), 6u);
     EXPECT_TRUE(same_state(second.state, whole.state));
-    EXPECT_EQ(second.groups.front().net.ap, whole.groups.front().net.ap);
+    EXPECT_EQ(second.groups.front().model.ap, whole.groups.front().model.ap);
     // Once complete there is nothing left to do.
     const RepairResult third = train_repair(files, config, checkpoint);
     EXPECT_TRUE(same_state(third.state, whole.state));
@@ -241,9 +241,7 @@ TEST(RepairOutputs, the_folder_holds_a_model_unless_it_is_an_ablation) {
 }
 
 TEST(RepairOutputs, every_row_of_the_metrics_has_as_many_cells_as_the_header) {
-    RepairResult result;
-    result.groups = {{"line", "B10,dark_share=0.5", {}, {}, 0.0, 0.0}};
-    const std::string csv = metrics_csv(result);
+    const std::string csv = metrics_csv({{"line", "B10,dark_share=0.5", {}, {}, 0.0, 0.0}}, "graphsage");
     EXPECT_THAT(csv, HasSubstr("\nline,\"B10,dark_share=0.5\",graphsage,"));
     const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
     const std::string header = csv.substr(0, csv.find('\n'));
