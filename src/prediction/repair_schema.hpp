@@ -9,7 +9,8 @@ namespace clearway::prediction {
 
 // What the improved net, `graphsage`, is given: names, units and scales of all its inputs. Code that computes
 // them, files of weights, the model card and tests share these tables. A change of any number, or of the
-// order, is a new version of the schema. No coordinates of the map, no truth, nothing of the future.
+// order, is a new version of the schema. "The route rule" is the one without start at green: a vehicle that
+// stands stays where it stood. No coordinates of the map, no truth, nothing of the future.
 
 /// Of a vehicle. Only vehicles that were not heard (receivers) have those from `age` on; the others have 0.
 inline constexpr std::array node_inputs = {

@@ -23,7 +23,7 @@ struct End {
     std::uint32_t row = 0;
     std::size_t receiver = none;
     std::span<const float> node;
-    roads::Point place;  ///< By the route rule.
+    roads::Point place;  ///< By the kinematics along the route.
 };
 
 End end_of(const RepairInputs& inputs, std::uint32_t row) {

@@ -23,7 +23,7 @@ struct RepairGroup {
     std::string scenario;  ///< Empty: all.
     std::string failure;   ///< Empty: all.
     metrics::LinkQuality model;
-    metrics::LinkQuality rule;  ///< The route rule on the same pairs.
+    metrics::LinkQuality rule;  ///< The samples' route rule on the same pairs.
     /// Mean absolute error of displacements, m; 0 without any. None of a model that moves no vehicle.
     std::optional<double> displacement_error_m;
     std::optional<double> rule_displacement_error_m;
@@ -50,7 +50,7 @@ struct DisplacementErrors {
 /// Scores of pairs by a model and by the rule, with labels.
 struct RepairScores {
     std::vector<float> logits;
-    std::vector<double> rule;
+    std::vector<double> rule;  ///< As the samples have it: without start at green.
     std::vector<std::uint8_t> linked;
     std::optional<DisplacementErrors> displacements;  ///< None of a model that moves no vehicle.
 
