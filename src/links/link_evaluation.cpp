@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -54,6 +55,19 @@ void LinkTruthView::look(const truth::Snapshot& snapshot, const traffic::Roster&
                 policy_links_.push_back({row, other});
         }
     }
+    find_next_ahead(snapshot);
+}
+
+void LinkTruthView::find_next_ahead(const truth::Snapshot& snapshot) {
+    lanes_.clear();
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row)
+        lanes_.add(row, snapshot.lane[row], snapshot.lane_position_m[row]);
+    lanes_.sort();
+    next_ahead_.clear();
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (snapshot.vehicle_class[row] == traffic::VehicleClass::human) continue;
+        next_ahead_.push_back({row, lanes_.next_ahead(snapshot.lane[row], snapshot.lane_position_m[row])});
+    }
 }
 
 LinkTrial::LinkTrial(const roads::Network& network, const graph::LinkRules& rules, Setup setup)
@@ -83,6 +97,7 @@ void LinkTrial::ask(const truth::Snapshot& snapshot, const LinkTruthView& truth,
             scene = &own;
             core::match_rows(own.tracks.key, snapshot.key, true_row_);
             describe_candidates(own, truth);
+            find_heard(snapshot);
             count_truth(snapshot, own, truth);
         }
         if (own.candidates.rows != scene->candidates.rows) {
@@ -140,6 +155,8 @@ void LinkTrial::count_truth(const truth::Snapshot& snapshot, const prediction::S
     truth_.never_seen += never_seen;
     truth_.outside += truth.links().link_count() - never_seen - in_reach;
     truth_.policy_links += truth.policy_links().size();
+    truth_.dark_vehicles += static_cast<std::uint64_t>(std::ranges::count(heard_, core::no_row));
+    truth_.unseen_vehicles += log_.never_seen.size();
     observed_vehicles_ += observation_.vehicles.size();
 }
 
@@ -173,11 +190,61 @@ void LinkTrial::count_belief(Contestant& contestant, const truth::Snapshot& snap
         if (std::ranges::binary_search(links, other, {}, &traffic::BelievedLink::neighbour))
             ++counts.policy_found;
     }
+    count_dark(contestant, snapshot);
+    count_next_ahead(contestant, truth);
+}
+
+void LinkTrial::find_heard(const truth::Snapshot& snapshot) {
+    heard_keys_.clear();
+    for (const traffic::ObservedVehicle& vehicle : observation_.vehicles) {
+        if (vehicle.freshness == traffic::Freshness::fresh) heard_keys_.push_back(vehicle.key);
+    }
+    core::match_rows(snapshot.key, heard_keys_, heard_);
+}
+
+bool LinkTrial::was_heard(core::VehicleKey key) const {
+    return std::ranges::binary_search(heard_keys_, key);
+}
+
+void LinkTrial::count_dark(Contestant& contestant, const truth::Snapshot& snapshot) const {
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        const core::VehicleIndex believed = match_.believed_rows()[row];
+        if (heard_[row] != core::no_row || believed == core::no_row) continue;
+        const traffic::MotionState& state = contestant.belief.vehicles[believed].state;
+        ++contestant.counts.dark_believed;
+        contestant.places.add(std::hypot(static_cast<double>(state.x_m) - snapshot.x_m[row],
+                                         static_cast<double>(state.y_m) - snapshot.y_m[row]));
+    }
+}
+
+void LinkTrial::count_next_ahead(Contestant& contestant, const LinkTruthView& truth) {
+    const std::vector<traffic::BelievedVehicle>& vehicles = contestant.belief.vehicles;
+    believed_lanes_.clear();
+    for (core::VehicleIndex row = 0; row < vehicles.size(); ++row)
+        believed_lanes_.add(row, vehicles[row].state.lane, vehicles[row].state.lane_position_m);
+    believed_lanes_.sort();
+    for (const LinkTruthView::NextAhead& asked : truth.next_ahead()) {
+        core::VehicleIndex believed = match_.believed_rows()[asked.row];
+        if (believed != core::no_row) {
+            const traffic::MotionState& state = vehicles[believed].state;
+            believed = believed_lanes_.next_ahead(state.lane, state.lane_position_m);
+        }
+        const bool none_believed = believed == core::no_row;
+        const bool true_one_dark = asked.next != core::no_row && heard_[asked.next] == core::no_row;
+        const bool believed_one_dark = !none_believed && !was_heard(vehicles[believed].key);
+        if (!true_one_dark && !believed_one_dark) continue;
+        const bool right = none_believed
+                               ? asked.next == core::no_row
+                               : asked.next != core::no_row && match_.true_rows()[believed] == asked.next;
+        ++contestant.counts.next_cases;
+        contestant.counts.next_right += right ? 1 : 0;
+    }
 }
 
 LinkCase LinkTrial::result(std::size_t predictor) const {
     const Contestant& contestant = contestants_[predictor];
-    return {failure_, exits_, truth_, contestant.counts, contestant.scores.summary()};
+    return {
+        failure_, exits_, truth_, contestant.counts, contestant.scores.summary(), contestant.places.errors()};
 }
 
 LinkTiming::Case LinkTrial::timing(std::size_t predictor) const {

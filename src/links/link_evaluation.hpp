@@ -8,6 +8,8 @@
 #include "core/random.hpp"
 #include "links/link_run.hpp"
 #include "links/link_scores.hpp"
+#include "links/next_ahead.hpp"
+#include "links/place_errors.hpp"
 #include "metrics/link_comparison.hpp"
 #include "metrics/true_links.hpp"
 #include "prediction/predictor.hpp"
@@ -17,8 +19,8 @@
 
 namespace clearway::links {
 
-/// What there is to find at one step: true links, and the vehicles ahead of an emergency vehicle. Keeps its
-/// buffers.
+/// What there is to find at one step: true links, the vehicles ahead of an emergency vehicle, and who is next
+/// in a lane. Keeps its buffers.
 class LinkTruthView {
   public:
     /// `network` outlives the view.
@@ -28,11 +30,22 @@ class LinkTruthView {
     const metrics::TrueLinks& links() const { return links_; }
     /// Links between an emergency vehicle (`left`) and one ahead on its route within the link radius.
     const std::vector<prediction::RowPair>& policy_links() const { return policy_links_; }
+    /// An emergency or automated vehicle, and the next vehicle ahead in its lane.
+    struct NextAhead {
+        core::VehicleIndex row = 0;
+        core::VehicleIndex next = core::no_row;  ///< `core::no_row` if there is none (LaneOrder).
+    };
+    /// One for each emergency and automated vehicle on the road.
+    const std::vector<NextAhead>& next_ahead() const { return next_ahead_; }
 
   private:
+    void find_next_ahead(const truth::Snapshot& snapshot);
+
     const roads::Network& network_;
     metrics::TrueLinks links_;
     std::vector<prediction::RowPair> policy_links_;
+    LaneOrder lanes_;
+    std::vector<NextAhead> next_ahead_;
 };
 
 /// One sensor, and the predictors that use its observations.
@@ -63,6 +76,7 @@ class LinkTrial {
         traffic::BelievedGraph belief;
         LinkScores scores;
         LinkBelief counts;
+        PlaceHistogram places;
         double predict_s = 0.0;
     };
     void describe_candidates(const prediction::Scene& scene, const LinkTruthView& truth);
@@ -70,8 +84,12 @@ class LinkTrial {
     bool truly_linked(prediction::RowPair pair, const LinkTruthView& truth) const;
     void count_truth(const truth::Snapshot& snapshot, const prediction::Scene& scene,
                      const LinkTruthView& truth);
+    void find_heard(const truth::Snapshot& snapshot);
     void score(Contestant& contestant) const;
     void count_belief(Contestant& contestant, const truth::Snapshot& snapshot, const LinkTruthView& truth);
+    void count_dark(Contestant& contestant, const truth::Snapshot& snapshot) const;
+    void count_next_ahead(Contestant& contestant, const LinkTruthView& truth);
+    bool was_heard(core::VehicleKey key) const;
 
     const roads::Network& network_;
     graph::LinkRules rules_;
@@ -88,6 +106,9 @@ class LinkTrial {
     std::vector<std::uint8_t> label_;           ///< By candidate.
     std::vector<PairTraits> traits_;            ///< By candidate.
     metrics::BeliefMatch match_;
+    std::vector<core::VehicleKey> heard_keys_;  ///< Fresh ones, ascending.
+    std::vector<core::VehicleIndex> heard_;     ///< By row of the snapshot; `core::no_row` if dark.
+    LaneOrder believed_lanes_;
 };
 
 /// Evaluates predictors on the reports of a run, with one trial per failure and exits. Scores at most once

@@ -139,6 +139,7 @@ void LinkSummary::add(const LinkSummary& other) {
         calibration[bin].probability += other.calibration[bin].probability;
     }
     log_loss += other.log_loss;
+    brier += other.brier;
 }
 
 void LinkHistogram::add(float probability, bool linked) {
@@ -152,8 +153,10 @@ void LinkHistogram::add(float probability, bool linked) {
     ++calibration.pairs;
     calibration.linked += linked ? 1 : 0;
     calibration.probability += fixed(probability, LinkSummary::probability_unit);
-    if (probability > 0.0F || linked)
-        sums_.log_loss += fixed(loss_of(probability, linked), LinkSummary::log_loss_unit);
+    if (probability == 0.0F && !linked) return;  // Right and certain: no loss of either kind.
+    sums_.log_loss += fixed(loss_of(probability, linked), LinkSummary::log_loss_unit);
+    const double error = static_cast<double>(probability) - (linked ? 1.0 : 0.0);
+    sums_.brier += fixed(error * error, LinkSummary::brier_unit);
 }
 
 LinkSummary LinkHistogram::summary() const {
@@ -216,6 +219,12 @@ metrics::LinkQuality link_quality(const LinkSummary& summary, double threshold) 
     quality.ece = calibration_error(summary);
     quality.threshold = threshold;
     return quality;
+}
+
+std::optional<double> brier_score(const LinkSummary& summary) {
+    const auto pairs = static_cast<double>(summary.pairs());
+    if (pairs == 0.0) return std::nullopt;
+    return static_cast<double>(summary.brier) * LinkSummary::brier_unit / pairs;
 }
 
 double best_f1_threshold(const LinkSummary& summary) {

@@ -44,9 +44,11 @@ struct LinkSummary {
     std::vector<Bin> bins;  ///< Non-empty ones, ascending.
     std::array<Calibration, calibration_bins> calibration{};
     std::uint64_t log_loss = 0;  ///< Sum, in units of 2^-24 nat.
+    std::uint64_t brier = 0;     ///< Sum of (probability - truth)^2, in units of 2^-32.
 
     static constexpr double probability_unit = 1.0 / 4294967296.0;
     static constexpr double log_loss_unit = 1.0 / 16777216.0;
+    static constexpr double brier_unit = probability_unit;
 
     std::uint64_t pairs() const;
     std::uint64_t true_links() const;
@@ -85,6 +87,9 @@ std::optional<double> f1_score(RankedCounts counts, std::size_t first);
 /// threshold on the grid (others are rounded down to the lower edge of their bin), AUC and AP up to the order
 /// within bins.
 metrics::LinkQuality link_quality(const LinkSummary& summary, double threshold = 0.5);
+
+/// As metrics::brier_score, up to rounding.
+std::optional<double> brier_score(const LinkSummary& summary);
 
 /// The threshold on the grid with the greatest F1, the highest if several; 0.5 without true links.
 double best_f1_threshold(const LinkSummary& summary);

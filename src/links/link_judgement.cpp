@@ -2,35 +2,16 @@
 
 #include <cassert>
 
+#include "links/detail/dark_draws.hpp"
+#include "links/detail/link_cases.hpp"
 #include "links/detail/link_draws.hpp"
 
 namespace clearway::links {
 namespace {
 
+using detail::cases_of;
 using detail::Drawn;
-
-/// Case `number` of each run.
-std::vector<const LinkCase*> cases_of(std::span<const LinkRun> runs, std::size_t number) {
-    std::vector<const LinkCase*> cases;
-    for (const LinkRun& run : runs)
-        cases.push_back(&run.cases[number]);
-    return cases;
-}
-
-double threshold_of(std::span<const LinkRun> validation, std::size_t number) {
-    LinkSummary pooled;
-    for (const LinkCase* const one : cases_of(validation, number))
-        pooled.add(one->scores.of(LinkSubset::all));
-    return best_f1_threshold(pooled);
-}
-
-detail::DrawnMeasures draw_subset(const std::vector<const LinkCase*>& cases, LinkSubset subset,
-                                  double threshold, const analysis::RunResampling& resampling) {
-    std::vector<LinkSummary> runs;
-    for (const LinkCase* const one : cases)
-        runs.push_back(one->scores.of(subset));
-    return detail::draw_measures(runs, threshold, resampling);
-}
+using detail::summaries_of;
 
 LinkMeasures measures_from(const detail::DrawnMeasures& drawn, const analysis::RunResampling& resampling) {
     return {drawn.sum.pairs(),
@@ -39,7 +20,8 @@ LinkMeasures measures_from(const detail::DrawnMeasures& drawn, const analysis::R
             drawn.auc.measured(resampling),
             drawn.f1.measured(resampling),
             drawn.log_loss.measured(resampling),
-            drawn.ece.measured(resampling)};
+            drawn.ece.measured(resampling),
+            drawn.brier.measured(resampling)};
 }
 
 LinkEndToEnd end_to_end(const std::vector<const LinkCase*>& cases,
@@ -129,7 +111,7 @@ void LinkJudgement::add(const LinkRuns& runs) {
     const std::size_t cases = runs.test.front().cases.size();
     std::vector<double> thresholds;
     for (std::size_t number = 0; number < cases; ++number) {
-        thresholds.push_back(threshold_of(runs.validation, number));
+        thresholds.push_back(detail::threshold_of(runs.validation, number));
         add_pooled(runs, number, thresholds.back());
     }
     if (runs_by_scenario_.size() < 2) return;
@@ -143,15 +125,9 @@ void LinkJudgement::add_pooled(const LinkRuns& runs, std::size_t number, double 
     const std::vector<const LinkCase*> cases = cases_of(runs.test, number);
     LinkResult result = result_for(runs.test.front(), number, threshold);
     if (runs_by_scenario_.size() == 1) result.scenario = runs.test.front().scenario;
-    for (const LinkSubset subset : link_subsets) {
-        const detail::DrawnMeasures drawn = draw_subset(cases, subset, threshold, pooled_);
-        result.subsets[static_cast<std::size_t>(subset)] = measures_from(drawn, pooled_);
-        if (subset == LinkSubset::all)
-            pooled_cases_.push_back({results_.size(), {drawn.ap.draws, drawn.f1.draws}});
-    }
+    pooled_cases_.push_back({results_.size(), measure(cases, pooled_, result)});
     for (const LinkCase* const one : cases)
         result.scores.add(one->scores);
-    result.end_to_end = end_to_end(cases, pooled_);
     add_timing(runs.test_timing, number, result);
     results_.push_back(std::move(result));
 }
@@ -167,13 +143,25 @@ void LinkJudgement::add_scenario(const LinkRuns& runs, std::size_t number, std::
     const std::vector<const LinkCase*> cases = cases_of(own, number);
     LinkResult result = result_for(own.front(), number, threshold);
     result.scenario = own.front().scenario;
-    for (const LinkSubset subset : link_subsets) {
-        result.subsets[static_cast<std::size_t>(subset)] =
-            measures_from(draw_subset(cases, subset, threshold, resampling), resampling);
-    }
-    result.end_to_end = end_to_end(cases, resampling);
+    measure(cases, resampling, result);
     add_timing(std::span(runs.test_timing).subspan(first, count), number, result);
     results_.push_back(std::move(result));
+}
+
+LinkJudgement::Draws LinkJudgement::measure(const std::vector<const LinkCase*>& cases,
+                                            const analysis::RunResampling& resampling, LinkResult& result) {
+    Draws draws;
+    for (const LinkSubset subset : link_subsets) {
+        const std::vector<LinkSummary> runs = summaries_of(cases, subset);
+        const detail::DrawnMeasures drawn = detail::draw_measures(runs, result.threshold, resampling);
+        result.subsets[static_cast<std::size_t>(subset)] = measures_from(drawn, resampling);
+        if (subset != LinkSubset::all) continue;
+        result.failed = detail::failed_measures(cases, runs, drawn, result.threshold, resampling);
+        draws = {drawn.ap.draws, drawn.f1.draws};
+    }
+    result.dark = detail::dark_measures(cases, resampling);
+    result.end_to_end = end_to_end(cases, resampling);
+    return draws;
 }
 
 std::vector<LinkGain> LinkJudgement::gains(const std::string& against) const {

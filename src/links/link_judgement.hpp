@@ -17,6 +17,30 @@ struct LinkMeasures {
     std::uint64_t pairs = 0;
     std::uint64_t true_links = 0;
     analysis::Measured ap, auc, f1, log_loss, ece;  ///< As metrics::LinkQuality.
+    analysis::Measured brier;                       ///< As metrics::brier_score.
+};
+
+/// All failed links: true, and neither known nor detected by the observation. The candidates are a part of
+/// them; those outside are never found.
+struct LinkFailed {
+    std::uint64_t links = 0;
+    std::uint64_t seen = 0;                    ///< Of them: both ends have reported and are not forgotten.
+    analysis::Measured candidate_recall;       ///< Share of the failed links that are candidates.
+    analysis::Measured candidate_recall_seen;  ///< The same of those seen.
+    analysis::Measured ap, f1;  ///< Those of all candidates, with recall over all failed links.
+};
+
+/// What is believed of dark vehicles: those on the road that were not heard just now.
+struct LinkDark {
+    std::uint64_t vehicles = 0;    ///< Summed over reports.
+    std::uint64_t never_seen = 0;  ///< Of them: never reported, or forgotten.
+    analysis::Measured believed;   ///< Share that the belief holds at all.
+    /// Distance of the believed from the true place, of those believed, m.
+    analysis::Measured place_median_m, place_p95_m;
+    /// Cases in which the true or the believed next vehicle ahead in the lane of an emergency or automated
+    /// vehicle is dark; the believed one depends on the predictor, and so does this number.
+    std::uint64_t next_cases = 0;
+    analysis::Measured next_ahead;  ///< Share of them in which the belief is right.
 };
 
 /// The believed graph compared with the true one, at the predictor's own link threshold. True links outside
@@ -43,6 +67,8 @@ struct LinkResult {
     std::string predictor;
     double threshold = 0.5;  ///< For F1, chosen on the validation runs of all scenarios together.
     std::array<LinkMeasures, link_subsets.size()> subsets;
+    LinkFailed failed;
+    LinkDark dark;
     LinkEndToEnd end_to_end;
     double report_us = 0.0;        ///< Mean wall time of one prediction.
     double report_vehicles = 0.0;  ///< Mean number in an observation.
@@ -92,6 +118,9 @@ class LinkJudgement {
         std::size_t result = 0;
         Draws draws;
     };
+    /// All figures of a result but its times. Returns the draws behind the AP and F1 of all candidates.
+    static Draws measure(const std::vector<const LinkCase*>& cases, const analysis::RunResampling& resampling,
+                         LinkResult& result);
     void add_pooled(const LinkRuns& runs, std::size_t number, double threshold);
     void add_scenario(const LinkRuns& runs, std::size_t number, std::size_t scenario, double threshold);
     LinkGain gain(const PooledCase& one, const PooledCase& other) const;

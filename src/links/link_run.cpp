@@ -12,9 +12,9 @@
 namespace clearway::links {
 namespace {
 
-// The file: a line of magic, a line of JSON, the score summaries as variable-length integers (LEB128), and a
-// hash of all of these as 16 hex digits.
-constexpr std::string_view magic = "clearway links 1\n";
+// The file: a line of magic, a line of JSON, by case the score summaries and the place errors as
+// variable-length integers (LEB128), and a hash of all of these as 16 hex digits.
+constexpr std::string_view magic = "clearway links 2\n";
 constexpr std::size_t seal_size = 16;
 
 using core::Json;
@@ -48,6 +48,7 @@ class Writer {
         }
         if (summary.bins.empty()) return;
         add(summary.log_loss);
+        add(summary.brier);
         for (const LinkSummary::Calibration& bin : summary.calibration) {
             add(bin.pairs);
             add(bin.linked);
@@ -58,6 +59,15 @@ class Writer {
         for (const LinkSummary& cell : scores.cells)
             add(cell);
         add(scores.policy);
+    }
+    void add(const PlaceErrors& errors) {
+        add(errors.bins.size());
+        std::uint32_t last = 0;
+        for (const PlaceErrors::Bin& bin : errors.bins) {
+            add(bin.bin - last);
+            add(bin.vehicles);
+            last = bin.bin;
+        }
     }
 
   private:
@@ -83,17 +93,17 @@ class Reader {
         LinkSummary summary;
         const std::uint64_t bins = integer();
         if (bins > LinkGrid::size) refuse(file_, fmt::format("lists {} bins", bins));
-        std::uint64_t last = 0;
+        std::uint32_t last = 0;
         for (std::uint64_t i = 0; i < bins; ++i) {
-            last += integer();
-            if (last >= LinkGrid::size) refuse(file_, fmt::format("names bin {}", last));
+            last = bin_after(last, LinkGrid::size);
             LinkSummary::Bin& bin = summary.bins.emplace_back();
-            bin.bin = static_cast<std::uint32_t>(last);
+            bin.bin = last;
             bin.linked = integer();
             bin.unlinked = integer();
         }
         if (bins == 0) return summary;
         summary.log_loss = integer();
+        summary.brier = integer();
         for (LinkSummary::Calibration& bin : summary.calibration) {
             bin.pairs = integer();
             bin.linked = integer();
@@ -108,9 +118,27 @@ class Reader {
         scores.policy = summary();
         return scores;
     }
+    PlaceErrors places() {
+        PlaceErrors errors;
+        const std::uint64_t bins = integer();
+        if (bins > PlaceGrid::size) refuse(file_, fmt::format("lists {} bins of place errors", bins));
+        std::uint32_t last = 0;
+        for (std::uint64_t i = 0; i < bins; ++i) {
+            last = bin_after(last, PlaceGrid::size);
+            errors.bins.push_back({last, integer()});
+        }
+        return errors;
+    }
     bool at_end() const { return rest_.empty(); }
 
   private:
+    /// Bins are stored as the steps between them.
+    std::uint32_t bin_after(std::uint32_t last, std::uint32_t size) {
+        const std::uint64_t bin = last + integer();
+        if (bin >= size) refuse(file_, fmt::format("names bin {}", bin));
+        return static_cast<std::uint32_t>(bin);
+    }
+
     std::string_view rest_;
     const std::filesystem::path& file_;
 };
@@ -176,8 +204,10 @@ void write_link_run(const std::filesystem::path& file, const LinkRun& run, const
     std::string bytes(magic);
     bytes += head_of(run).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     Writer writer(bytes);
-    for (const LinkCase& one : run.cases)
+    for (const LinkCase& one : run.cases) {
         writer.add(one.scores);
+        writer.add(one.places);
+    }
     bytes += seal_of(bytes);
     core::write_atomically(file, bytes);
 }
@@ -185,7 +215,7 @@ void write_link_run(const std::filesystem::path& file, const LinkRun& run, const
 LinkRun read_link_run(const std::filesystem::path& file) {
     const std::string bytes = core::read_file(file);
     std::string_view content = bytes;
-    if (!content.starts_with(magic)) refuse(file, "is not a file of scored links, version 1");
+    if (!content.starts_with(magic)) refuse(file, "is not a file of scored links, version 2");
     if (content.size() < magic.size() + seal_size ||
         content.substr(content.size() - seal_size) != seal_of(content.substr(0, content.size() - seal_size)))
         refuse(file, "is damaged: its checksum does not match");
@@ -198,8 +228,10 @@ LinkRun read_link_run(const std::filesystem::path& file) {
     if (!problems.empty()) throw core::InputError(std::move(problems));
     if (line_end == std::string_view::npos) refuse(file, "ends too early");
     Reader reader(content.substr(line_end + 1), file);
-    for (LinkCase& one : run.cases)
+    for (LinkCase& one : run.cases) {
         one.scores = reader.scores();
+        one.places = reader.places();
+    }
     if (!reader.at_end()) refuse(file, "holds more data than it declares");
     return run;
 }

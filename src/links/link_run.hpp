@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "links/link_scores.hpp"
+#include "links/place_errors.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::links {
@@ -19,6 +20,7 @@ struct LinkCase {
     LinkTruth truth;
     LinkBelief belief;
     LinkScoreSummary scores;
+    PlaceErrors places = {};  ///< Of dark vehicles that are on the road and believed.
 
     bool operator==(const LinkCase&) const = default;
 };

@@ -70,6 +70,8 @@ struct LinkTruth {
     std::uint64_t never_seen = 0;
     std::uint64_t outside = 0;
     std::uint64_t policy_links = 0;
+    std::uint64_t dark_vehicles = 0;
+    std::uint64_t unseen_vehicles = 0;
 
     bool operator==(const LinkTruth&) const = default;
     static constexpr auto fields() {
@@ -86,7 +88,11 @@ struct LinkTruth {
                   "candidate",
                   ""},
             Field{"policy_links", "1", &T::policy_links, 0.0, 1e15,
-                  "Of them: between an emergency vehicle and one ahead on its route", ""});
+                  "Of them: between an emergency vehicle and one ahead on its route", ""},
+            Field{"dark_vehicles", "1", &T::dark_vehicles, 0.0, 1e15,
+                  "Vehicles on the road that were not heard just now, summed over rounds", ""},
+            Field{"unseen_vehicles", "1", &T::unseen_vehicles, 0.0, 1e15,
+                  "Of them: never reported, or forgotten", ""});
     }
 };
 
@@ -97,6 +103,9 @@ struct LinkBelief {
     std::uint64_t policy_found = 0;
     std::uint64_t believed_vehicles = 0;
     std::uint64_t ghosts = 0;
+    std::uint64_t dark_believed = 0;
+    std::uint64_t next_cases = 0;
+    std::uint64_t next_right = 0;
 
     bool operator==(const LinkBelief&) const = default;
     static constexpr auto fields() {
@@ -107,7 +116,13 @@ struct LinkBelief {
             Field{"listed_false", "1", &B::listed_false, 0.0, 1e15, "Believed links that are not", ""},
             Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy links that are believed", ""},
             Field{"believed_vehicles", "1", &B::believed_vehicles, 0.0, 1e15, "Believed vehicles", ""},
-            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: no longer on the road", ""});
+            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: no longer on the road", ""},
+            Field{"dark_believed", "1", &B::dark_believed, 0.0, 1e15,
+                  "Dark vehicles on the road that are believed, somewhere", ""},
+            Field{"next_cases", "1", &B::next_cases, 0.0, 1e15,
+                  "Emergency and automated vehicles whose true or believed next vehicle ahead is dark", ""},
+            Field{"next_right", "1", &B::next_right, 0.0, 1e15,
+                  "Of them: the believed one is the true one, or there is none in both", ""});
     }
 };
 

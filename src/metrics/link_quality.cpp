@@ -106,6 +106,16 @@ std::optional<double> log_loss(ScoredLinks links) {
     return sum / static_cast<double>(links.linked.size());
 }
 
+std::optional<double> brier_score(ScoredLinks links) {
+    if (links.linked.empty()) return std::nullopt;
+    double sum = 0.0;
+    for (std::size_t row = 0; row < links.linked.size(); ++row) {
+        const double error = links.probability[row] - static_cast<double>(links.linked[row]);
+        sum += error * error;
+    }
+    return sum / static_cast<double>(links.linked.size());
+}
+
 std::optional<double> calibration_error(ScoredLinks links) {
     if (links.linked.empty()) return std::nullopt;
     constexpr int bin_count = 15;

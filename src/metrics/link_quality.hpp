@@ -68,6 +68,9 @@ double best_f1_threshold(ScoredLinks links);
 /// 1e-15]. Empty without pairs.
 std::optional<double> log_loss(ScoredLinks links);
 
+/// Mean of (probability - truth)^2, where the truth is 1 or 0 (Brier 1950). Empty without pairs.
+std::optional<double> brier_score(ScoredLinks links);
+
 /// Expected calibration error: mean over pairs of |mean probability - share of true links| of the pair's bin,
 /// 15 bins of equal width (Guo et al. 2017, "On Calibration of Modern Neural Networks", with the probability
 /// of a link in place of the confidence). Empty without pairs.

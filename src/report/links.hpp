@@ -26,7 +26,8 @@ struct LinkFacts {
     std::vector<links::LinkGain> gains;
 };
 
-/// AP and F1 by failure and predictor, and errors against the opponent.
+/// The measures by failure and predictor, and errors against the opponent. No
+/// row of the measures is longer than 80 columns.
 std::string links_console(const LinkFacts& facts);
 
 /// Everything but curves, as one JSON object. Intervals are `_low_95` and `_high_95` beside each measure.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -176,22 +177,86 @@ std::string end_to_end_section(const LinkFacts& facts) {
     return html;
 }
 
+/// One row per failure and predictor, one table for each exits.
+std::string results_section(const LinkFacts& facts, const std::vector<std::string>& head,
+                            const std::function<std::vector<std::string>(const LinkResult&)>& cells) {
+    std::string html;
+    for (const links::Exits exits : facts.exits) {
+        DataTable table{{"Failure, predictor"}, {}};
+        table.head.insert(table.head.end(), head.begin(), head.end());
+        for (const std::string& failure : facts.failures) {
+            for (const LinkResult* const result : pooled(facts, exits, failure)) {
+                std::vector<std::string>& row = table.rows.emplace_back();
+                row.push_back(failure + ", " + result->predictor);
+                std::ranges::move(cells(*result), std::back_inserter(row));
+            }
+        }
+        html += fmt::format("<h3>Exits {}</h3>\n{}", core::name(exits), detail::to_html(table));
+    }
+    return html;
+}
+
+std::string failed_section(const LinkFacts& facts) {
+    return "<p>A link has failed when it is true and the observation neither knows nor detects it. "
+           "Candidates "
+           "are a part of the failed links, and no predictor finds the others: here they count as "
+           "missed.</p>\n" +
+           results_section(facts,
+                           {"failed links", "candidates\u2019 share, %", "of those seen, %", "AP over all",
+                            "F1 over all"},
+                           [](const LinkResult& result) -> std::vector<std::string> {
+                               const links::LinkFailed& failed = result.failed;
+                               return {grouped(failed.links),
+                                       with_interval(failed.candidate_recall, 1, 100.0),
+                                       with_interval(failed.candidate_recall_seen, 1, 100.0),
+                                       with_interval(failed.ap, 4), with_interval(failed.f1, 4)};
+                           });
+}
+
+std::string dark_section(const LinkFacts& facts) {
+    return "<p>Dark vehicles are on the road and were not heard just now. The place error is the distance "
+           "from "
+           "the true to the believed place, of those that are believed. The last columns say how often "
+           "the belief is right about which vehicle is next within 100 m ahead in the lane of an emergency "
+           "or "
+           "automated vehicle, over the cases in which the true or the believed one is dark.</p>\n" +
+           results_section(facts,
+                           {"dark", "never seen", "believed, %", "place error: median, m", "95 %, m", "cases",
+                            "right, %"},
+                           [](const LinkResult& result) -> std::vector<std::string> {
+                               const links::LinkDark& dark = result.dark;
+                               return {grouped(dark.vehicles),
+                                       grouped(dark.never_seen),
+                                       with_interval(dark.believed, 1, 100.0),
+                                       with_interval(dark.place_median_m, 1),
+                                       with_interval(dark.place_p95_m, 1),
+                                       grouped(dark.next_cases),
+                                       with_interval(dark.next_ahead, 1, 100.0)};
+                           });
+}
+
 std::string scenarios_section(const LinkFacts& facts) {
     std::string html;
     for (const std::string& scenario : facts.scenarios) {
         for (const links::Exits exits : facts.exits) {
-            DataTable table{{"Failure, predictor", "pairs", "true links", "AP", "AUC", "F1", "log loss, nat",
-                             "ECE", "AP, hard", "AP, policy\u2019s"},
-                            {}};
+            DataTable table{
+                {"Failure, predictor", "pairs", "true links", "AP", "AUC", "F1", "log loss, nat", "ECE",
+                 "Brier", "AP, hard", "AP, policy\u2019s", "candidates\u2019 share, %", "AP, all failed",
+                 "F1, all failed", "place error: median, m", "95 %, m", "next ahead right, %"},
+                {}};
             for (const LinkResult& result : facts.results) {
                 if (result.scenario != scenario || result.exits != exits) continue;
                 const links::LinkMeasures& all = result.of(LinkSubset::all);
-                table.rows.push_back({result.failure + ", " + result.predictor, grouped(all.pairs),
-                                      grouped(all.true_links), with_interval(all.ap, 4),
-                                      decimal(all.auc.value, 4), with_interval(all.f1, 4),
-                                      decimal(all.log_loss.value, 3), decimal(all.ece.value, 4),
-                                      decimal(result.of(LinkSubset::hard).ap.value, 4),
-                                      decimal(result.of(LinkSubset::policy).ap.value, 4)});
+                table.rows.push_back(
+                    {result.failure + ", " + result.predictor, grouped(all.pairs), grouped(all.true_links),
+                     with_interval(all.ap, 4), decimal(all.auc.value, 4), with_interval(all.f1, 4),
+                     decimal(all.log_loss.value, 3), decimal(all.ece.value, 4), decimal(all.brier.value, 4),
+                     decimal(result.of(LinkSubset::hard).ap.value, 4),
+                     decimal(result.of(LinkSubset::policy).ap.value, 4),
+                     with_interval(result.failed.candidate_recall, 1, 100.0),
+                     with_interval(result.failed.ap, 4), with_interval(result.failed.f1, 4),
+                     with_interval(result.dark.place_median_m, 1), with_interval(result.dark.place_p95_m, 1),
+                     with_interval(result.dark.next_ahead, 1, 100.0)});
             }
             html += fmt::format("<details><summary>{}, exits {}</summary>\n{}</details>\n", escaped(scenario),
                                 core::name(exits), detail::to_html(table));
@@ -249,6 +314,11 @@ std::vector<Section> sections_of(const LinkFacts& facts) {
     sections.push_back(
         {"calibration", "Calibration error (ECE)",
          measure_section(facts, 4, [](const LinkResult& result) { return result.of(LinkSubset::all).ece; })});
+    sections.push_back({"brier", "Brier score", measure_section(facts, 4, [](const LinkResult& result) {
+                            return result.of(LinkSubset::all).brier;
+                        })});
+    sections.push_back({"failed", "All failed links", failed_section(facts)});
+    sections.push_back({"dark", "Dark vehicles, and who is next ahead", dark_section(facts)});
     sections.push_back({"curves", "Curves", curves_section(facts)});
     sections.push_back({"end-to-end", "Links end to end", end_to_end_section(facts)});
     if (facts.scenarios.size() > 1)

@@ -20,6 +20,8 @@ using Json = nlohmann::ordered_json;
 using links::LinkSubset;
 
 constexpr std::size_t failure_width = 9;
+constexpr std::size_t predictor_width = 22;  ///< With the columns, a row takes 80.
+constexpr std::size_t column_width = 8;
 
 const LinkResult* pooled(const LinkFacts& facts, links::Exits exits, const std::string& failure,
                          const std::string& predictor) {
@@ -37,6 +39,10 @@ std::string share(const std::optional<double>& value, int decimals = 4) {
     return text.starts_with("0.") ? text.substr(1) : text;
 }
 
+std::string metres(const std::optional<double>& value) {
+    return value ? fmt::format("{:.1f}", *value) : "-";
+}
+
 std::string percent(const Measured& measured) {
     if (!measured.value) return "-";
     if (*measured.value < -9.99) return "below -999";
@@ -48,7 +54,7 @@ std::string percent(const Measured& measured) {
     return text;
 }
 
-/// A table of failures by predictors.
+/// A table of failures by predictors, for gains.
 void append_matrix(const LinkFacts& facts, const std::vector<std::string>& predictors, std::size_t width,
                    const std::function<std::string(const std::string&, const std::string&)>& cell,
                    std::string& text) {
@@ -84,17 +90,66 @@ void append_gains(const LinkFacts& facts, links::Exits exits, const char* what, 
         text);
 }
 
-void append_exits(const LinkFacts& facts, links::Exits exits, std::string& text) {
-    fmt::format_to(std::back_inserter(text), "AP / F1, exits {}\n", core::name(exits));
-    append_matrix(
-        facts, facts.predictors, 13,
-        [&](const std::string& failure, const std::string& predictor) -> std::string {
+void append_row(std::string_view failure, std::string_view predictor, const std::vector<std::string>& cells,
+                std::string& text) {
+    auto out = std::back_inserter(text);
+    if (failure.size() > failure_width) {
+        fmt::format_to(out, "{}\n", failure);
+        failure = "";
+    }
+    fmt::format_to(out, "{:<{}} {:<{}}", failure, failure_width, predictor, predictor_width);
+    for (const std::string& cell : cells)
+        fmt::format_to(out, "{:>{}}", cell, column_width);
+    text += '\n';
+}
+
+/// A table of the pooled results, one row each, with the failure at its first predictor.
+void append_rows(const LinkFacts& facts, links::Exits exits, const std::vector<std::string>& head,
+                 const std::function<std::vector<std::string>(const LinkResult&)>& cells, std::string& text) {
+    append_row("failure", "predictor", head, text);
+    for (const std::string& failure : facts.failures) {
+        std::string_view shown = failure;
+        for (const std::string& predictor : facts.predictors) {
             const LinkResult* const result = pooled(facts, exits, failure, predictor);
-            if (result == nullptr) return "-";
-            const LinkMeasures& all = result->of(LinkSubset::all);
-            return share(all.ap.value) + " / " + share(all.f1.value);
+            if (result == nullptr) continue;
+            append_row(shown, predictor, cells(*result), text);
+            shown = "";
+        }
+    }
+}
+
+void append_measures(const LinkFacts& facts, links::Exits exits, std::string& text) {
+    auto out = std::back_inserter(text);
+    fmt::format_to(out,
+                   "Links, exits {}: over the candidates; the candidates' share of all failed\n"
+                   "links (recall); and over all failed links\n",
+                   core::name(exits));
+    append_rows(
+        facts, exits, {"AP", "F1", "recall", "AP all", "F1 all"},
+        [](const LinkResult& result) -> std::vector<std::string> {
+            const LinkMeasures& all = result.of(LinkSubset::all);
+            return {share(all.ap.value), share(all.f1.value), share(result.failed.candidate_recall.value),
+                    share(result.failed.ap.value), share(result.failed.f1.value)};
         },
         text);
+    fmt::format_to(out,
+                   "\nCalibration; dark vehicles: share believed, place error in m; who is next ahead\n"
+                   "in the lane; exits {}\n",
+                   core::name(exits));
+    append_rows(
+        facts, exits, {"ECE", "Brier", "known", "median", "95 %", "next"},
+        [](const LinkResult& result) -> std::vector<std::string> {
+            const LinkMeasures& all = result.of(LinkSubset::all);
+            const links::LinkDark& dark = result.dark;
+            return {share(all.ece.value),           share(all.brier.value),
+                    share(dark.believed.value),     metres(dark.place_median_m.value),
+                    metres(dark.place_p95_m.value), share(dark.next_ahead.value)};
+        },
+        text);
+}
+
+void append_exits(const LinkFacts& facts, links::Exits exits, std::string& text) {
+    append_measures(facts, exits, text);
     append_gains(facts, exits, "1 - AP", &LinkGain::ap_error_reduction, text);
     append_gains(facts, exits, "1 - F1", &LinkGain::f1_error_reduction, text);
 }
@@ -113,6 +168,26 @@ void put_measures(Json& object, const std::string& prefix, const LinkMeasures& m
     put(object, prefix + "f1", measures.f1);
     put(object, prefix + "log_loss", measures.log_loss);
     put(object, prefix + "ece", measures.ece);
+    put(object, prefix + "brier", measures.brier);
+}
+
+void put_failed(Json& object, const links::LinkFailed& failed) {
+    object["failed_links"] = failed.links;
+    object["failed_links_seen"] = failed.seen;
+    put(object, "candidate_recall", failed.candidate_recall);
+    put(object, "candidate_recall_seen", failed.candidate_recall_seen);
+    put(object, "ap_failed", failed.ap);
+    put(object, "f1_failed", failed.f1);
+}
+
+void put_dark(Json& object, const links::LinkDark& dark) {
+    object["dark_vehicles"] = dark.vehicles;
+    object["dark_never_seen"] = dark.never_seen;
+    put(object, "dark_believed", dark.believed);
+    put(object, "place_error_median_m", dark.place_median_m);
+    put(object, "place_error_p95_m", dark.place_p95_m);
+    object["next_ahead_cases"] = dark.next_cases;
+    put(object, "next_ahead_accuracy", dark.next_ahead);
 }
 
 void put_end_to_end(Json& object, const links::LinkEndToEnd& end_to_end) {
@@ -141,6 +216,8 @@ Json row_of(const LinkResult& result) {
     put_measures(row, "hard_", result.of(LinkSubset::hard));
     put_measures(row, "policy_", result.of(LinkSubset::policy));
     put_end_to_end(row, result.end_to_end);
+    put_failed(row, result.failed);
+    put_dark(row, result.dark);
     row["us_per_report"] = result.report_us;
     row["vehicles_per_report"] = result.report_vehicles;
     return row;

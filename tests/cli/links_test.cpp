@@ -48,7 +48,8 @@ TEST_F(LinksTest, judges_predictors_and_does_no_run_twice) {
             EXPECT_DOUBLE_EQ(result.at("end_to_end_f1"), 1.0);
         } else {
             for (const char* const measure :
-                 {"ap", "auc", "f1", "log_loss", "ece", "ap_low_95", "policy_recall"})
+                 {"ap", "auc", "f1", "log_loss", "ece", "ap_low_95", "policy_recall", "brier", "ap_failed",
+                  "f1_failed", "candidate_recall", "candidate_recall_seen", "dark_believed"})
                 EXPECT_TRUE(result.at(measure).is_number()) << measure;
             EXPECT_GT(result.at("end_to_end_recall"), 0.5);
         }
@@ -86,7 +87,7 @@ TEST_F(LinksTest, prints_tables_of_the_split_that_is_asked_for) {
     const Ended test = clearway(evaluate({"--failure", "B10", "--predictor", "last_seen"}));
     ASSERT_EQ(test.code, 0) << test.err;
     EXPECT_THAT(test.out, AllOf(HasSubstr("line: test seeds"), HasSubstr("replications 0 to 1"),
-                                HasSubstr("AP / F1, exits unknown"), HasSubstr("B10")));
+                                HasSubstr("Links, exits unknown"), HasSubstr("B10")));
     const Ended validation =
         clearway(evaluate({"--failure", "B10", "--predictor", "last_seen", "--split", "validation"}));
     EXPECT_THAT(validation.out, AllOf(HasSubstr("validation seeds"), HasSubstr("replications 1000 to 1000")));

@@ -93,6 +93,8 @@ TEST_P(HistogramAgainstExact, gives_the_same_measures) {
     EXPECT_DOUBLE_EQ(counted.f1.value(), exact.f1.value());
     EXPECT_NEAR(counted.log_loss.value(), exact.log_loss.value(), 1e-7);
     EXPECT_NEAR(counted.ece.value(), exact.ece.value(), 1e-7);
+    EXPECT_NEAR(brier_score(summary).value(),
+                metrics::brier_score({sample.probability, sample.linked}).value(), 1e-9);
     const double best = metrics::best_f1_threshold({sample.probability, sample.linked});
     EXPECT_NEAR(counted.f1.value(), sample.exact(best).f1.value(), 1e-3);
 }
@@ -115,6 +117,8 @@ TEST(LinkHistogram, counts_certainties_and_ties) {
     EXPECT_DOUBLE_EQ(counted.auc.value(), exact.auc.value());
     EXPECT_DOUBLE_EQ(counted.f1.value(), exact.f1.value());
     EXPECT_NEAR(counted.log_loss.value(), exact.log_loss.value(), 1e-6);
+    // Of seven pairs two are certain and wrong; of the ties one is 0.75 off and one 0.25.
+    EXPECT_NEAR(brier_score(sample.histogram.summary()).value(), (2.0 + 0.5625 + 0.0625) / 7.0, 1e-9);
 }
 
 TEST(LinkSummary, of_nothing_has_no_measures) {
@@ -122,6 +126,7 @@ TEST(LinkSummary, of_nothing_has_no_measures) {
     const metrics::LinkQuality quality = link_quality(empty);
     EXPECT_EQ(quality.pairs, 0U);
     EXPECT_FALSE(quality.ap || quality.auc || quality.f1 || quality.log_loss || quality.ece);
+    EXPECT_FALSE(brier_score(empty).has_value());
     EXPECT_EQ(best_f1_threshold(empty), 0.5);
     EXPECT_TRUE(precision_recall(empty).empty());
 }

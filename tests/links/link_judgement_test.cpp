@@ -88,6 +88,115 @@ TEST(LinkJudgement, pools_runs_and_lists_every_scenario) {
     EXPECT_DOUBLE_EQ(pooled.report_vehicles, 10.0);
 }
 
+/// One run: candidates at .9 (linked), .6 (not) and .3 (linked); one failed link outside the candidates, and
+/// one with an end that was never seen.
+LinkRun small_run(std::uint32_t replication) {
+    LinkScores scores;
+    scores.add(0.9F, true, {});
+    scores.add(0.6F, false, {});
+    scores.add(0.3F, true, {});
+    PlaceHistogram places;
+    for (const double error_m : {2.05, 2.05, 8.05, 8.05})
+        places.add(error_m);
+    LinkRun run{.scenario = "merge",
+                .configuration_hash = "",
+                .study_seed = 1,
+                .replication = replication,
+                .predictor = "kalman",
+                .cases = {}};
+    run.cases.push_back({"B10",
+                         Exits::known,
+                         {.reports = 1,
+                          .true_links = 9,
+                          .never_seen = 1,
+                          .outside = 1,
+                          .dark_vehicles = 5,
+                          .unseen_vehicles = 1},
+                         {.dark_believed = 4, .next_cases = 8, .next_right = 6},
+                         scores.summary(),
+                         places.errors()});
+    return run;
+}
+
+LinkResult small_result(const std::vector<LinkRun>& test) {
+    LinkRuns runs;
+    runs.test = test;
+    for (std::size_t i = 0; i < test.size(); ++i)
+        runs.test_timing.push_back({{{"B10", Exits::known, 1, 5, 0.001}}});
+    runs.validation.push_back(small_run(100));
+    LinkJudgement judgement({test.size()});
+    judgement.add(runs);
+    return judgement.results().at(0);
+}
+
+TEST(LinkJudgement, counts_links_outside_the_candidates_as_missed) {
+    const LinkResult result = small_result({small_run(0), small_run(1)});
+    const LinkMeasures& all = result.of(LinkSubset::all);
+    EXPECT_NEAR(all.ap.value.value(), 0.5 * 1.0 + 0.5 * 2.0 / 3.0, 1e-12);
+    EXPECT_NEAR(all.brier.value.value(), (0.01 + 0.36 + 0.49) / 3.0, 1e-6);
+    EXPECT_EQ(result.failed.links, 8U) << "four in each run";
+    EXPECT_EQ(result.failed.seen, 6U);
+    EXPECT_DOUBLE_EQ(result.failed.candidate_recall.value.value(), 0.5);
+    EXPECT_DOUBLE_EQ(result.failed.candidate_recall_seen.value.value(), 2.0 / 3.0);
+    EXPECT_NEAR(result.failed.ap.value.value(), 0.25 * 1.0 + 0.25 * 2.0 / 3.0, 1e-12);
+    // All three candidates are above the threshold: 2 TP / (2 TP + FP + FN) = 4 / (4 + 1 + 2).
+    EXPECT_DOUBLE_EQ(result.failed.f1.value.value(), 4.0 / 7.0);
+    for (const analysis::Measured* const measured :
+         {&result.failed.candidate_recall, &result.failed.candidate_recall_seen, &result.failed.ap,
+          &result.failed.f1, &all.brier})
+        EXPECT_TRUE(measured->interval.has_value());
+}
+
+TEST(LinkJudgement, without_a_true_candidate_finds_none_of_the_failed_links) {
+    LinkRun run = small_run(0);
+    LinkScores scores;
+    scores.add(0.9F, false, {});
+    run.cases[0].scores = scores.summary();
+    const LinkResult result = small_result({run});
+    EXPECT_FALSE(result.of(LinkSubset::all).ap.value.has_value());
+    EXPECT_DOUBLE_EQ(result.failed.ap.value.value(), 0.0);
+    EXPECT_DOUBLE_EQ(result.failed.candidate_recall.value.value(), 0.0);
+    run.cases[0].truth = {};
+    const LinkResult nothing_failed = small_result({run});
+    EXPECT_FALSE(nothing_failed.failed.ap.value.has_value());
+    EXPECT_FALSE(nothing_failed.failed.candidate_recall.value.has_value());
+}
+
+/// Half of the vehicles are off by less than 2.1 m; of the other half nine tenths by less than 8.09 m.
+TEST(LinkJudgement, says_how_far_dark_vehicles_are_off_and_who_is_next) {
+    const LinkResult result = small_result({small_run(0), small_run(1)});
+    EXPECT_EQ(result.dark.vehicles, 10U);
+    EXPECT_EQ(result.dark.never_seen, 2U);
+    EXPECT_DOUBLE_EQ(result.dark.believed.value.value(), 0.8);
+    EXPECT_NEAR(result.dark.place_median_m.value.value(), 2.1, 1e-9);
+    EXPECT_NEAR(result.dark.place_p95_m.value.value(), 8.09, 1e-9);
+    EXPECT_EQ(result.dark.next_cases, 16U);
+    EXPECT_DOUBLE_EQ(result.dark.next_ahead.value.value(), 0.75);
+    EXPECT_TRUE(result.dark.place_median_m.interval.has_value());
+    EXPECT_TRUE(result.dark.next_ahead.interval.has_value());
+}
+
+TEST(LinkJudgement, gives_intervals_of_place_errors_around_them) {
+    std::vector<LinkRun> runs;
+    std::mt19937 engine(5);
+    std::exponential_distribution<double> error_m(0.2);
+    for (std::uint32_t replication = 0; replication < 10; ++replication) {
+        runs.push_back(small_run(replication));
+        PlaceHistogram places;
+        for (int i = 0; i < 300; ++i)
+            places.add(error_m(engine));
+        runs.back().cases[0].places = places.errors();
+    }
+    const LinkDark dark = small_result(runs).dark;
+    EXPECT_NEAR(dark.place_median_m.value.value(), 5.0 * std::log(2.0), 0.5);
+    EXPECT_NEAR(dark.place_p95_m.value.value(), 5.0 * std::log(20.0), 1.5);
+    for (const analysis::Measured* const measured : {&dark.place_median_m, &dark.place_p95_m}) {
+        EXPECT_TRUE(measured->interval->contains(measured->value.value()));
+        EXPECT_GT(measured->interval->half_width(), 0.0);
+        EXPECT_LT(measured->interval->half_width(), 2.0);
+    }
+}
+
 TEST(LinkJudgement, gives_intervals_around_the_values) {
     LinkJudgement judgement({5, 5});
     judgement.add(runs_of("kalman", 1.0));

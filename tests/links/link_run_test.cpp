@@ -26,7 +26,15 @@ LinkRun sample_run() {
                 .replication = 7,
                 .predictor = "kalman",
                 .cases = {}};
-    run.cases.push_back({"B10", Exits::known, {5, 100, 40, 3, 1, 6}, {30, 4, 5, 90, 2}, scores.summary()});
+    PlaceHistogram places;
+    for (const double error_m : {0.05, 0.07, 12.0, 350.0, 9000.0})
+        places.add(error_m);
+    run.cases.push_back({"B10",
+                         Exits::known,
+                         {5, 100, 40, 3, 1, 6, 30, 4},
+                         {30, 4, 5, 90, 2, 26, 11, 7},
+                         scores.summary(),
+                         places.errors()});
     run.cases.push_back({"perfect", Exits::unknown, {}, {}, {}});
     return run;
 }
@@ -70,8 +78,8 @@ TEST_F(LinkRunFile, is_refused_when_damaged_with_the_cure) {
     for (const std::string& damaged : {flipped, bytes.substr(0, bytes.size() - 40), bytes + "x"})
         EXPECT_THAT(refusal(damaged),
                     AllOf(HasSubstr("kalman-0123.links"), HasSubstr("damaged"), HasSubstr("Remove it")));
-    for (const char* const other : {"", "something else", "clearway links 2\n"})
-        EXPECT_THAT(refusal(other), AllOf(HasSubstr("kalman-0123.links"), HasSubstr("version 1")));
+    for (const char* const other : {"", "something else", "clearway links 1\n"})
+        EXPECT_THAT(refusal(other), AllOf(HasSubstr("kalman-0123.links"), HasSubstr("version 2")));
 }
 
 TEST_F(LinkRunFile, is_missed_by_name) {

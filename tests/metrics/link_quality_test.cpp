@@ -82,6 +82,12 @@ TEST(LinkQuality, certainty_that_is_wrong_costs_a_finite_loss) {
     EXPECT_TRUE(std::isfinite(*log_loss(Links{{1.0}, {0}})));
 }
 
+TEST(LinkQuality, brier_score_by_hand) {
+    EXPECT_NEAR(*brier_score(Links{{0.8, 0.25, 1.0}, {1, 0, 0}}), (0.04 + 0.0625 + 1.0) / 3.0, 1e-15);
+    EXPECT_NEAR(*brier_score(Links{{1.0, 0.0}, {1, 0}}), 0.0, 1e-15);
+    EXPECT_FALSE(brier_score(Links{}));
+}
+
 TEST(LinkQuality, calibration_error_weighs_bins_by_their_pairs) {
     // Bin of 0.10: mean 0.10, share 1/2, two pairs. Bin of 0.90: mean 0.90, share 1, one pair.
     EXPECT_NEAR(*calibration_error(Links{{0.10, 0.10, 0.90}, {1, 0, 1}}), (2 * 0.4 + 1 * 0.1) / 3, 1e-12);

@@ -30,8 +30,10 @@ links::LinkResult result_of(const std::string& predictor, const std::string& sce
     result.exits = links::Exits::known;
     result.predictor = predictor;
     result.threshold = 0.4;
-    result.subsets[0] = {2000,          700,           measured(ap),  measured(0.9),
-                         measured(0.8), measured(0.3), measured(0.02)};
+    result.subsets[0] = {2000,          700,           measured(ap),   measured(0.9),
+                         measured(0.8), measured(0.3), measured(0.02), measured(0.07)};
+    result.failed = {1000, 950, measured(0.7), measured(0.74), measured(0.66), measured(0.58)};
+    result.dark = {400, 20, measured(0.95), measured(3.25), measured(41.5), 300, measured(0.62)};
     result.end_to_end.truth = {10, 100, 50, 5, 2, 8};
     result.end_to_end.belief = {30, 6, 4, 90, 20};
     result.end_to_end.policy_recall = measured(0.5);
@@ -75,8 +77,30 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(LinksConsole, prints_measures_and_errors_against_the_opponent) {
     const std::string text = links_console(sample());
-    EXPECT_THAT(text, AllOf(HasSubstr("AP / F1, exits known"), HasSubstr(".9500 / .8000"),
-                            HasSubstr("1 - AP below that of route_rule"), HasSubstr("65 [64, 66]")));
+    EXPECT_THAT(text, AllOf(HasSubstr("Links, exits known"), HasSubstr("1 - AP below that of route_rule"),
+                            HasSubstr("65 [64, 66]")));
+    EXPECT_THAT(text,
+                HasSubstr("B10       graphsage                .9500   .8000   .7000   .6600   .5800\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("B10       graphsage                .0200   .0700   .9500     3.2    41.5   .6200\n"));
+}
+
+TEST(LinksConsole, keeps_within_80_columns_and_gives_a_long_failure_a_line_of_its_own) {
+    LinkFacts facts = sample();
+    facts.against.clear();
+    facts.failures = {"B10,dark_share=0.5,exits=unknown"};
+    for (links::LinkResult& result : facts.results) {
+        result.failure = facts.failures[0];
+        if (result.predictor == "graphsage") result.predictor = "graphsage_as_published";
+    }
+    facts.predictors[0] = "graphsage_as_published";
+    const std::string text = links_console(facts);
+    EXPECT_THAT(text,
+                HasSubstr("\nB10,dark_share=0.5,exits=unknown\n          graphsage_as_published   .9500"));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 80U) << line;
 }
 
 TEST(LinksJson, holds_every_measure_with_its_interval) {
@@ -91,6 +115,20 @@ TEST(LinksJson, holds_every_measure_with_its_interval) {
     EXPECT_EQ(result.at("lost_outside_candidates"), 2);
     EXPECT_EQ(result.at("lost_predicted_away"), 13);
     EXPECT_TRUE(result.at("hard_ap").is_null());
+    EXPECT_DOUBLE_EQ(result.at("brier"), 0.07);
+    EXPECT_EQ(result.at("failed_links"), 1000);
+    EXPECT_EQ(result.at("failed_links_seen"), 950);
+    EXPECT_DOUBLE_EQ(result.at("candidate_recall"), 0.7);
+    EXPECT_DOUBLE_EQ(result.at("candidate_recall_seen_low_95"), 0.73);
+    EXPECT_DOUBLE_EQ(result.at("ap_failed"), 0.66);
+    EXPECT_DOUBLE_EQ(result.at("f1_failed_high_95"), 0.59);
+    EXPECT_EQ(result.at("dark_vehicles"), 400);
+    EXPECT_EQ(result.at("dark_never_seen"), 20);
+    EXPECT_DOUBLE_EQ(result.at("dark_believed"), 0.95);
+    EXPECT_DOUBLE_EQ(result.at("place_error_median_m"), 3.25);
+    EXPECT_DOUBLE_EQ(result.at("place_error_p95_m_low_95"), 41.49);
+    EXPECT_EQ(result.at("next_ahead_cases"), 300);
+    EXPECT_DOUBLE_EQ(result.at("next_ahead_accuracy"), 0.62);
     EXPECT_DOUBLE_EQ(document.at("gains").at(0).at("ap_error_reduction"), 0.65);
 }
 
@@ -107,6 +145,10 @@ TEST(LinksPage, draws_three_curves_with_their_data) {
     EXPECT_THAT(page, AllOf(HasSubstr("Precision over recall"), HasSubstr("Reliability"),
                             HasSubstr("Average precision by age"), HasSubstr("0.9500 [0.9400, 0.9600]")));
     EXPECT_GE(count(page, "<polyline"), 6U);
+    EXPECT_THAT(page,
+                AllOf(HasSubstr("All failed links"), HasSubstr("70.0 [69.0, 71.0]"), HasSubstr("Brier score"),
+                      HasSubstr("0.0700 [0.0600, 0.0800]"), HasSubstr("Dark vehicles, and who is next ahead"),
+                      HasSubstr("41.5 [41.5, 41.5]"), HasSubstr("62.0 [61.0, 63.0]")));
 }
 
 TEST(LinksPage, is_self_contained_and_escapes_what_others_named) {

@@ -106,6 +106,16 @@ Drawn draw_f1(const std::vector<LinkSummary>& runs, double threshold,
     return draw_ratio(twice_found, predicted_and_true, resampling);
 }
 
+Drawn draw_brier(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
+    std::vector<double> sums;
+    std::vector<double> pairs;
+    for (const LinkSummary& run : runs) {
+        sums.push_back(static_cast<double>(run.brier) * LinkSummary::brier_unit);
+        pairs.push_back(static_cast<double>(run.pairs()));
+    }
+    return draw_ratio(sums, pairs, resampling);
+}
+
 Drawn draw_log_loss(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
     std::vector<double> losses;
     std::vector<double> pairs;
@@ -156,6 +166,7 @@ DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double thresho
     measures.f1 = draw_f1(runs, threshold, resampling);
     measures.log_loss = draw_log_loss(runs, resampling);
     measures.ece = draw_ece(runs, resampling);
+    measures.brier = draw_brier(runs, resampling);
     return measures;
 }
 

@@ -21,7 +21,7 @@ struct Drawn {
 /// The measures of one kind of pairs.
 struct DrawnMeasures {
     LinkSummary sum;
-    Drawn ap, auc, f1, log_loss, ece;
+    Drawn ap, auc, f1, log_loss, ece, brier;
 };
 
 /// `runs` has one summary per run. Ranking measures of resamples are computed on a grid eight times as coarse
