@@ -24,6 +24,12 @@ constexpr Frozen frozen_v1[] = {
      "5bbdf613771519db07aaa5d7ccf96500"},
     {"city", "1e31a5c19d70c22f8250244e990db51d", "6081285ce5a4189090f22571e304b7b6",
      "7e0c7579412720ce20e4e72150ac9ccc"},
+    {"grid_signals", "dc8c7fbea2ec34e4120ca4455fcc74e7", "698882c5aff1246af6e76fcde1da29d8",
+     "6f83775eff0ab6a94aa9669f6440da9f"},
+    {"spider", "351e843dccb67f808e7949e2b1165f2d", "5cfe602d3ad2dc291ec5827e20dabd0a",
+     "60eeb22866b11a437b19f1449b547834"},
+    {"random_town", "b49ef19a637bbc1524bea3e752151e6c", "f391b453afdd5aaf8b379b4ad8210149",
+     "65425a95a88b702b25b929fb50c312c1"},
     {"bologna", "e45a580d8534cd552226c0993a8c9460", "714c3e0b25043cbdf0ed2bca5cc4aec7", ""},
 };
 
