@@ -41,10 +41,17 @@ class RunResampling {
     /// in SmallSample::expanded (with the degrees of freedom of all strata). Nothing when a stratum has fewer
     /// than two runs, or when a value is not finite.
     std::optional<Interval> interval(std::vector<double> values) const;
+    /// Two-sided p-value of the hypothesis that a measure with these values is 0: one minus the greatest
+    /// level at which `interval` leaves 0 out. From the smaller share of values on one side of 0, counted
+    /// with one value more than there are, and widened for few runs as the interval is. Nothing where that
+    /// has no interval.
+    std::optional<double> p(std::span<const double> values) const;
 
   private:
     Config config_;
     std::size_t runs_ = 0;
+    double freedom_ = 0.0;  ///< Degrees of freedom of all strata.
+    double stretch_ = 1.0;  ///< Factor on normal quantiles, for the bias of the smallest stratum's variance.
     std::optional<double> outside_;  ///< Share below the lower end; nothing if there can be no interval.
     std::vector<double> weights_;
 };

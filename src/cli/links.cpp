@@ -67,10 +67,20 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
     throw core::InputError(unknown_name(option, name, names));
 }
 
-std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments) {
+/// Those that are judged where the user names none.
+std::vector<std::string> usual_predictors(const Arguments& arguments, const links::LinkBenchmark& benchmark) {
+    if (arguments.benchmark.empty()) return prediction::predictor_names();
+    if (!benchmark.predictors.empty()) return benchmark.predictors;
+    std::vector<std::string> names = links::benchmark_predictors();
+    for (const links::ComparedPair& pair : benchmark.comparisons)
+        names.insert(names.end(), {pair.predictor, pair.against});
+    return names;
+}
+
+std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments,
+                                                const links::LinkBenchmark& benchmark) {
     std::vector<links::LinkPredictor> predictors;
-    const std::vector<std::string> usual =
-        arguments.benchmark.empty() ? prediction::predictor_names() : links::benchmark_predictors();
+    const std::vector<std::string> usual = usual_predictors(arguments, benchmark);
     const std::vector<std::string>& names = arguments.predictors.empty() ? usual : arguments.predictors;
     for (const std::string& name : names) {
         if (std::ranges::find(predictors, name, &links::LinkPredictor::name) == predictors.end())
@@ -103,18 +113,18 @@ fs::path benchmark_file(const std::string& name) {
                             "eval_v1, or a TOML file", "docs/reference/link-prediction.md describes both"});
 }
 
-/// Keeps the benchmark's scenarios of these names; all of them if `names` is empty.
+/// Keeps the benchmark's scenarios with these labels; all of them if `names` is empty.
 void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark& benchmark) {
     if (names.empty()) return;
     std::vector<std::string> known;
-    for (const scenario::ScenarioConfig& config : benchmark.scenarios)
-        known.push_back(config.name);
+    for (const links::BenchmarkScenario& entry : benchmark.scenarios)
+        known.push_back(entry.label);
     for (const std::string& name : names) {
         if (std::ranges::find(known, name) == known.end())
             throw core::InputError(unknown_name("scenario of " + benchmark.name, name, known));
     }
-    std::erase_if(benchmark.scenarios, [&](const scenario::ScenarioConfig& config) {
-        return std::ranges::find(names, config.name) == names.end();
+    std::erase_if(benchmark.scenarios, [&](const links::BenchmarkScenario& entry) {
+        return std::ranges::find(names, entry.label) == names.end();
     });
 }
 
@@ -137,17 +147,19 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
             {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v1"});
     for (const std::string& name : arguments.scenarios) {
         try {
-            benchmark.scenarios.push_back(scenario::load(name, arguments.options));
+            scenario::ScenarioConfig config = scenario::load(name, arguments.options);
+            const std::string label = config.name;
+            benchmark.scenarios.push_back({label, "", std::move(config)});
         } catch (const core::InputError& error) {
             problems.insert(problems.end(), error.problems().begin(), error.problems().end());
         }
     }
     std::vector<std::string> names;
-    for (const scenario::ScenarioConfig& config : benchmark.scenarios) {
-        if (std::ranges::find(names, config.name) != names.end())
+    for (const links::BenchmarkScenario& entry : benchmark.scenarios) {
+        if (std::ranges::find(names, entry.label) != names.end())
             problems.push_back(
-                {"SCENARIO", fmt::format("`{}` is given twice", config.name), "each once", ""});
-        names.push_back(config.name);
+                {"SCENARIO", fmt::format("`{}` is given twice", entry.label), "each once", ""});
+        names.push_back(entry.label);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     benchmark.name = core::listed(names);
@@ -195,7 +207,7 @@ links::LinkPlan plan_of(const Arguments& arguments) {
         plan.benchmark.test.count = std::min(plan.benchmark.test.count, quick_test);
         plan.benchmark.validation.count = std::min(plan.benchmark.validation.count, quick_validation);
     }
-    plan.predictors = predictors_of(arguments);
+    plan.predictors = predictors_of(arguments, plan.benchmark);
     plan.split = arguments.split;
     plan.against = arguments.against;
     const std::string name =
@@ -207,6 +219,15 @@ links::LinkPlan plan_of(const Arguments& arguments) {
 
 std::string range_text(const links::SeedRange& range) {
     return fmt::format("{} to {}", range.first, range.first + range.count - 1);
+}
+
+/// Whether the comparisons that the benchmark names are made as it says: all of them, on all of it, with the
+/// predictors as they are shipped. Further predictors do not matter.
+bool are_confirmatory(const links::LinkPlan& plan, const Arguments& arguments) {
+    return !plan.benchmark.comparisons.empty() && plan.comparisons() == plan.benchmark.comparisons &&
+           arguments.scenarios.empty() && arguments.failures.empty() && arguments.exits == "both" &&
+           !arguments.quick && arguments.settings.empty() && arguments.models.empty() &&
+           plan.split == links::LinkSplit::test;
 }
 
 report::LinkFacts described(const links::LinkPlan& plan) {
@@ -221,13 +242,15 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     facts.failures = benchmark.failures;
     facts.exits = benchmark.exits;
     facts.against = plan.opponent();
-    for (const scenario::ScenarioConfig& config : benchmark.scenarios)
-        facts.scenarios.push_back(config.name);
+    for (const links::BenchmarkScenario& entry : benchmark.scenarios)
+        facts.scenarios.push_back(entry.label);
     const study::Versions versions = installed_versions();
     facts.provenance = {{"Clearway", versions.clearway}, {"SUMO", versions.sumo}};
-    for (const scenario::ScenarioConfig& config : benchmark.scenarios) {
-        facts.provenance.emplace_back("Configuration of " + config.name,
-                                      scenario::configuration_hash(config));
+    for (const links::BenchmarkScenario& entry : benchmark.scenarios) {
+        facts.provenance.emplace_back("Configuration of " + entry.label,
+                                      scenario::configuration_hash(entry.config));
+        if (!entry.policy.empty())
+            facts.provenance.emplace_back("Policy in the traffic of " + entry.label, entry.policy);
     }
     for (const links::LinkPredictor& predictor : plan.predictors) {
         facts.predictors.push_back(predictor.name);
@@ -276,6 +299,9 @@ core::ExitCode evaluate(const Arguments& arguments, const Invocation& invocation
     links::LinkVerdict verdict = links::judge(plan, files);
     facts.results = std::move(verdict.results);
     facts.gains = std::move(verdict.gains);
+    facts.comparisons = std::move(verdict.comparisons);
+    facts.confirmatory = are_confirmatory(plan, arguments);
+    facts.exploratory_gains = !plan.benchmark.comparisons.empty();
     facts.command = invocation.command;
     const std::string json = report::links_json(facts);
     core::write_atomically(plan.folder / "evaluation.json", json);

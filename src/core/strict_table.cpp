@@ -87,6 +87,25 @@ void StrictTable::texts(const std::string& key, std::vector<std::string>& target
     }
 }
 
+void StrictTable::text_lists(const std::string& key, std::vector<std::vector<std::string>>& target) {
+    const char* const wanted = "an array of arrays of texts";
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) return wrong_type(*node, key, wanted);
+    target.clear();
+    for (const toml::node& element : *array) {
+        const toml::array* texts = element.as_array();
+        if (texts == nullptr) return wrong_type(element, key, wanted);
+        std::vector<std::string>& list = target.emplace_back();
+        for (const toml::node& text : *texts) {
+            const auto value = text.value_exact<std::string>();
+            if (!value) return wrong_type(text, key, wanted);
+            list.push_back(*value);
+        }
+    }
+}
+
 void StrictTable::number(const std::string& key, std::optional<double>& target) {
     const toml::node* node = find(key);
     if (node == nullptr) return;

@@ -40,6 +40,8 @@ class StrictTable {
     void text(const std::string& key, std::string& target);
     void text_or_empty(const std::string& key, std::string& target);
     void texts(const std::string& key, std::vector<std::string>& target);
+    /// An array of arrays of texts.
+    void text_lists(const std::string& key, std::vector<std::vector<std::string>>& target);
     void number(const std::string& key, std::optional<double>& target);
     template <class Integer>
     void integer(const std::string& key, std::int64_t minimum, std::int64_t maximum, Integer& target) {

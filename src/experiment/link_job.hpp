@@ -29,11 +29,12 @@ struct JudgedPredictor {
     bool operator==(const JudgedPredictor&) const = default;
 };
 
-/// One simulation without a policy, on which the links of predictors are evaluated.
+/// One simulation on which the links of predictors are evaluated. They do not act in it.
 struct LinkJob : Simulation {
     std::filesystem::path work_folder;
     std::vector<std::string> failures;
     std::vector<sensing::Exits> exits;
+    std::string policy;  ///< Acts on a perfect belief; empty: none.
     std::vector<JudgedPredictor> predictors;
 
     /// All members but the predictors.
@@ -43,7 +44,8 @@ struct LinkJob : Simulation {
             core::Field{"work_folder", "", &Self::work_folder, 0, 0, "For SUMO's files; removed at the end",
                         "given"},
             core::Field{"failures", "", &Self::failures, 0, 0, "Presets of sensing", "given"},
-            core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left", "given"});
+            core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left", "given"},
+            core::Field{"policy", "", &Self::policy, 0, 0, "Acts in the traffic; empty: none", "none"});
     }
     bool operator==(const LinkJob&) const = default;
 };

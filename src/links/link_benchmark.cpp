@@ -7,6 +7,8 @@
 
 #include "core/files.hpp"
 #include "core/strict_table.hpp"
+#include "policy/policy.hpp"
+#include "prediction/predictor.hpp"
 
 namespace clearway::links {
 namespace {
@@ -25,17 +27,67 @@ SeedRange read_range(core::StrictTable& seeds, const std::string& key) {
     return range;
 }
 
+void check_name(core::StrictTable& reader, const std::string& key, const std::string& what,
+                const std::string& name, const std::vector<std::string>& known) {
+    if (std::ranges::find(known, name) != known.end()) return;
+    const std::string near = core::nearest(name, known);
+    reader.problem(key, fmt::format("`{}` is not a {}", name, what), core::listed(known),
+                   near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+}
+
+std::vector<std::string> policy_names() {
+    std::vector<std::string> names;
+    for (const policy::PolicyEntry& entry : policy::policies())
+        names.push_back(entry.name);
+    return names;
+}
+
+/// The options of `clearway run` that a benchmark may state.
+scenario::Options read_options(core::StrictTable& reader) {
+    const auto number = [&](const char* key, double least, double most, std::optional<double>& target) {
+        reader.number(key, target);
+        if (!target || (*target >= least && *target <= most)) return;
+        reader.problem(key, fmt::format("{} is out of range", *target), fmt::format("{} to {}", least, most),
+                       "");
+        target.reset();
+    };
+    scenario::Options options;
+    reader.word<scenario::Variant>("variant", options.variant);
+    number("density", 0.0, 100.0, options.density);
+    number("av_share", 0.0, 1.0, options.automated_share);
+    reader.word<scenario::IdmPreset>("idm", options.idm);
+    return options;
+}
+
+/// The label names a folder, and tells the entry from all others.
+void check_label(core::StrictTable& reader, const std::string& label, const LinkBenchmark& benchmark) {
+    const char* const key = reader.has("label") ? "label" : "name";
+    const bool plain =
+        label.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+        std::string::npos;
+    if (!plain && reader.has("label"))
+        reader.problem(key, fmt::format("`{}` cannot name a folder", label), "letters, digits, _ and -", "");
+    if (std::ranges::find(benchmark.scenarios, label, &BenchmarkScenario::label) != benchmark.scenarios.end())
+        reader.problem(key, fmt::format("`{}` is used twice", label), "each once",
+                       "Give the second one a `label` of its own");
+}
+
 void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBenchmark& benchmark) {
     core::StrictTable reader(table, "scenario", reading);
     std::string name;
     std::string configuration;
-    scenario::Options options;
+    BenchmarkScenario entry;
     reader.text("name", name);
-    reader.word<scenario::Variant>("variant", options.variant);
+    reader.text("label", entry.label);
+    reader.text_or_empty("policy", entry.policy);
+    const scenario::Options options = read_options(reader);
     reader.text("configuration", configuration);
     reader.finish();
+    if (!entry.policy.empty()) check_name(reader, "policy", "policy", entry.policy, policy_names());
     try {
         scenario::ScenarioConfig config = scenario::load(name, options);
+        if (entry.label.empty()) entry.label = config.name;
+        check_label(reader, entry.label, benchmark);
         const std::string hash = scenario::configuration_hash(config);
         if (hash != configuration) {
             reader.problem("configuration",
@@ -44,9 +96,48 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
                                        name, hash),
                            configuration, "Restore the scenario, or give the benchmark a new name");
         }
-        benchmark.scenarios.push_back(std::move(config));
+        entry.config = std::move(config);
+        benchmark.scenarios.push_back(std::move(entry));
     } catch (const core::InputError& error) {
         reading.problems.insert(reading.problems.end(), error.problems().begin(), error.problems().end());
+    }
+}
+
+void read_comparisons(core::StrictTable& root, LinkBenchmark& benchmark) {
+    const std::string key = "comparisons";
+    std::vector<std::vector<std::string>> pairs;
+    root.text_lists(key, pairs);
+    for (const std::vector<std::string>& pair : pairs) {
+        if (pair.size() != 2) {
+            root.problem(key, fmt::format("a comparison names {} predictors", pair.size()), "two", "");
+            continue;
+        }
+        for (const std::string& name : pair)
+            check_name(root, key, "predictor", name, prediction::predictor_names());
+        if (pair[0] == pair[1])
+            root.problem(key, fmt::format("`{}` is compared with itself", pair[0]), "two predictors", "");
+        const auto same = [&](const ComparedPair& other) {
+            return (other.predictor == pair[0] && other.against == pair[1]) ||
+                   (other.predictor == pair[1] && other.against == pair[0]);
+        };
+        if (std::ranges::any_of(benchmark.comparisons, same))
+            root.problem(key, fmt::format("{} and {} are compared twice", pair[0], pair[1]), "each pair once",
+                         "");
+        benchmark.comparisons.push_back({pair[0], pair[1]});
+    }
+}
+
+void read_predictors(core::StrictTable& root, LinkBenchmark& benchmark) {
+    root.texts("predictors", benchmark.predictors);
+    for (const std::string& name : benchmark.predictors)
+        check_name(root, "predictors", "predictor", name, prediction::predictor_names());
+    if (benchmark.predictors.empty()) return;
+    for (const ComparedPair& pair : benchmark.comparisons) {
+        for (const std::string& name : {pair.predictor, pair.against}) {
+            if (std::ranges::find(benchmark.predictors, name) == benchmark.predictors.end())
+                root.problem("comparisons", fmt::format("`{}` is not among the benchmark's predictors", name),
+                             core::listed(benchmark.predictors), "Name it in `predictors`");
+        }
     }
 }
 
@@ -84,6 +175,8 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
     root.text("name", benchmark.name);
     root.texts("failures", benchmark.failures);
     root.words<Exits>("exits", benchmark.exits);
+    read_comparisons(root, benchmark);
+    read_predictors(root, benchmark);
     if (auto reader = root.below("seeds")) {
         reader->integer<std::uint64_t>("study_seed", 0, std::numeric_limits<std::int64_t>::max(),
                                        benchmark.study_seed);

@@ -26,6 +26,21 @@ struct SeedRange {
 std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& validation,
                                        const std::string& where);
 
+/// Two predictors that a benchmark compares, as it says in advance.
+struct ComparedPair {
+    std::string predictor;
+    std::string against;
+
+    bool operator==(const ComparedPair&) const = default;
+};
+
+/// A scenario of a benchmark, and what acts in its traffic.
+struct BenchmarkScenario {
+    std::string label;   ///< Tells variants of a scenario apart; names the folder of its runs.
+    std::string policy;  ///< Acts in the traffic, on a perfect belief; empty: none.
+    scenario::ScenarioConfig config;
+};
+
 /// What predictors are evaluated on.
 struct LinkBenchmark {
     std::string name;
@@ -34,16 +49,19 @@ struct LinkBenchmark {
     SeedRange validation;  ///< Thresholds are chosen and settings tuned on these.
     std::vector<std::string> failures;
     std::vector<Exits> exits;
-    std::vector<scenario::ScenarioConfig> scenarios;
+    std::vector<BenchmarkScenario> scenarios;
+    std::vector<std::string> predictors;    ///< Judged where none are named; empty: `benchmark_predictors`.
+    std::vector<ComparedPair> comparisons;  ///< Confirmatory ones; all others are exploratory.
 };
 
 /// Reads a benchmark file (TOML, strict). Each scenario states the hash of its effective configuration.
 /// Throws core::InputError with all problems, including a scenario that has changed since the benchmark was
-/// frozen. Names of failures are not checked here.
+/// frozen. Names of failures are not checked here; those of predictors and policies are.
 LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
 
-/// Predictors that a benchmark judges where none are named: those that there were when `eval_v1` was frozen.
-/// Later ones (`gcn`, `gat`) are judged on it when they are named, and its figures stay comparable.
+/// Predictors that a benchmark judges where neither it nor the user names any: those that there were when
+/// `eval_v1` was frozen. Later ones (`gcn`, `gat`) are judged on it when they are named, and its figures stay
+/// comparable.
 const std::vector<std::string>& benchmark_predictors();
 
 }  // namespace clearway::links

@@ -37,11 +37,11 @@ std::vector<std::uint32_t> replications(const LinkPlan& plan) {
 }
 
 std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan, const LinkRunFiles& files,
-                                                            const scenario::ScenarioConfig& config,
+                                                            const BenchmarkScenario& entry,
                                                             std::uint32_t replication) {
     std::vector<experiment::JudgedPredictor> jobs;
     for (const LinkPredictor& predictor : plan.predictors) {
-        const fs::path file = files.file(config, replication, predictor);
+        const fs::path file = files.file(entry, replication, predictor);
         if (fs::exists(file)) continue;
         const fs::path model = predictor.model_file.empty() ? fs::path() : fs::absolute(predictor.model_file);
         jobs.push_back({predictor.name, model.string(), predictor.settings, file});
@@ -51,20 +51,21 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
 
 /// The missing runs of a scenario.
 std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunFiles& files,
-                                            const scenario::ScenarioConfig& config) {
-    const fs::path folder = files.scenario_folder(config);
+                                            const BenchmarkScenario& entry) {
+    const fs::path folder = files.scenario_folder(entry.config);
     std::vector<experiment::LinkJob> jobs;
     for (const std::uint32_t replication : replications(plan)) {
         experiment::LinkJob job;
-        job.predictors = missing_predictors(plan, files, config, replication);
+        job.predictors = missing_predictors(plan, files, entry, replication);
         if (job.predictors.empty()) continue;
-        job.scenario = config.name;
+        job.scenario = entry.label;
+        job.policy = entry.policy;
         job.scenario_file = folder / "scenario.toml";
         job.network_folder = folder / "network";
         job.study_seed = plan.benchmark.study_seed;
         job.replication = replication;
         job.work_folder =
-            plan.folder / "work" / fmt::format("{}-{}-{}", config.name, replication, ::getpid());
+            plan.folder / "work" / fmt::format("{}-{}-{}", entry.label, replication, ::getpid());
         job.failures = plan.benchmark.failures;
         job.exits = plan.benchmark.exits;
         jobs.push_back(std::move(job));
@@ -76,9 +77,9 @@ std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunF
 std::vector<fs::path> files_of(const LinkPlan& plan, const LinkRunFiles& files,
                                const LinkPredictor& predictor, const SeedRange& range) {
     std::vector<fs::path> paths;
-    for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios) {
+    for (const BenchmarkScenario& entry : plan.benchmark.scenarios) {
         for (const std::uint32_t replication : replications(range))
-            paths.push_back(files.file(config, replication, predictor));
+            paths.push_back(files.file(entry, replication, predictor));
     }
     return paths;
 }
@@ -111,10 +112,21 @@ std::string LinkPlan::opponent() const {
     return {};
 }
 
+std::vector<ComparedPair> LinkPlan::comparisons() const {
+    std::vector<ComparedPair> present;
+    const auto judged = [&](const std::string& name) {
+        return std::ranges::find(predictors, name, &LinkPredictor::name) != predictors.end();
+    };
+    std::ranges::copy_if(benchmark.comparisons, std::back_inserter(present), [&](const ComparedPair& pair) {
+        return judged(pair.predictor) && judged(pair.against);
+    });
+    return present;
+}
+
 LinkRunFiles::LinkRunFiles(const LinkPlan& plan, std::string worker_hash)
     : plan_(plan), worker_hash_(std::move(worker_hash)) {
-    for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios)
-        scenario_hashes_[scenario::configuration_hash(config)] = scenario::scenario_hash(config);
+    for (const BenchmarkScenario& entry : plan.benchmark.scenarios)
+        scenario_hashes_[scenario::configuration_hash(entry.config)] = scenario::scenario_hash(entry.config);
 }
 
 const std::string& LinkRunFiles::hash_of(const scenario::ScenarioConfig& config) const {
@@ -125,18 +137,20 @@ fs::path LinkRunFiles::scenario_folder(const scenario::ScenarioConfig& config) c
     return plan_.folder / "scenarios" / fmt::format("{}-{}", config.name, hash_of(config).substr(0, 8));
 }
 
-fs::path LinkRunFiles::file(const scenario::ScenarioConfig& config, std::uint32_t replication,
+fs::path LinkRunFiles::file(const BenchmarkScenario& entry, std::uint32_t replication,
                             const LinkPredictor& predictor) const {
-    return plan_.folder / "runs" / config.name / std::to_string(replication) /
-           fmt::format("{}-{}{}", predictor.name, key(config, predictor), link_run_extension);
+    return plan_.folder / "runs" / entry.label / std::to_string(replication) /
+           fmt::format("{}-{}{}", predictor.name, key(entry, predictor), link_run_extension);
 }
 
-std::string LinkRunFiles::key(const scenario::ScenarioConfig& config, const LinkPredictor& predictor) const {
-    std::string content = fmt::format("{} {} {} ", worker_hash_, hash_of(config), plan_.benchmark.study_seed);
+std::string LinkRunFiles::key(const BenchmarkScenario& entry, const LinkPredictor& predictor) const {
+    std::string content =
+        fmt::format("{} {} {} ", worker_hash_, hash_of(entry.config), plan_.benchmark.study_seed);
     for (const std::string& failure : plan_.benchmark.failures)
         content += failure + " ";
     for (const Exits exits : plan_.benchmark.exits)
         content += fmt::format("{} ", core::name(exits));
+    if (!entry.policy.empty()) content += fmt::format("policy {} ", entry.policy);
     content += predictor.name + " " + settings_text(predictor);
     if (!predictor.model_file.empty()) content += core::content_hash(core::read_file(predictor.model_file));
     return core::content_hash(content).substr(0, 16);
@@ -144,29 +158,34 @@ std::string LinkRunFiles::key(const scenario::ScenarioConfig& config, const Link
 
 std::vector<experiment::LinkJob> missing_runs(const LinkPlan& plan, const LinkRunFiles& files) {
     std::vector<experiment::LinkJob> missing;
-    for (const scenario::ScenarioConfig& config : plan.benchmark.scenarios) {
-        std::vector<experiment::LinkJob> jobs = missing_of(plan, files, config);
+    for (const BenchmarkScenario& entry : plan.benchmark.scenarios) {
+        std::vector<experiment::LinkJob> jobs = missing_of(plan, files, entry);
         if (jobs.empty()) continue;
-        const fs::path folder = files.scenario_folder(config);
+        const fs::path folder = files.scenario_folder(entry.config);
         core::make_folder(folder);
-        scenario::store(config, folder);
-        scenario::build_network(config, folder / "network");
+        scenario::store(entry.config, folder);
+        scenario::build_network(entry.config, folder / "network");
         std::ranges::move(jobs, std::back_inserter(missing));
     }
     return missing;
 }
 
 LinkVerdict judge(const LinkPlan& plan, const LinkRunFiles& files) {
-    LinkJudgement judgement(
-        std::vector<std::size_t>(plan.benchmark.scenarios.size(), std::size_t{plan.own_seeds().count}));
+    const std::vector<std::size_t> runs_by_scenario(plan.benchmark.scenarios.size(), plan.own_seeds().count);
+    LinkJudgement judgement(runs_by_scenario);
+    LinkComparisons comparisons(runs_by_scenario, plan.comparisons(),
+                                plan.benchmark.failures.size() * plan.benchmark.exits.size());
     core::Progress progress("judging", plan.predictors.size(), core::Progress::style_for_stderr());
     for (std::size_t i = 0; i < plan.predictors.size(); ++i) {
-        judgement.add(read_runs(plan, files, plan.predictors[i]));
+        const LinkRuns runs = read_runs(plan, files, plan.predictors[i]);
+        judgement.add(runs);
+        comparisons.add(runs);
         progress.update(i + 1, 0);
     }
     progress.finish();
     const std::string opponent = plan.opponent();
-    return {judgement.results(), opponent.empty() ? std::vector<LinkGain>() : judgement.gains(opponent)};
+    return {judgement.results(), opponent.empty() ? std::vector<LinkGain>() : judgement.gains(opponent),
+            comparisons.results()};
 }
 
 }  // namespace clearway::links

@@ -8,6 +8,7 @@
 #include "core/settings.hpp"
 #include "experiment/link_job.hpp"
 #include "links/link_benchmark.hpp"
+#include "links/link_comparisons.hpp"
 #include "links/link_judgement.hpp"
 
 namespace clearway::links {
@@ -37,23 +38,25 @@ struct LinkPlan {
     }
     /// The predictor that errors are compared with; empty if the plan has only learned predictors.
     std::string opponent() const;
+    /// The benchmark's comparisons of which both predictors are in the plan.
+    std::vector<ComparedPair> comparisons() const;
 };
 
-/// Paths of the runs of a plan: `runs/SCENARIO/REPLICATION/PREDICTOR-KEY.links`. The key is a hash of
+/// Paths of the runs of a plan: `runs/LABEL/REPLICATION/PREDICTOR-KEY.links`. The key is a hash of
 /// everything that the content depends on, including the program that makes the runs.
 class LinkRunFiles {
   public:
     /// `worker_hash` identifies that program. The plan outlives this object. Reads the scenarios' files.
     LinkRunFiles(const LinkPlan& plan, std::string worker_hash);
 
-    std::filesystem::path file(const scenario::ScenarioConfig& config, std::uint32_t replication,
+    std::filesystem::path file(const BenchmarkScenario& entry, std::uint32_t replication,
                                const LinkPredictor& predictor) const;
     /// Where the scenario itself is kept.
     std::filesystem::path scenario_folder(const scenario::ScenarioConfig& config) const;
 
   private:
     const std::string& hash_of(const scenario::ScenarioConfig& config) const;
-    std::string key(const scenario::ScenarioConfig& config, const LinkPredictor& predictor) const;
+    std::string key(const BenchmarkScenario& entry, const LinkPredictor& predictor) const;
 
     const LinkPlan& plan_;
     std::string worker_hash_;
@@ -68,6 +71,7 @@ std::vector<experiment::LinkJob> missing_runs(const LinkPlan& plan, const LinkRu
 struct LinkVerdict {
     std::vector<LinkResult> results;
     std::vector<LinkGain> gains;
+    std::vector<LinkComparison> comparisons;
 };
 /// Reads and evaluates the runs, all of which must be there, with progress on standard error. Throws
 /// core::InputError for a damaged run.

@@ -35,6 +35,13 @@ void add_trials(const experiment::LinkJob& job, const roads::Network& network, c
     }
 }
 
+/// The traffic, in which a policy may act on what perfect sensors see. Predictors only watch.
+experiment::ConditionSpec traffic_of(const experiment::LinkJob& job) {
+    experiment::ConditionSpec condition = detail::plain_traffic("links");
+    if (!job.policy.empty()) condition.policies = {job.policy};
+    return condition;
+}
+
 void check_scored(const experiment::LinkJob& job, const links::LinkEvaluator& evaluator) {
     for (const links::LinkTrial& trial : evaluator.trials()) {
         if (trial.result(0).truth.reports > 0) continue;
@@ -74,7 +81,7 @@ core::ExitCode evaluate_links(const experiment::LinkJob& job) {
     const graph::LinkRules rules = detail::link_rules();
     links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(job, run.network(), rules, evaluator);
-    run.record(detail::plain_traffic("links"), evaluator);
+    run.record(traffic_of(job), evaluator);
     check_scored(job, evaluator);
     write_results(job, run.scenario_hash(), evaluator);
     return core::ExitCode::ok;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "links/link_comparisons.hpp"
 #include "links/link_judgement.hpp"
 
 namespace clearway::report {
@@ -24,9 +25,13 @@ struct LinkFacts {
     std::vector<std::pair<std::string, std::string>> provenance;  ///< Names and values, as shown.
     std::vector<links::LinkResult> results;
     std::vector<links::LinkGain> gains;
+    std::vector<links::LinkComparison> comparisons;  ///< Those that the benchmark names in advance.
+    bool confirmatory = false;  ///< Whether they are made on the whole benchmark, as it says.
+    bool exploratory_gains =
+        false;  ///< Whether there are such comparisons, so that `gains` are not among them.
 };
 
-/// The measures by failure and predictor, and errors against the opponent. No
+/// The measures by failure and predictor, comparisons named in advance, and errors against the opponent. No
 /// row of the measures is longer than 80 columns.
 std::string links_console(const LinkFacts& facts);
 

@@ -196,6 +196,26 @@ std::string results_section(const LinkFacts& facts, const std::vector<std::strin
     return html;
 }
 
+std::string comparisons_section(const LinkFacts& facts) {
+    DataTable table{{"Comparison", "failure", "exits", "AP, difference", "p", "p (Holm)", "F1, difference",
+                     "p", "p (Holm)"},
+                    {}};
+    for (const links::LinkComparison& one : facts.comparisons) {
+        table.rows.push_back({one.pair.predictor + " \u2212 " + one.pair.against, one.failure,
+                              std::string(core::name(one.exits)), with_interval(one.ap.difference, 4),
+                              decimal(one.ap.p, 4), decimal(one.ap.holm_p, 4),
+                              with_interval(one.f1.difference, 4), decimal(one.f1.p, 4),
+                              decimal(one.f1.holm_p, 4)});
+    }
+    return fmt::format(
+        "<p>The benchmark names these comparisons in advance. {} p: two-sided, bootstrap over runs; "
+        "p (Holm): adjusted for all {} tests of this table.</p>\n{}",
+        facts.confirmatory
+            ? "They are confirmatory; all others on this page are exploratory."
+            : "Only a part of the benchmark was made here, so they are exploratory as all others.",
+        2 * facts.comparisons.size(), detail::to_html(table));
+}
+
 std::string failed_section(const LinkFacts& facts) {
     return "<p>A link has failed when it is true and the observation neither knows nor detects it. "
            "Candidates "
@@ -297,6 +317,8 @@ std::vector<Section> sections_of(const LinkFacts& facts) {
     sections.push_back({"f1", "F1", measure_section(facts, 4, [](const LinkResult& result) {
                             return result.of(LinkSubset::all).f1;
                         })});
+    if (!facts.comparisons.empty())
+        sections.push_back({"comparisons", "Comparisons named in advance", comparisons_section(facts)});
     if (!facts.gains.empty()) {
         const std::string against = escaped(facts.against);
         sections.push_back(

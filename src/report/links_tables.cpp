@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 
@@ -54,7 +55,7 @@ std::string percent(const Measured& measured) {
     return text;
 }
 
-/// A table of failures by predictors, for gains.
+/// A table of failures by predictors.
 void append_matrix(const LinkFacts& facts, const std::vector<std::string>& predictors, std::size_t width,
                    const std::function<std::string(const std::string&, const std::string&)>& cell,
                    std::string& text) {
@@ -77,8 +78,8 @@ void append_gains(const LinkFacts& facts, links::Exits exits, const char* what, 
     std::ranges::copy_if(facts.predictors, std::back_inserter(others),
                          [&](const std::string& name) { return name != facts.against; });
     if (facts.against.empty() || others.empty()) return;
-    fmt::format_to(std::back_inserter(text), "\n{} below that of {}, %, exits {}\n", what, facts.against,
-                   core::name(exits));
+    fmt::format_to(std::back_inserter(text), "\n{} below that of {}, %, exits {}{}\n", what, facts.against,
+                   core::name(exits), facts.exploratory_gains ? " (exploratory)" : "");
     append_matrix(
         facts, others, 14,
         [&](const std::string& failure, const std::string& predictor) {
@@ -88,6 +89,10 @@ void append_gains(const LinkFacts& facts, links::Exits exits, const char* what, 
             return found == facts.gains.end() ? "-" : percent((*found).*measure);
         },
         text);
+}
+
+const char* comparisons_are(const LinkFacts& facts) {
+    return facts.confirmatory ? "confirmatory" : "exploratory: a part of the benchmark";
 }
 
 void append_row(std::string_view failure, std::string_view predictor, const std::vector<std::string>& cells,
@@ -148,8 +153,39 @@ void append_measures(const LinkFacts& facts, links::Exits exits, std::string& te
         text);
 }
 
+/// `+.0042 [+.0031, +.0052]  p .004`, with the adjusted p-value.
+std::string difference_text(const links::LinkComparison::Difference& test) {
+    if (!test.difference.value) return "-";
+    const auto signed_share = [](double value) { return (value < 0.0 ? "-" : "+") + share(std::abs(value)); };
+    std::string text = signed_share(*test.difference.value);
+    if (test.difference.interval)
+        text += fmt::format(" [{}, {}]", signed_share(test.difference.interval->low),
+                            signed_share(test.difference.interval->high));
+    if (!test.holm_p) return text + "  p -";
+    return text + (*test.holm_p < 0.001 ? "  p<.001" : "  p " + share(test.holm_p, 3));
+}
+
+void append_comparisons(const LinkFacts& facts, links::Exits exits, std::string& text) {
+    auto out = std::back_inserter(text);
+    std::optional<links::ComparedPair> pair;
+    for (const links::LinkComparison& one : facts.comparisons) {
+        if (one.exits != exits) continue;
+        if (!pair)
+            fmt::format_to(out,
+                           "\nComparisons named in advance, exits {} ({}): difference of AP, then\n"
+                           "of F1; p adjusted by Holm for all {} tests\n",
+                           core::name(exits), comparisons_are(facts), 2 * facts.comparisons.size());
+        if (pair != one.pair) fmt::format_to(out, "{} minus {}\n", one.pair.predictor, one.pair.against);
+        pair = one.pair;
+        if (one.failure.size() > failure_width) fmt::format_to(out, "{}\n", one.failure);
+        fmt::format_to(out, "{:<{}} {:<34} {}\n", one.failure.size() > failure_width ? "" : one.failure,
+                       failure_width, difference_text(one.ap), difference_text(one.f1));
+    }
+}
+
 void append_exits(const LinkFacts& facts, links::Exits exits, std::string& text) {
     append_measures(facts, exits, text);
+    append_comparisons(facts, exits, text);
     append_gains(facts, exits, "1 - AP", &LinkGain::ap_error_reduction, text);
     append_gains(facts, exits, "1 - F1", &LinkGain::f1_error_reduction, text);
 }
@@ -234,6 +270,22 @@ Json gain_of(const LinkGain& gain) {
     return row;
 }
 
+void put(Json& object, const std::string& name, const links::LinkComparison::Difference& test) {
+    put(object, name + "_difference", test.difference);
+    object[name + "_p"] = test.p ? Json(*test.p) : Json(nullptr);
+    object[name + "_p_holm"] = test.holm_p ? Json(*test.holm_p) : Json(nullptr);
+}
+
+Json comparison_of(const links::LinkComparison& comparison) {
+    Json row = {{"failure", comparison.failure},
+                {"exits", core::name(comparison.exits)},
+                {"predictor", comparison.pair.predictor},
+                {"against", comparison.pair.against}};
+    put(row, "ap", comparison.ap);
+    put(row, "f1", comparison.f1);
+    return row;
+}
+
 std::string csv_cell(const Json& value) {
     if (value.is_null()) return "";
     if (value.is_number_float()) return fmt::format("{}", value.get<double>());
@@ -261,6 +313,12 @@ std::string links_json(const LinkFacts& facts) {
     Json& gains = document["gains"] = Json::array();
     for (const LinkGain& gain : facts.gains)
         gains.push_back(gain_of(gain));
+    if (!facts.comparisons.empty()) {
+        document["confirmatory"] = facts.confirmatory;
+        Json& comparisons = document["comparisons"] = Json::array();
+        for (const links::LinkComparison& comparison : facts.comparisons)
+            comparisons.push_back(comparison_of(comparison));
+    }
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,6 +1,8 @@
 // Judging predictors, from the command line to the files.
 #include <algorithm>
+#include <map>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -180,6 +182,51 @@ TEST_F(LinksTest, seeds_must_suffice_and_not_overlap) {
     EXPECT_THAT(message({"--validation-seeds", "0"}), HasSubstr("no seeds to validate on"));
     EXPECT_THAT(message({"--seeds", "5", "--first-validation-seed", "4"}), HasSubstr("overlap"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(LinksTest, a_benchmark_states_variants_a_policy_and_comparisons) {
+    const auto benchmark = [](const std::string& hash) {
+        std::string text =
+            "name = \"mine\"\nfailures = [\"B10\"]\nexits = [\"known\", \"unknown\"]\n"
+            "predictors = [\"dead_reckoning\", \"none\"]\n"
+            "comparisons = [[\"dead_reckoning\", \"none\"]]\n"
+            "[seeds]\nstudy_seed = 3\ntest = { first = 0, count = 2 }\n"
+            "validation = { first = 100, count = 1 }\n";
+        for (const char* const more : {"", "label = \"line_corridor\"\npolicy = \"corridor\"\n"})
+            text += fmt::format("[[scenario]]\nname = \"line\"\n{}configuration = \"{}\"\n", more, hash);
+        return text;
+    };
+    const auto evaluated = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"links", "evaluate", "--benchmark", "mine.toml", "--out", "mine"};
+        words.insert(words.end(), more.begin(), more.end());
+        return clearway(words);
+    };
+    write("mine.toml", benchmark("?"));
+    const Ended refused = evaluated({});
+    EXPECT_EQ(refused.code, 3);
+    const std::string before = "has the hash ";
+    ASSERT_THAT(refused.err, HasSubstr(before));
+    write("mine.toml", benchmark(refused.err.substr(refused.err.find(before) + before.size(), 32)));
+
+    const Ended whole = evaluated({"--json"});
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const auto judged = nlohmann::json::parse(whole.out);
+    EXPECT_TRUE(judged.at("confirmatory").get<bool>());
+    ASSERT_EQ(judged.at("comparisons").size(), 2U) << "one pair, exits known and unknown";
+    EXPECT_TRUE(judged.at("comparisons").at(0).at("ap_p_holm").is_number());
+    std::map<std::string, int> links;
+    for (const auto& result : judged.at("results")) {
+        if (result.at("scenario").is_string() && result.at("exits") == "known" &&
+            result.at("predictor") == "none")
+            links[result.at("scenario")] = result.at("all_true_links");
+    }
+    ASSERT_EQ(links.size(), 2U);
+    EXPECT_NE(links.at("line"), links.at("line_corridor")) << "the policy changes the traffic";
+
+    EXPECT_THAT(evaluated({}).out, HasSubstr("(confirmatory)"));
+    EXPECT_THAT(evaluated({"--exits", "known"}).out, HasSubstr("(exploratory: a part of the benchmark)"));
+    EXPECT_THAT(evaluated({"line_corridor", "--exits", "known"}).out, HasSubstr("mine (a part of it)"));
+    EXPECT_EQ(evaluated({"line_coridor"}).code, 3);
 }
 
 TEST_F(LinksTest, a_folder_that_cannot_be_made_is_the_environments_fault) {

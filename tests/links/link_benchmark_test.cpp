@@ -23,14 +23,18 @@ class LinkBenchmarkFile : public testing::Test {
         setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);
         setenv("SUMO_HOME", "/usr/share/sumo", 0);
     }
-    /// The message with which eval_v1 is refused after a change.
-    std::string refusal(const std::string& replaced, const std::string& replacement) {
+    /// eval_v1 after a change.
+    LinkBenchmark read(const std::string& replaced, const std::string& replacement) {
         std::string text = core::read_file(eval_v1);
         const std::size_t at = text.find(replaced);
-        if (at == std::string::npos) return "nothing to replace";
+        if (at == std::string::npos) throw std::invalid_argument("nothing to replace");
         text.replace(at, replaced.size(), replacement);
+        return read_link_benchmark(folder_.write("mine.toml", text));
+    }
+    /// The message with which it is refused then.
+    std::string refusal(const std::string& replaced, const std::string& replacement) {
         try {
-            read_link_benchmark(folder_.write("mine.toml", text));
+            read(replaced, replacement);
         } catch (const core::InputError& error) {
             return error.what();
         }
@@ -51,8 +55,28 @@ TEST_F(LinkBenchmarkFile, eval_v1_is_frozen) {
     EXPECT_EQ(benchmark.validation, (SeedRange{100, 5}));
     EXPECT_EQ(benchmark.failures.size(), 17U);
     ASSERT_EQ(benchmark.scenarios.size(), 3U);
-    for (const scenario::ScenarioConfig& config : benchmark.scenarios)
-        EXPECT_EQ(config.version, "v1");
+    for (const BenchmarkScenario& entry : benchmark.scenarios) {
+        EXPECT_EQ(entry.config.version, "v1");
+        EXPECT_EQ(entry.label, entry.config.name);
+        EXPECT_EQ(entry.policy, "");
+    }
+    EXPECT_TRUE(benchmark.predictors.empty());
+    EXPECT_TRUE(benchmark.comparisons.empty());
+}
+
+/// It is a draft: sensing options are still to come. It must stay readable, on seeds of its own.
+TEST_F(LinkBenchmarkFile, the_draft_of_eval_v2_can_be_read_and_has_a_study_seed_of_its_own) {
+    const LinkBenchmark benchmark = read_link_benchmark(CLEARWAY_SOURCE_DIR "/studies/links/eval_v2.toml");
+    EXPECT_EQ(benchmark.name, "eval_v2");
+    EXPECT_EQ(benchmark.test, (SeedRange{0, 10}));
+    EXPECT_EQ(benchmark.validation, (SeedRange{100, 5}));
+    EXPECT_EQ(benchmark.study_seed, 8201U);
+    EXPECT_NE(benchmark.study_seed, read_link_benchmark(eval_v1).study_seed);
+    std::set<std::string> scenarios;
+    for (const BenchmarkScenario& entry : benchmark.scenarios)
+        scenarios.insert(entry.config.name);
+    EXPECT_THAT(scenarios, testing::ElementsAre("city", "grid_signals", "intersection", "merge",
+                                                "random_town", "spider"));
 }
 
 /// Its tables compare these; a predictor that came later is judged when it is named.
@@ -94,6 +118,68 @@ TEST_F(LinkBenchmarkFile, refuses_a_scenario_that_is_not_what_it_was) {
         refusal("variant = \"dense\"", "variant = \"standard\""),
         AllOf(HasSubstr("merge has changed since the benchmark was frozen"), HasSubstr("mine.toml:16")));
     EXPECT_THAT(refusal("name = \"merge\"", "name = \"mergee\""), HasSubstr("Did you mean 'merge'?"));
+}
+
+/// A variant of the intersection.
+const std::string second_entry =
+    "[[scenario]]\nname = \"intersection\"\nlabel = \"intersection_treiber\"\npolicy = \"corridor\"\n"
+    "idm = \"treiber\"\ndensity = 0.5\nav_share = 0.25\n";
+
+TEST_F(LinkBenchmarkFile, states_variants_of_a_scenario_with_a_policy_and_options) {
+    // The hash is not known here: the refusal prints it, and only it.
+    const std::string told = refusal("[[scenario]]\nname = \"intersection\"\n", second_entry);
+    EXPECT_THAT(told, HasSubstr("its configuration has the hash "));
+    const std::string before = "has the hash ";
+    const std::string hash = told.substr(told.find(before) + before.size(), 32);
+    const LinkBenchmark benchmark = read(
+        "[[scenario]]\nname = \"intersection\"\nvariant = \"dense\"\n"
+        "configuration = \"24067ac92a444b24d23df620e2945794\"",
+        second_entry + "variant = \"dense\"\nconfiguration = \"" + hash + "\"");
+    ASSERT_EQ(benchmark.scenarios.size(), 3U);
+    const BenchmarkScenario& entry = benchmark.scenarios[1];
+    EXPECT_EQ(entry.label, "intersection_treiber");
+    EXPECT_EQ(entry.policy, "corridor");
+    EXPECT_EQ(entry.config.name, "intersection");
+    EXPECT_EQ(entry.config.drivers.idm, scenario::IdmPreset::treiber);
+    EXPECT_DOUBLE_EQ(entry.config.demand.density, 3.5) << "half of the dense variant's 7";
+}
+
+TEST_F(LinkBenchmarkFile, refuses_entries_that_cannot_be_told_apart_or_are_out_of_range) {
+    const std::string name = "name = \"intersection\"\n";
+    EXPECT_THAT(refusal(name, "name = \"merge\"\n"),
+                AllOf(HasSubstr("`merge` is used twice"), HasSubstr("label")));
+    EXPECT_THAT(refusal(name, name + "label = \"merge\"\n"), HasSubstr("`merge` is used twice"));
+    EXPECT_THAT(refusal(name, name + "label = \"../up\"\n"), HasSubstr("`../up` cannot name a folder"));
+    EXPECT_THAT(refusal(name, name + "policy = \"coridor\"\n"),
+                AllOf(HasSubstr("`coridor` is not a policy"), HasSubstr("Did you mean 'corridor'?")));
+    EXPECT_THAT(refusal(name, name + "idm = \"krauss\"\n"), AllOf(HasSubstr("krauss"), HasSubstr("treiber")));
+    EXPECT_THAT(refusal(name, name + "av_share = 1.5\n"),
+                AllOf(HasSubstr("1.5 is out of range"), HasSubstr("0 to 1")));
+    EXPECT_THAT(refusal(name, name + "density = -1\n"), HasSubstr("-1 is out of range"));
+}
+
+TEST_F(LinkBenchmarkFile, names_predictors_and_comparisons_in_advance) {
+    const std::string seeds = "[seeds]\n";
+    const LinkBenchmark benchmark =
+        read(seeds,
+             "predictors = [\"kalman\", \"graphsage\", \"none\"]\n"
+             "comparisons = [[\"graphsage\", \"kalman\"], [\"graphsage\", \"none\"]]\n" +
+                 seeds);
+    EXPECT_THAT(benchmark.predictors, testing::ElementsAre("kalman", "graphsage", "none"));
+    EXPECT_THAT(benchmark.comparisons,
+                testing::ElementsAre(ComparedPair{"graphsage", "kalman"}, ComparedPair{"graphsage", "none"}));
+    const auto refused = [&](const std::string& lines) { return refusal(seeds, lines + seeds); };
+    EXPECT_THAT(refused("comparisons = [[\"graphsage\"]]\n"), HasSubstr("a comparison names 1 predictors"));
+    EXPECT_THAT(refused("comparisons = [\"graphsage\", \"none\"]\n"),
+                HasSubstr("an array of arrays of texts"));
+    EXPECT_THAT(refused("comparisons = [[\"graphsage\", \"kalmann\"]]\n"),
+                HasSubstr("Did you mean 'kalman'?"));
+    EXPECT_THAT(refused("comparisons = [[\"none\", \"none\"]]\n"), HasSubstr("compared with itself"));
+    EXPECT_THAT(refused("comparisons = [[\"none\", \"kalman\"], [\"kalman\", \"none\"]]\n"),
+                HasSubstr("kalman and none are compared twice"));
+    EXPECT_THAT(refused("predictors = [\"none\"]\ncomparisons = [[\"none\", \"kalman\"]]\n"),
+                HasSubstr("`kalman` is not among the benchmark's predictors"));
+    EXPECT_THAT(refused("predictors = [\"nnone\"]\n"), HasSubstr("Did you mean 'none'?"));
 }
 
 TEST(SeedRanges, are_judged_before_anything_runs) {

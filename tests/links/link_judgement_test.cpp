@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "links/detail/link_draws.hpp"
+#include "links/link_comparisons.hpp"
 
 namespace clearway::links {
 namespace {
@@ -252,6 +253,75 @@ TEST(LinkJudgement, of_one_run_a_scenario_gives_no_interval) {
     EXPECT_EQ(judgement.results()[0].scenario, "merge");
     EXPECT_TRUE(judgement.results()[0].of(LinkSubset::all).ap.value.has_value());
     EXPECT_FALSE(judgement.results()[0].of(LinkSubset::all).ap.interval.has_value());
+}
+
+/// Two pairs, one failure, AP and F1: four tests.
+TEST(LinkComparisons, adjust_p_values_for_all_tests_and_leave_out_pairs_that_were_not_run) {
+    LinkComparisons comparisons({5, 5},
+                                {{"graphsage", "kalman"}, {"graphsage", "none"}, {"kalman", "last_seen"}}, 1);
+    comparisons.add(runs_of("graphsage", 1.4));
+    comparisons.add(runs_of("kalman", 1.0));
+    comparisons.add(runs_of("none", 1.4));
+    comparisons.add(runs_of("route_rule", 3.0));
+    const std::vector<LinkComparison> results = comparisons.results();
+    ASSERT_EQ(results.size(), 2U) << "last_seen was not run";
+    EXPECT_EQ(results[0].pair, (ComparedPair{"graphsage", "kalman"}));
+    EXPECT_EQ(results[0].failure, "B10");
+    LinkJudgement judgement({5, 5});
+    judgement.add(runs_of("graphsage", 1.4));
+    judgement.add(runs_of("kalman", 1.0));
+    const auto value = [&](const char* predictor) {
+        return find(judgement, predictor, "").of(LinkSubset::all).ap.value.value();
+    };
+    EXPECT_DOUBLE_EQ(results[0].ap.difference.value.value(), value("graphsage") - value("kalman"));
+    EXPECT_GT(results[0].ap.difference.interval->low, 0.0);
+    EXPECT_LT(results[0].ap.p.value(), 0.05);
+    // The same runs under another name: no difference, and p = 1 stays 1.
+    EXPECT_DOUBLE_EQ(results[1].ap.difference.value.value(), 0.0);
+    EXPECT_DOUBLE_EQ(results[1].ap.p.value(), 1.0);
+    EXPECT_DOUBLE_EQ(results[1].f1.holm_p.value(), 1.0);
+    const std::vector<double> adjusted = analysis::holm(std::vector<double>{
+        results[0].ap.p.value(), results[0].f1.p.value(), results[1].ap.p.value(), results[1].f1.p.value()});
+    EXPECT_DOUBLE_EQ(results[0].ap.holm_p.value(), adjusted[0]);
+    EXPECT_DOUBLE_EQ(results[0].f1.holm_p.value(), adjusted[1]);
+    EXPECT_GE(results[0].ap.holm_p.value(), 3.0 * results[0].ap.p.value());
+}
+
+TEST(LinkComparisons, without_pairs_compare_nothing) {
+    LinkComparisons comparisons({5, 5}, {}, 1);
+    comparisons.add(runs_of("kalman", 1.0));
+    EXPECT_TRUE(comparisons.results().empty());
+}
+
+/// 99 values of which 4 are at most 0: share (4 + 1) / 100, a normal quantile of -1.6449. Ten runs widen it
+/// by sqrt(10/9), and with 9 degrees of freedom P(t < -1.6449 / sqrt(10/9)) is 0.0766.
+TEST(RunResampling, gives_a_two_sided_p_value_that_agrees_with_its_interval) {
+    const analysis::RunResampling resampling({10}, {.resamples = 99});
+    std::vector<double> values(99, 1.0);
+    std::fill_n(values.begin(), 4, -1.0);
+    EXPECT_NEAR(resampling.p(values).value(), 2.0 * 0.0766, 1e-3);
+    for (double& value : values)
+        value = -value;
+    EXPECT_NEAR(resampling.p(values).value(), 2.0 * 0.0766, 1e-3) << "either side";
+    EXPECT_DOUBLE_EQ(resampling.p(std::vector<double>(99, 0.0)).value(), 1.0);
+    EXPECT_FALSE(resampling.p(std::vector<double>{0.1, std::nan("")}).has_value());
+    EXPECT_FALSE(analysis::RunResampling({1}).p(values).has_value()) << "one run";
+
+    const analysis::RunResampling many({10}, {.resamples = 2000});
+    std::mt19937 engine(3);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    std::vector<double> draws(2000);
+    for (double& draw : draws)
+        draw = noise(engine);
+    const analysis::Interval interval = many.interval(draws).value();
+    const auto p_at = [&](double shift) {
+        std::vector<double> shifted = draws;
+        for (double& value : shifted)
+            value += shift;
+        return many.p(shifted).value();
+    };
+    EXPECT_LT(p_at(0.2 - interval.low), 0.05) << "the interval lies just above 0";
+    EXPECT_GT(p_at(-0.2 - interval.low), 0.05) << "the interval just holds 0";
 }
 
 TEST(RunResampling, draws_within_strata_and_repeats_itself) {

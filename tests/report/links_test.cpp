@@ -132,6 +132,54 @@ TEST(LinksJson, holds_every_measure_with_its_interval) {
     EXPECT_DOUBLE_EQ(document.at("gains").at(0).at("ap_error_reduction"), 0.65);
 }
 
+LinkFacts with_comparisons() {
+    LinkFacts facts = sample();
+    links::LinkComparison one{.failure = "B10",
+                              .exits = links::Exits::known,
+                              .pair = {"graphsage", "route_rule"},
+                              .ap = {},
+                              .f1 = {}};
+    one.ap = {{0.0142, Interval{0.0031, 0.0252}}, 0.0004, 0.0008};
+    one.f1 = {{-0.002, Interval{-0.01, 0.006}}, 0.4, 0.4};
+    facts.comparisons = {one};
+    facts.confirmatory = true;
+    facts.exploratory_gains = true;
+    return facts;
+}
+
+TEST(LinksConsole, says_which_comparisons_are_confirmatory) {
+    LinkFacts facts = with_comparisons();
+    EXPECT_THAT(
+        links_console(facts),
+        AllOf(HasSubstr("exits known (confirmatory)"), HasSubstr("for all 2 tests"),
+              HasSubstr("graphsage minus route_rule\nB10       +.0142 [+.0031, +.0252]  p<.001"),
+              HasSubstr("-.0020 [-.0100, +.0060]  p .400\n"), HasSubstr("exits known (exploratory)\n")));
+    facts.confirmatory = false;
+    EXPECT_THAT(links_console(facts), HasSubstr("(exploratory: a part of the benchmark)"));
+    EXPECT_THAT(links_console(sample()), Not(HasSubstr("exploratory")));
+}
+
+TEST(LinksJson, holds_the_comparisons_named_in_advance) {
+    const auto document = nlohmann::json::parse(links_json(with_comparisons()));
+    EXPECT_TRUE(document.at("confirmatory").get<bool>());
+    const auto& one = document.at("comparisons").at(0);
+    EXPECT_EQ(one.at("against"), "route_rule");
+    EXPECT_DOUBLE_EQ(one.at("ap_difference"), 0.0142);
+    EXPECT_DOUBLE_EQ(one.at("ap_difference_low_95"), 0.0031);
+    EXPECT_DOUBLE_EQ(one.at("ap_p"), 0.0004);
+    EXPECT_DOUBLE_EQ(one.at("ap_p_holm"), 0.0008);
+    EXPECT_DOUBLE_EQ(one.at("f1_p_holm"), 0.4);
+    EXPECT_FALSE(nlohmann::json::parse(links_json(sample())).contains("comparisons"));
+}
+
+TEST(LinksPage, says_which_comparisons_are_confirmatory) {
+    LinkFacts facts = with_comparisons();
+    EXPECT_THAT(page_of(facts),
+                AllOf(HasSubstr("They are confirmatory"), HasSubstr("0.0142 [0.0031, 0.0252]")));
+    facts.confirmatory = false;
+    EXPECT_THAT(page_of(facts), AllOf(HasSubstr("Only a part"), Not(HasSubstr("They are confirmatory"))));
+}
+
 TEST(LinksCsv, is_a_row_a_result_under_one_head_with_odd_names_quoted) {
     const std::string text = links_csv(sample("my \"city\", east"));
     EXPECT_EQ(count(text, "\n"), 5U);
