@@ -64,6 +64,7 @@ LinkJob link_job() {
     job.work_folder = "work";
     job.failures = {"B10", "D3"};
     job.exits = {sensing::Exits::known};
+    job.policy = "corridor";
     job.predictors = {{"kalman", "", {{"link_threshold", "0.25"}}, "out.links"},
                       {"none", "a.weights", {}, "b"}};
     return job;
