@@ -29,6 +29,8 @@ enum class Purpose : std::uint32_t {
     speed_noise = 20,
     sensing_share = 21,
     seen_position = 22,
+    known_route = 23,
+    heading_noise = 24,
     siren_reaction = 32,
     training = 48,
     negative_sampling = 49,

@@ -10,8 +10,9 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
     : period_s_(context.policy_period_s) {
     graph::LinkRules rules;
     rules.radius_m = context.link_radius_m;
-    sensor_ = sensing::make_sensor(sensing::failure_from(condition.failure), context.random,
-                                   {.network = context.network, .rules = rules});
+    const sensing::FailureConfig failure = sensing::failure_from(condition.failure);
+    if (failure.signals_known == sensing::SignalsKnown::no) shown_.emplace();
+    sensor_ = sensing::make_sensor(failure, context.random, {.network = context.network, .rules = rules});
     predictor_ = prediction::make_predictor(
         condition.predictor,
         {.network = context.network, .rules = rules, .model_file = experiment::checked_model(condition)},
@@ -23,6 +24,7 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
 
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     sensor_->observe(snapshot, roster, observation_);
+    if (shown_) *shown_ = snapshot.signals;
     leases_.clear();
 }
 
@@ -35,6 +37,7 @@ void DecisionChain::decide() {
                      std::floor((observation_.time.value + core::clock_tolerance_s) / period_s_)) +
                  1;
     predictor_->predict(observation_, belief_);
+    if (shown_) belief_.signals = *shown_;
     for (const auto& policy : policies_) {
         policy->act(belief_, leases_);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,9 @@ class DecisionChain {
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
     /// Whether a policy period has passed since the last decision, in simulation time.
     bool decision_is_due() const;
-    /// Predicts from the present observation and asks the policy.
+    /// Predicts from the present observation and asks the policy. Policies for signals run at the signals,
+    /// and a crew sees what its signal shows: the belief tells every policy what signals show, even when the
+    /// predictor does not know it.
     void decide();
 
     bool has_policy() const { return !policies_.empty(); }
@@ -54,6 +57,8 @@ class DecisionChain {
     std::unique_ptr<prediction::Predictor> predictor_;
     std::vector<std::unique_ptr<policy::Policy>> policies_;
     double period_s_;
+    /// What signals show, for policies alone: kept when observations do not tell it.
+    std::optional<traffic::SignalStates> shown_;
     std::uint64_t decisions_ = 0;
     traffic::Observation observation_;
     traffic::BelievedGraph belief_;

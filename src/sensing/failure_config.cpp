@@ -37,6 +37,25 @@ FailureConfig noisy(FailureConfig config, double position_sigma_m) {
     return config;
 }
 
+/// Noisy reports that do not tell edge and lane.
+FailureConfig matched(FailureConfig config, double position_sigma_m) {
+    config.position_sigma_m = position_sigma_m;
+    config.heading_sigma_deg = 5.0;  // Assumed: course over ground of a satellite receiver in town traffic.
+    config.map_matching = MapMatching::nearest;
+    return config;
+}
+
+FailureConfig with_routes(FailureConfig config, double route_share) {
+    config.route_share = route_share;
+    return config;
+}
+
+FailureConfig without_signals() {
+    FailureConfig config;
+    config.signals_known = SignalsKnown::no;
+    return config;
+}
+
 FailureConfig perfect() {
     FailureConfig config;
     config.report_interval_s = 0.0;
@@ -53,7 +72,10 @@ FailureConfig late(double latency_s) {
 bool needs_rounds(const FailureConfig& config) {
     return config.loss_rate > 0.0 || config.dark_share > 0.0 || config.position_sigma_m > 0.0 ||
            config.speed_sigma_mps > 0.0 || config.latency_s > 0.0 || config.connected_share < 1.0 ||
-           config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 || config.link_detection_rate > 0.0;
+           config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 ||
+           config.link_detection_rate > 0.0 || config.heading_sigma_deg > 0.0 ||
+           config.map_matching != MapMatching::exact || config.route_share < 1.0 ||
+           config.signals_known != SignalsKnown::yes;
 }
 
 void check_ranges(const FailureConfig& config, const std::string& where,
@@ -144,6 +166,21 @@ core::Problem unknown(std::string_view what, std::string_view name, const std::v
             near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
 }
 
+/// Presets in which a receiver does not know lanes, routes or signals.
+void add_unknown_parts(std::vector<FailurePreset>& presets) {
+    presets.push_back({"B40", "outages of 40 s on average, dark 30 % of the time", bursty(40.0)});
+    for (const int metres : {3, 5}) {
+        presets.push_back(
+            {fmt::format("D{}M", metres),
+             fmt::format("D{} with heading errors of 5 degrees, lanes found by map matching", metres),
+             matched(FailureConfig{}, metres)});
+    }
+    presets.push_back({"R50", "routes of half of the vehicles known", with_routes(FailureConfig{}, 0.5)});
+    presets.push_back({"R0", "routes of emergency vehicles alone known", with_routes(FailureConfig{}, 0.0)});
+    presets.push_back({"S0", "what signals show is not known", without_signals()});
+    presets.push_back({"mixed", "B20, D3M and R50 together", with_routes(matched(bursty(20.0), 3.0), 0.5)});
+}
+
 /// Reads `FIELD=VALUE` items one after the other.
 class FieldReader {
   public:
@@ -207,6 +244,7 @@ std::vector<FailurePreset> failure_presets() {
     }
     presets.push_back({"DL2", "every report arrives 2 s late", late(2.0)});
     presets.push_back({"D3B10", "D3 and B10 together", noisy(bursty(10.0), 3.0)});
+    add_unknown_parts(presets);
     return presets;
 }
 

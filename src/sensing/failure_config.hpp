@@ -21,6 +21,10 @@ enum class Exits { known, unknown };
 enum class Occlusion { ignored, considered };
 /// Whether a vehicle whose newest report was lost still receives commands.
 enum class DarkCommands { received, lost };
+/// How a receiver finds a vehicle's place on the map: as the vehicle tells it, or from the reported position.
+enum class MapMatching { exact, nearest };
+/// Whether observations carry the letters that signals show.
+enum class SignalsKnown { no, yes };
 
 /// Spelling of each enumerator in files and on the command line.
 constexpr core::Spellings<Detection, 2> spellings(Detection) {
@@ -34,6 +38,12 @@ constexpr core::Spellings<Occlusion, 2> spellings(Occlusion) {
 }
 constexpr core::Spellings<DarkCommands, 2> spellings(DarkCommands) {
     return {{{DarkCommands::received, "received"}, {DarkCommands::lost, "lost"}}};
+}
+constexpr core::Spellings<MapMatching, 2> spellings(MapMatching) {
+    return {{{MapMatching::exact, "exact"}, {MapMatching::nearest, "nearest"}}};
+}
+constexpr core::Spellings<SignalsKnown, 2> spellings(SignalsKnown) {
+    return {{{SignalsKnown::no, "0"}, {SignalsKnown::yes, "1"}}};
 }
 
 /// How sensors report and how they fail. The failures combine freely; each is off by default.
@@ -61,6 +71,10 @@ struct FailureConfig {
     DarkCommands dark_commands = DarkCommands::received;
     Exits exits = Exits::known;
     double forget_after_s = 300.0;
+    double heading_sigma_deg = 0.0;
+    MapMatching map_matching = MapMatching::exact;
+    double route_share = 1.0;
+    SignalsKnown signals_known = SignalsKnown::yes;
 
     bool operator==(const FailureConfig&) const = default;
 
@@ -121,7 +135,19 @@ struct FailureConfig {
                   "known: the frozen benchmark reports both"},
             Field{"forget_after_s", "s", &C::forget_after_s, 1.0, 86400.0,
                   "Age at which the last report of a silent vehicle is dropped",
-                  "300 s: with a mean of 20 s, fewer than one outage in a million lasts longer"});
+                  "300 s: with a mean of 20 s, fewer than one outage in a million lasts longer"},
+            Field{"heading_sigma_deg", "deg", &C::heading_sigma_deg, 0.0, 90.0,
+                  "Standard error of a reported heading, white", "off; presets D3M and D5M: 5"},
+            Field{"map_matching", "", &C::map_matching, 0, 0,
+                  "How a receiver finds edge, lane and place on the lane: as the vehicle tells them, or from "
+                  "reported position and heading",
+                  "exact: a vehicle is assumed to know its lane"},
+            Field{"route_share", "1", &C::route_share, 0.0, 1.0,
+                  "Share of the human-driven and automated vehicles that report their route; emergency "
+                  "vehicles do",
+                  "all of them; preset R50: 0.5"},
+            Field{"signals_known", "", &C::signals_known, 0, 0,
+                  "0: observations do not tell what signals show", "1: signals are infrastructure"});
     }
 };
 
@@ -139,7 +165,9 @@ struct FailurePreset {
 /// `perfect`, A.1 to A.7 (independent loss of 0.1 to 0.7 of the reports), B5, B10, B20 (outages of 5, 10, 20
 /// s on average, dark 0.3 of the time), C.link, C.range (B10 where half of the dark links are still detected,
 /// by presence or with a range of 1 m error), D1, D3, D5 (white position noise of 1, 3, 5 m), DL2 (2 s
-/// latency), D3B10 (D3 and B10).
+/// latency), D3B10 (D3 and B10), B40 (outages of 40 s), D3M, D5M (D3 and D5 with heading errors and map
+/// matching by the receiver), R50, R0 (routes of half of the vehicles and of none), S0 (no letters of
+/// signals), mixed (B20, D3M and R50 together).
 std::vector<FailurePreset> failure_presets();
 
 /// The configuration that a text names: a preset, fields of FailureConfig, or both, separated by commas:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clearway::sensing {
 namespace {
@@ -58,6 +59,14 @@ bool EquipmentProcess::equipped(core::VehicleKey vehicle, traffic::VehicleClass 
            random_.uniform(core::Purpose::sensing_share, vehicle.value) < connected_share_;
 }
 
+RouteProcess::RouteProcess(const FailureConfig& config, const core::KeyedRandom& random)
+    : random_(random), route_share_(config.route_share) {}
+
+bool RouteProcess::known(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const {
+    return vehicle_class == traffic::VehicleClass::emergency ||
+           random_.uniform(core::Purpose::known_route, vehicle.value) < route_share_;
+}
+
 NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random,
                            const roads::Network& network)
     : random_(random),
@@ -65,7 +74,8 @@ NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom&
       position_sigma_m_(config.position_sigma_m),
       position_correlation_(correlation(config.report_interval_s, config.position_correlation_s)),
       speed_sigma_mps_(config.speed_sigma_mps),
-      speed_correlation_(correlation(config.report_interval_s, config.speed_correlation_s)) {}
+      speed_correlation_(correlation(config.report_interval_s, config.speed_correlation_s)),
+      heading_sigma_rad_(config.heading_sigma_deg * std::numbers::pi / 180.0) {}
 
 double NoiseProcess::draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const {
     double weight = 1.0;
@@ -92,13 +102,25 @@ void NoiseProcess::apply(core::VehicleKey vehicle, ReportNumber report, traffic:
         const double error = draw({core::Purpose::speed_noise, 1, 0, speed_correlation_}, vehicle, report);
         state.speed_mps = static_cast<float>(std::max(0.0, state.speed_mps + speed_sigma_mps_ * error));
     }
+    turn(vehicle, report, state);
 }
 
 void NoiseProcess::blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
                         traffic::MotionState& state) const {
-    if (sigma_m == 0.0) return;
-    move(sigma_m * draw({core::Purpose::seen_position, 2, 0}, vehicle, report),
-         sigma_m * draw({core::Purpose::seen_position, 2, 1}, vehicle, report), state);
+    if (sigma_m > 0.0) {
+        move(sigma_m * draw({core::Purpose::seen_position, 2, 0}, vehicle, report),
+             sigma_m * draw({core::Purpose::seen_position, 2, 1}, vehicle, report), state);
+    }
+    turn(vehicle, report, state);
+}
+
+/// After the position has moved, for the error along the lane is that along the true heading.
+void NoiseProcess::turn(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const {
+    if (heading_sigma_rad_ == 0.0) return;
+    const double error_rad =
+        heading_sigma_rad_ * random_.normal(core::Purpose::heading_noise, vehicle.value, report);
+    state.heading_rad =
+        static_cast<float>(std::remainder(state.heading_rad + error_rad, 2.0 * std::numbers::pi));
 }
 
 void NoiseProcess::move(double x_error_m, double y_error_m, traffic::MotionState& state) const {

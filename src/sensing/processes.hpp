@@ -54,20 +54,35 @@ class EquipmentProcess {
     double connected_share_;
 };
 
+/// Which vehicles report their route: a pure function of the vehicle. One draw a vehicle, so that a larger
+/// share has the same vehicles and more. Emergency vehicles always do.
+class RouteProcess {
+  public:
+    RouteProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    bool known(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const;
+
+  private:
+    core::KeyedRandom random_;
+    double route_share_;
+};
+
 /// Errors of reports: a pure function of (vehicle, report number).
 ///
 /// Position and, with separate noise, speed: white noise on each axis or, with a correlation time tau, the
 /// stationary first-order process with correlation exp(-interval / tau) between reports, as a weighted sum of
 /// past white noise, cut off where a weight falls below 1/1000. A speed stays at least 0. The place on the
 /// map moves with the position: the lane position by the error along the heading, the lane by whole lane
-/// widths of the error across it, so that nothing in the report is more exact than the position.
+/// widths of the error across it, so that nothing in the report is more exact than the position. Heading:
+/// white noise, which does not move the place.
 class NoiseProcess {
   public:
     NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random, const roads::Network& network);
-    bool none() const { return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0; }
+    bool none() const {
+        return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0 && heading_sigma_rad_ == 0.0;
+    }
     void apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
     /// Adds the error of a position that another observer saw: white, with standard deviation `sigma_m` along
-    /// each axis.
+    /// each axis. The heading has the error of reports.
     void blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
               traffic::MotionState& state) const;
 
@@ -82,6 +97,7 @@ class NoiseProcess {
     };
     double draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const;
     void move(double x_error_m, double y_error_m, traffic::MotionState& state) const;
+    void turn(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
 
     core::KeyedRandom random_;
     const roads::Network& network_;
@@ -89,6 +105,7 @@ class NoiseProcess {
     double position_correlation_;  ///< From one report to the next.
     double speed_sigma_mps_;
     double speed_correlation_;
+    double heading_sigma_rad_;
 };
 
 /// Which links of dark vehicles are still detected: a pure function of (unordered pair, report number).

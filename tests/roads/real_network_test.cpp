@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/random.hpp"
+#include "roads/map_matching.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"
 #include "support/temporary_folder.hpp"
@@ -164,6 +166,68 @@ TEST(RealNetwork, NoRouteOfSumosRouterIsFasterThanOurs) {
     }
     EXPECT_GT(same, trips * 8 / 10);
     RecordProperty("same", static_cast<int>(same));
+}
+
+/// Shares of sightings that are matched to a wrong edge and to a wrong lane.
+struct WrongShares {
+    double edge = 0.0;
+    double lane = 0.0;
+};
+
+enum class RouteKnown { no, yes };
+
+/// Places every 23 m along 100 routes by car, each seen with errors of `sigma_m` along each axis and of 5
+/// degrees in its direction.
+WrongShares wrong_shares(const Network& network, double sigma_m, RouteKnown route_known) {
+    const core::KeyedRandom random(core::StudySeed{1}, core::Replication{0});
+    constexpr double heading_sigma_rad = 5.0 * std::numbers::pi / 180.0;
+    const std::vector<core::EdgeIndex> edges = largest_car_component(network);
+    MapMatcher matcher(network);
+    double count = 0.0;
+    WrongShares wrong;
+    for (std::uint64_t trip = 0; trip < 100; ++trip) {
+        const auto draw = [&](std::uint64_t end) {
+            return edges[random.below(edges.size(), core::Purpose::demand, trip, end)];
+        };
+        const auto route = fastest_route(network, draw(0), draw(1));
+        if (!route) continue;
+        traffic::MotionState state{.lane = network.lane_of(route->front(), 0)};
+        for (std::uint64_t number = 0;; ++number) {
+            const Advanced on = advance(network, *route, state, core::Metres(23.0));
+            if (on.past_end.value > 0.0) break;
+            state = on.state;
+            const auto error = [&](std::uint64_t axis) {
+                return random.normal(core::Purpose::position_noise, trip, 3 * number + axis);
+            };
+            const Sighting sighting{{static_cast<float>(state.x_m + sigma_m * error(0)),
+                                     static_cast<float>(state.y_m + sigma_m * error(1))},
+                                    state.heading_rad + heading_sigma_rad * error(2),
+                                    sigma_m,
+                                    heading_sigma_rad};
+            const auto place =
+                matcher.match(sighting, route_known == RouteKnown::yes ? Route(*route) : Route());
+            const bool lane_right = place && place->lane == state.lane;
+            const bool edge_right = place && network.lane(place->lane).edge == network.lane(state.lane).edge;
+            count += 1.0;
+            wrong.edge += edge_right ? 0.0 : 1.0;
+            wrong.lane += lane_right ? 0.0 : 1.0;
+        }
+    }
+    return {wrong.edge / count, wrong.lane / count};
+}
+
+// docs/reference/sensing.md states these figures.
+TEST(RealNetwork, MapMatchingInTheCityErrsAsStated) {
+    const Network network = berlin();
+    const auto expect = [&](double sigma_m, RouteKnown route_known, double edge, double lane) {
+        const WrongShares wrong = wrong_shares(network, sigma_m, route_known);
+        EXPECT_NEAR(wrong.edge, edge, 0.005) << sigma_m;
+        EXPECT_NEAR(wrong.lane, lane, 0.005) << sigma_m;
+    };
+    expect(3.0, RouteKnown::yes, 0.084, 0.186);
+    expect(5.0, RouteKnown::yes, 0.130, 0.249);
+    expect(3.0, RouteKnown::no, 0.111, 0.213);
+    expect(5.0, RouteKnown::no, 0.164, 0.281);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ TEST(FailurePresets, AreThoseOfTheBenchmarkInItsOrder) {
         names.push_back(preset.name);
     }
     EXPECT_THAT(names, ElementsAre("perfect", "A.1", "A.2", "A.3", "A.4", "A.5", "A.6", "A.7", "B5", "B10",
-                                   "B20", "C.link", "C.range", "D1", "D3", "D5", "DL2", "D3B10"));
+                                   "B20", "C.link", "C.range", "D1", "D3", "D5", "DL2", "D3B10", "B40", "D3M",
+                                   "D5M", "R50", "R0", "S0", "mixed"));
 }
 
 TEST(FailurePresets, HaveTheFrozenValues) {
@@ -38,6 +39,14 @@ TEST(FailurePresets, HaveTheFrozenValues) {
     EXPECT_DOUBLE_EQ(failure_from("D3B10").position_sigma_m, 3.0);
     EXPECT_DOUBLE_EQ(failure_from("D3B10").dark_share, 0.3);
     EXPECT_DOUBLE_EQ(failure_from("perfect").report_interval_s, 0.0);
+    EXPECT_EQ(failure_from("B40"), failure_from("B10,mean_outage_s=40"));
+    EXPECT_EQ(failure_from("D3M"), failure_from("D3,heading_sigma_deg=5,map_matching=nearest"));
+    EXPECT_EQ(failure_from("D5M"), failure_from("D5,heading_sigma_deg=5,map_matching=nearest"));
+    EXPECT_EQ(failure_from("R50"), failure_from("route_share=0.5"));
+    EXPECT_EQ(failure_from("R0"), failure_from("route_share=0"));
+    EXPECT_EQ(failure_from("S0"), failure_from("signals_known=0"));
+    EXPECT_EQ(failure_from("mixed"), failure_from("B20,position_sigma_m=3,heading_sigma_deg=5,"
+                                                  "map_matching=nearest,route_share=0.5"));
 }
 
 TEST(FailurePresets, AreAllValid) {
@@ -101,6 +110,12 @@ TEST(FailureConfig, RefusesPartsOfAnErrorThatIsNotThere) {
     EXPECT_THAT(refusal("perfect,roadside_range_m=50"), HasSubstr("drawn for each report"));
     EXPECT_THAT(refusal("perfect,onboard_range_m=50"), HasSubstr("drawn for each report"));
     EXPECT_EQ(refusal("D3,position_correlation_s=5"), "accepted");
+    for (const char* const part :
+         {"heading_sigma_deg=5", "map_matching=nearest", "route_share=0.5", "signals_known=0"}) {
+        EXPECT_THAT(refusal((std::string("perfect,") + part).c_str()), HasSubstr("drawn for each report"));
+    }
+    EXPECT_THAT(refusal("signals_known=2"), HasSubstr("0, 1"));
+    EXPECT_THAT(refusal("map_matching=guess"), HasSubstr("exact, nearest"));
 }
 
 TEST(FailureConfig, RefusesEachNewPartOutOfItsRange) {
@@ -117,6 +132,9 @@ TEST(FailureConfig, RefusesEachNewPartOutOfItsRange) {
     EXPECT_TRUE(refused(&FailureConfig::onboard_sigma_m, -0.5));
     EXPECT_TRUE(refused(&FailureConfig::speed_correlation_s, -1.0));
     EXPECT_TRUE(refused(&FailureConfig::link_detection_range_m, -1.0));
+    EXPECT_TRUE(refused(&FailureConfig::heading_sigma_deg, 91.0));
+    EXPECT_TRUE(refused(&FailureConfig::route_share, 1.1));
+    EXPECT_TRUE(refused(&FailureConfig::route_share, -0.1));
 }
 
 TEST(FailureConfig, RefusesOcclusionWhereNobodyLooks) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "sensing/detail/perfect_sensor.hpp"
@@ -26,10 +27,13 @@ ReportSensor::ReportSensor(const FailureConfig& config, const core::KeyedRandom&
     : config_(config),
       equipment_(config, random),
       loss_(config, random),
+      routes_(config, random),
       noise_(config, random, context.network),
       detection_(config, random),
       observers_(config, context.network),
-      rules_(context.rules) {}
+      rules_(context.rules) {
+    if (config.map_matching == MapMatching::nearest) matcher_.emplace(context.network);
+}
 
 void ReportSensor::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                            traffic::Observation& observation) {
@@ -86,6 +90,7 @@ void ReportSensor::measure(const truth::Snapshot& snapshot, const traffic::Roste
             report.position_sigma_m = seen_sigma_m_[row];
             noise_.blur(key, *report_, seen_sigma_m_[row], report.state);
         }
+        if (!routes_.known(key, report.vehicle_class)) report.state.route_edge = 0;
     }
     if (!detection_.none()) detect_links(snapshot, round);
     on_their_way_.push_back(std::move(round));
@@ -124,9 +129,10 @@ bool ReportSensor::deliver(const traffic::Roster& roster, double time_s) {
            on_their_way_.front().measured_s + config_.latency_s <= time_s + core::clock_tolerance_s) {
         Round round = std::move(on_their_way_.front());
         on_their_way_.pop_front();
-        for (const Report& report : round.reports) {
+        for (Report& report : round.reports) {
             report.source == Source::itself ? register_vehicle(roster, report.key)
                                             : register_seen(roster, report.key);
+            if (matcher_) match(report);
         }
         merge(round.reports);
         newest_measured_s_ = round.measured_s;
@@ -135,6 +141,23 @@ bool ReportSensor::deliver(const traffic::Roster& roster, double time_s) {
         arrived = true;
     }
     return arrived;
+}
+
+void ReportSensor::match(Report& report) {
+    constexpr double degree_rad = std::numbers::pi / 180.0;
+    const core::RouteIndex known = roster_.find(report.key)->route;
+    const roads::Route route = known.exists() ? roads::Route(roster_.route(known)) : roads::Route();
+    traffic::MotionState& state = report.state;
+    const auto place = matcher_
+                           ->match({.point = {state.x_m, state.y_m},
+                                    .heading_rad = state.heading_rad,
+                                    .position_sigma_m = report.position_sigma_m,
+                                    .heading_sigma_rad = config_.heading_sigma_deg * degree_rad},
+                                   route)
+                           .value_or(roads::MatchedPlace{});
+    state.lane = place.lane;
+    state.lane_position_m = place.position_m;
+    state.route_edge = place.route_edge;
 }
 
 /// Both lists are ordered by key; a new report replaces the old one.
@@ -157,8 +180,9 @@ void ReportSensor::register_vehicle(const traffic::Roster& roster, core::Vehicle
     assert(info != nullptr);  // A roster keeps vehicles that have left.
     const auto [known, is_new] = known_routes_.try_emplace(key);
     if (!is_new && known->second.true_route == info->route) return;
+    const bool tells = info->route.exists() && routes_.known(key, info->vehicle_class);
     const core::RouteIndex route =
-        info->route.exists() ? roster_.add_route(roster.route(info->route)) : core::RouteIndex::none();
+        tells ? roster_.add_route(roster.route(info->route)) : core::RouteIndex::none();
     known->second = {info->route, route};
     if (is_new) {
         traffic::VehicleInfo own = *info;
@@ -222,7 +246,11 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
             observation.detected_links.push_back(link);
         }
     }
-    observation.signals = snapshot.signals;
+    if (config_.signals_known == SignalsKnown::yes) {
+        observation.signals = snapshot.signals;
+    } else {
+        observation.signals.state.assign(snapshot.signals.state.size(), std::string());
+    }
     observation.roster = &roster_;
 }
 

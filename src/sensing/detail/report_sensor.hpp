@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "roads/map_matching.hpp"
 #include "sensing/observers.hpp"
 #include "sensing/processes.hpp"
 #include "sensing/sensor.hpp"
@@ -52,7 +53,10 @@ class ReportSensor final : public SensorModel {
     void detect_links(const truth::Snapshot& snapshot, Round& round);
     bool deliver(const traffic::Roster& roster, double time_s);
     void merge(const std::vector<Report>& reports);
-    /// Registers a vehicle that reports, or an emergency vehicle, which knows itself.
+    /// Replaces the place on the map by the one that fits what the receiver knows.
+    void match(Report& report);
+    /// Registers a vehicle that reports, or an emergency vehicle, which knows itself; with its route if it
+    /// tells it.
     void register_vehicle(const traffic::Roster& roster, core::VehicleKey key);
     /// Registers a vehicle that others see: what can be seen of it, without a route.
     void register_seen(const traffic::Roster& roster, core::VehicleKey key);
@@ -67,10 +71,12 @@ class ReportSensor final : public SensorModel {
     FailureConfig config_;
     EquipmentProcess equipment_;
     LossProcess loss_;
+    RouteProcess routes_;
     NoiseProcess noise_;
     DetectionProcess detection_;
     Observers observers_;
     graph::LinkRules rules_;
+    std::optional<roads::MapMatcher> matcher_;  ///< Only when receivers match to the map.
 
     std::optional<ReportNumber> report_;  ///< Number of the latest round.
     std::deque<Round> on_their_way_;
