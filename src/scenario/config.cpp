@@ -87,6 +87,7 @@ void read_root(const toml::table& table, core::TomlReading& reading, ScenarioCon
     read_subtable(root, "dense", config.dense);
     read_subtable(root, "limits", config.limits);
     read_subtable(root, "drivers", config.drivers);
+    read_subtable(root, "car_following", config.following);
     read_subtable(root, "siren", config.siren);
     read_road(root, config.road);
     read_subtable(root, "pedestrians", config.pedestrians);

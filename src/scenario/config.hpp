@@ -24,8 +24,11 @@ enum class Restriction { none, largest_car_component };
 /// Which lanes a measured vehicle may use: those of its kind, or all (SUMO's class `ignoring`).
 enum class Access { own, unrestricted };
 /// How the vehicles of an imported demand follow each other: with the model of their own type, or with the
-/// Intelligent Driver Model of `[drivers]`.
+/// model of the scenario (`[drivers]` and `[car_following]`).
 enum class CarFollowing { own, idm };
+/// The car-following model of a scenario's vehicles: the Intelligent Driver Model, or SUMO's own model after
+/// Krauss 1998 with its defaults.
+enum class FollowingModel { idm, krauss };
 /// A place that emergency vehicles start from or drive to.
 enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
@@ -54,6 +57,9 @@ constexpr core::Spellings<Access, 2> spellings(Access) {
 }
 constexpr core::Spellings<CarFollowing, 2> spellings(CarFollowing) {
     return {{{CarFollowing::own, "own"}, {CarFollowing::idm, "idm"}}};
+}
+constexpr core::Spellings<FollowingModel, 2> spellings(FollowingModel) {
+    return {{{FollowingModel::idm, "idm"}, {FollowingModel::krauss, "krauss"}}};
 }
 constexpr core::Spellings<Crossings, 2> spellings(Crossings) {
     return {{{Crossings::signals, "signals"}, {Crossings::all, "all"}}};
@@ -214,6 +220,25 @@ struct Drivers {
     }
 };
 
+/// Table `[car_following]`, optional: other drivers than usual.
+struct Following {
+    FollowingModel model = FollowingModel::idm;
+    double driver_spread = 0.0;
+
+    bool operator==(const Following&) const = default;
+    static constexpr auto fields() {
+        using S = Following;
+        return std::make_tuple(
+            core::Field{"model", "", &S::model, 0, 0,
+                        "idm: parameters of [drivers]; krauss: SUMO's own model with its defaults.",
+                        "idm: docs/decisions/0001-step-length.md"},
+            core::Field{"driver_spread", "1", &S::driver_spread, 0.0, 1.0,
+                        "Relative standard deviation of headway, acceleration, deceleration and speed factor "
+                        "between human drivers.",
+                        "0: drivers differ in their speed factor alone"});
+    }
+};
+
 /// Table `[kinds.traffic]`: relative frequency of each kind among the human and automated vehicles of
 /// generated demand.
 struct TrafficKinds {
@@ -354,7 +379,8 @@ struct OwnTypes {
             core::Field{"file", "", &S::file, 0, 0, "Additional file with a <vType> for each measured.type.",
                         "scenario"},
             core::Field{"car_following", "", &S::car_following, 0, 0,
-                        "own: as in the types; idm: parameters of [drivers].", "own"});
+                        "own: as in the types; idm: the model of the scenario, parameters of [drivers].",
+                        "own"});
     }
 };
 
@@ -393,6 +419,7 @@ struct ScenarioConfig {
     std::optional<Dense> dense;
     SpeedLimits limits;
     Drivers drivers;
+    Following following;         ///< Table `[car_following]`.
     traffic::SirenConfig siren;  ///< Table `[siren]`, optional: without it nobody yields.
     RoadCondition road;
     Pedestrians pedestrians;
@@ -426,6 +453,8 @@ struct Options {
     std::optional<double> step_length_s;       ///< --step-length
     std::optional<double> time_to_teleport_s;  ///< --time-to-teleport
     std::optional<IdmPreset> idm;              ///< --idm
+    std::optional<FollowingModel> following;   ///< --car-following
+    std::optional<double> driver_spread;       ///< --driver-spread, 0 to 1
     std::optional<double> siren_compliance;    ///< --siren, 0 to 1
     std::optional<double> road_speed_factor;   ///< --road-speed, 0.05 to 1
     std::optional<double> friction;            ///< --friction, 0.1 to 1

@@ -130,6 +130,7 @@ std::string to_toml(const ScenarioConfig& config) {
     text += "\n[limits]\n" + members(config.limits);
     text += "\n[drivers]\n" + members(config.drivers);
     // Left out when they have no effect, so that older configurations keep their `configuration_hash`.
+    if (config.following != Following{}) text += "\n[car_following]\n" + members(config.following);
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
     if (!config.road.is_dry()) text += road_text(config.road);
     if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/measured_persons.hpp"
 #include "scenario/detail/pedestrians.hpp"
 #include "scenario/vehicle_types.hpp"
@@ -61,7 +62,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     detail::add_emergency_trips(context, demand);
     detail::sort_by_departure(demand);
 
-    const std::string types = vehicle_types_xml(config);
+    const std::string types = detail::with_driver_types(context, demand, vehicle_types_xml(config));
     const std::string routes = routes_xml(demand.vehicles);
     const std::string emergency = emergency_csv(demand.emergency);
     const bool has_persons = config.measured && !config.measured->persons.empty();

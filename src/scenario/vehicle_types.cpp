@@ -39,6 +39,11 @@ constexpr std::array kinds = {
 constexpr IdmParameters sumo_parameters{1.0, 2.5, 4.0, 100.0, 100.0};
 constexpr IdmParameters treiber_parameters{1.5, 2.0, 4.0, 1.4, 2.0};
 
+// SUMO 1.15: tau, minGap and sigma of its Krauss model.
+constexpr double krauss_headway_s = 1.0;
+constexpr double krauss_gap_m = 2.5;
+constexpr double krauss_sigma = 0.5;
+
 double class_limit_kmh(const SpeedLimits& limits, VehicleClass vehicle_class) {
     switch (vehicle_class) {
         case VehicleClass::human:
@@ -53,7 +58,9 @@ double class_limit_kmh(const SpeedLimits& limits, VehicleClass vehicle_class) {
 
 std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, const KindProperties& kind,
                      Access access) {
+    // The caps of a preset are those of the model idm; krauss goes with `sumo`, which has none.
     const IdmParameters& idm = parameters(config.drivers.idm);
+    const ModelAttributes model = model_attributes(config, vehicle_class);
     const double friction = config.road.friction;
     const double limit_mps = core::from_kmh(class_limit_kmh(config.limits, vehicle_class)).value;
     return fmt::format(
@@ -61,16 +68,17 @@ std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, c
         "minGap=\"{}\" "
         "accel=\"{:.6g}\" decel=\"{:.6g}\" emergencyDecel=\"{:.6g}\" maxSpeed=\"{:.2f}\" speedFactor=\"1\" "
         "speedDev=\"0\" "
-        "carFollowModel=\"IDM\" tau=\"{:.6g}\" delta=\"{}\">\n"
+        "carFollowModel=\"{}\" tau=\"{:.6g}\" {}=\"{}\">\n"
         "        <param key=\"{}\" value=\"{}\"/>\n        <param key=\"{}\" value=\"{}\"/>\n    </vType>\n",
         type_id(vehicle_class, kind.kind, access),
         access == Access::unrestricted ? "ignoring" : kind.vehicle_permission, kind.gui_shape, kind.length_m,
-        kind.width_m, kind.height_m, idm.minimum_gap_m,
+        kind.width_m, kind.height_m, model.minimum_gap_m,
         std::min(kind.acceleration_mps2, idm.acceleration_cap_mps2) * friction,
         std::min(kind.deceleration_mps2, idm.deceleration_cap_mps2) * friction,
-        kind.emergency_deceleration_mps2 * friction, std::min(limit_mps, kind.maximum_speed_mps),
-        idm.time_headway_s * config.road.headway_factor, idm.exponent, traffic::class_parameter,
-        traffic::name(vehicle_class), traffic::kind_parameter, traffic::name(kind.kind));
+        kind.emergency_deceleration_mps2 * friction, std::min(limit_mps, kind.maximum_speed_mps), model.model,
+        model.time_headway_s * config.road.headway_factor, model.extra, model.extra_value,
+        traffic::class_parameter, traffic::name(vehicle_class), traffic::kind_parameter,
+        traffic::name(kind.kind));
 }
 
 bool is_emergency(const KindProperties& kind) {
@@ -87,6 +95,15 @@ const KindProperties& properties(VehicleKind kind) {
 
 const IdmParameters& parameters(IdmPreset preset) {
     return preset == IdmPreset::sumo ? sumo_parameters : treiber_parameters;
+}
+
+ModelAttributes model_attributes(const ScenarioConfig& config, VehicleClass vehicle_class) {
+    if (config.following.model == FollowingModel::krauss) {
+        const double sigma = vehicle_class == VehicleClass::automated ? 0.0 : krauss_sigma;
+        return {"Krauss", krauss_headway_s, krauss_gap_m, "sigma", sigma};
+    }
+    const IdmParameters& idm = parameters(config.drivers.idm);
+    return {"IDM", idm.time_headway_s, idm.minimum_gap_m, "delta", idm.exponent};
 }
 
 std::string type_id(VehicleClass vehicle_class, VehicleKind kind, Access access) {

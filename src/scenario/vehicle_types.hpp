@@ -34,6 +34,18 @@ struct IdmParameters {
 };
 const IdmParameters& parameters(IdmPreset preset);
 
+/// The attributes of a SUMO type that choose the car-following model of a class: model, headway and what is
+/// particular to the model. Without the headway factor of `[road]`.
+struct ModelAttributes {
+    const char* model;  ///< SUMO's name.
+    double time_headway_s;
+    double minimum_gap_m;
+    const char* extra;  ///< Name of the model's own attribute.
+    double extra_value;
+};
+/// Of SUMO's Krauss model, automated vehicles do not dawdle (sigma 0): that is an imperfection of humans.
+ModelAttributes model_attributes(const ScenarioConfig& config, traffic::VehicleClass vehicle_class);
+
 /// Id of the SUMO type of these vehicles: `human_car`, `emergency_ambulance`, `automated_car_unrestricted`.
 std::string type_id(traffic::VehicleClass vehicle_class, traffic::VehicleKind kind,
                     Access access = Access::own);

@@ -39,6 +39,8 @@ const std::vector<std::string> override_keys = {"variant",
                                                 "step_length_s",
                                                 "time_to_teleport_s",
                                                 "idm",
+                                                "car_following",
+                                                "driver_spread",
                                                 "traffic_kinds",
                                                 "emergency_kinds",
                                                 "siren_compliance",
@@ -58,6 +60,8 @@ scenario::Options read_overrides(const toml::table& table, TomlReading& reading)
     reader.number("step_length_s", options.step_length_s);
     reader.number("time_to_teleport_s", options.time_to_teleport_s);
     reader.word<scenario::IdmPreset>("idm", options.idm);
+    reader.word<scenario::FollowingModel>("car_following", options.following);
+    reader.number("driver_spread", options.driver_spread);
     reader.number("siren_compliance", options.siren_compliance);
     reader.number("road_speed_factor", options.road_speed_factor);
     reader.number("friction", options.friction);

@@ -349,6 +349,49 @@ TEST_F(Config, a_missing_file_of_persons_is_named_with_its_key_and_cure) {
                 HasSubstr("persons"));
 }
 
+TEST_F(Config, usual_drivers_leave_the_effective_configuration_as_it_was) {
+    Options usual;
+    usual.following = FollowingModel::idm;
+    usual.driver_spread = 0.0;
+    for (const char* const name : {"merge", "bologna"}) {
+        EXPECT_EQ(configuration_hash(load(name, usual)), configuration_hash(load(name)));
+        EXPECT_EQ(to_toml(load(name)).find("car_following]"), std::string::npos);
+    }
+}
+
+TEST_F(Config, other_drivers_come_from_table_options_and_factors_and_read_back) {
+    Options options;
+    options.following = FollowingModel::krauss;
+    options.driver_spread = 0.2;
+    const ScenarioConfig config = load("merge", options);
+    EXPECT_EQ(config.following, (Following{FollowingModel::krauss, 0.2}));
+    EXPECT_NE(configuration_hash(config), configuration_hash(load("merge")));
+    store(config, folder() / "stored");
+    const ScenarioConfig stored = load((folder() / "stored").string());
+    EXPECT_EQ(stored.following, config.following);
+    EXPECT_EQ(configuration_hash(stored), configuration_hash(config));
+    Options factor;
+    factor.settings = {{"car_following.driver_spread", "0.3"}};
+    EXPECT_EQ(load("merge", factor).following.driver_spread, 0.3);
+}
+
+TEST_F(Config, bad_drivers_say_where_and_what) {
+    Options options;
+    options.driver_spread = 1.5;
+    const auto wide = problems_of([&] { load("merge", options); });
+    ASSERT_EQ(wide.size(), 1U);
+    EXPECT_EQ(wide[0].where, "--driver-spread");
+    EXPECT_THAT(wide[0].allowed, HasSubstr("0 to 1"));
+    Options both;
+    both.following = FollowingModel::krauss;
+    both.idm = IdmPreset::treiber;
+    const auto mixed = problems_of([&] { load("merge", both); });
+    ASSERT_EQ(mixed.size(), 1U);
+    EXPECT_EQ(mixed[0].where, "--idm");
+    EXPECT_THAT(mixed[0].what, HasSubstr("the model is krauss"));
+    EXPECT_THAT(only_problem("[car_following]\nmodel = \"gipps\"\n").allowed, HasSubstr("idm, krauss"));
+}
+
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;

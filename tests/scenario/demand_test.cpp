@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -201,6 +202,67 @@ TEST_F(PreparedDemand, human_drivers_differ_and_automated_ones_do_not) {
     const double mean = sum / humans;
     EXPECT_NEAR(mean, 1.0, 0.03);
     EXPECT_NEAR(std::sqrt(squares / humans - mean * mean), 0.1, 0.02);
+}
+
+/// Headway, acceleration, deceleration and emergency deceleration of each type.
+std::map<std::string, std::array<double, 4>> dynamics_of(const std::filesystem::path& file) {
+    std::map<std::string, std::array<double, 4>> types;
+    std::istringstream lines(core::read_file(file));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("<vType ") == std::string::npos) continue;
+        const auto number = [&](const char* name) { return std::stod(attribute(line, name)); };
+        types[attribute(line, "id")] = {number("tau"), number("accel"), number("decel"),
+                                        number("emergencyDecel")};
+    }
+    return types;
+}
+
+TEST_F(PreparedDemand, spread_gives_each_human_driver_a_type_of_its_own) {
+    Options options;
+    options.variant = Variant::dense;
+    const auto of = [&](double spread) {
+        options.driver_spread = spread;
+        const Prepared made = prepared("merge", options);
+        return std::pair(rows_of(made.route_files.front()), dynamics_of(made.additional_files.front()));
+    };
+    const auto [usual, usual_types] = of(0.0);
+    const auto [rows, types] = of(0.2);
+    const auto [wide_rows, wide_types] = of(0.4);
+    ASSERT_EQ(rows.size(), usual.size());
+    double sum = 0.0;
+    double square = 0.0;
+    int humans = 0;
+    for (const auto& [id, row] : rows) {
+        EXPECT_EQ(row.depart_s, usual.at(id).depart_s);
+        EXPECT_EQ(row.edges, usual.at(id).edges);
+        if (!id.starts_with("human")) {
+            EXPECT_EQ(row.type, usual.at(id).type);
+            continue;
+        }
+        const std::array<double, 4>& driver = types.at(row.type);
+        const std::array<double, 4>& wider = wide_types.at(wide_rows.at(id).type);
+        const std::array<double, 4>& plain = usual_types.at(usual.at(id).type);
+        for (std::size_t number = 0; number < 3; ++number) {
+            const double factor = driver[number] / plain[number];
+            EXPECT_GE(factor, 0.5);
+            EXPECT_LE(factor, 2.0);
+            // The same draw: who is far above the mean stays above it.
+            if (factor > 1.1) {
+                EXPECT_GT(wider[number], plain[number]) << id;
+            }
+        }
+        EXPECT_GE(driver[3], driver[2]);
+        const double headway = driver[0] / plain[0];
+        sum += headway;
+        square += headway * headway;
+        ++humans;
+        EXPECT_GE(row.speed_factor, 0.75);
+        EXPECT_LE(row.speed_factor, 1.25);
+    }
+    ASSERT_GT(humans, 150);
+    const double mean = sum / humans;
+    EXPECT_NEAR(mean, 1.0, 4.0 * 0.2 / std::sqrt(humans));
+    EXPECT_NEAR(std::sqrt(square / humans - mean * mean), 0.2, 0.045);
 }
 
 TEST_F(PreparedDemand, three_in_ten_come_from_the_ramp) {
@@ -409,10 +471,12 @@ TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {
 }
 
 /// The independent judge of what is written: SUMO itself.
-class LoadsInSumo : public PreparedDemand, public ::testing::WithParamInterface<const char*> {};
+class LoadsInSumo : public PreparedDemand, public ::testing::WithParamInterface<const char*> {
+  protected:
+    void expect_loads(const Prepared& demand) const;
+};
 
-TEST_P(LoadsInSumo, without_warning_about_routes_or_types) {
-    const Prepared demand = prepared(GetParam());
+void LoadsInSumo::expect_loads(const Prepared& demand) const {
     std::string additional;
     for (const auto& file : demand.additional_files)
         additional += (additional.empty() ? "" : ",") + file.string();
@@ -441,6 +505,19 @@ TEST_P(LoadsInSumo, without_warning_about_routes_or_types) {
     EXPECT_EQ(log.find("not known"), std::string::npos) << log;
     EXPECT_EQ(log.find("no valid route"), std::string::npos) << log;
     EXPECT_EQ(log.find("sorted"), std::string::npos) << log;
+}
+
+TEST_P(LoadsInSumo, without_warning_about_routes_or_types) {
+    expect_loads(prepared(GetParam()));
+}
+
+TEST_P(LoadsInSumo, with_other_drivers) {
+    Options options;
+    options.following = FollowingModel::krauss;
+    options.driver_spread = 0.3;
+    const Prepared demand = prepared(GetParam(), options);
+    EXPECT_THAT(core::read_file(demand.route_files[0]), HasSubstr("_driver_"));
+    expect_loads(demand);
 }
 
 INSTANTIATE_TEST_SUITE_P(shipped, LoadsInSumo, ::testing::Values("merge", "intersection", "city", "bologna"),

@@ -94,5 +94,30 @@ TEST_F(VehicleTypes, unrestricted_types_exist_for_measured_demand_only) {
                 HasSubstr("vClass=\"ignoring\""));
 }
 
+TEST_F(VehicleTypes, follow_by_krauss_with_sumos_defaults_and_automated_ones_do_not_dawdle) {
+    Options options;
+    options.following = FollowingModel::krauss;
+    const std::string xml = vehicle_types_xml(load("merge", options));
+    for (const char* const id : {"human_car", "human_bus", "emergency_ambulance"})
+        EXPECT_THAT(element(xml, id), HasSubstr("carFollowModel=\"Krauss\" tau=\"1\" sigma=\"0.5\"")) << id;
+    EXPECT_THAT(element(xml, "automated_car"), HasSubstr("carFollowModel=\"Krauss\" tau=\"1\" sigma=\"0\""));
+    EXPECT_THAT(element(xml, "human_car"), HasSubstr("accel=\"2.6\" decel=\"4.5\""));
+    EXPECT_THAT(xml, Not(HasSubstr("IDM")));
+    EXPECT_THAT(vehicle_types_xml(load("merge")), Not(HasSubstr("Krauss")));
+}
+
+TEST_F(VehicleTypes, of_an_imported_demand_keep_their_model_unless_they_follow_the_scenario) {
+    write("types.add.xml", "<additional><vType id=\"slow\" carFollowModel=\"Wiedemann\"/></additional>");
+    ScenarioConfig config = load("bologna");
+    config.folder = folder();
+    config.following.model = FollowingModel::krauss;
+    config.measured->own_types = OwnTypes{"types.add.xml", CarFollowing::own};
+    config.measured->types = {{"slow", "car", Access::own}};
+    EXPECT_THAT(element(vehicle_types_xml(config), "human.slow"), HasSubstr("Wiedemann"));
+    EXPECT_THAT(element(vehicle_types_xml(config), "automated.slow"), HasSubstr("Krauss"));
+    config.measured->own_types->car_following = CarFollowing::idm;
+    EXPECT_THAT(element(vehicle_types_xml(config), "human.slow"), HasSubstr("\"Krauss\""));
+}
+
 }  // namespace
 }  // namespace clearway::scenario

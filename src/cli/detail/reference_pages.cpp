@@ -54,6 +54,8 @@ ReferencePage scenario_keys() {
          table_of<scenario::Dense>("dense", "What the dense variant changes; optional", "dense."),
          table_of<scenario::SpeedLimits>("limits", "Speed limits of classes", "limits."),
          table_of<scenario::Drivers>("drivers", "Car-following model and desired speeds", "drivers."),
+         table_of<scenario::Following>("car_following", "Other drivers than usual; optional",
+                                       "car_following."),
          table_of<scenario::TrafficKinds>("kinds.traffic", "Frequencies of kinds among traffic",
                                           "kinds.traffic."),
          table_of<scenario::EmergencyKinds>("kinds.emergency", "The same among EVs", "kinds.emergency."),

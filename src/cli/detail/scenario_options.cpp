@@ -70,6 +70,18 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
         ->check(CLI::IsMember(presets))
         ->option_text("sumo|treiber [sumo]")
         ->group(group);
+    static const std::map<std::string, scenario::FollowingModel> models = {
+        {"idm", scenario::FollowingModel::idm}, {"krauss", scenario::FollowingModel::krauss}};
+    app.add_option_function<std::string>(
+           "--car-following", [&options](const std::string& name) { options.following = models.at(name); },
+           "Car-following model: the Intelligent Driver Model or SUMO's own with its defaults")
+        ->check(CLI::IsMember(models))
+        ->option_text("idm|krauss [by scenario: idm]")
+        ->group(group);
+    app.add_option("--driver-spread", options.driver_spread,
+                   "Relative deviation of headway, acceleration, braking and speed between human drivers")
+        ->option_text("SHARE, 0 to 1 [by scenario: 0]")
+        ->group(group);
 }
 
 }  // namespace

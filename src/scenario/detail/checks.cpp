@@ -263,6 +263,11 @@ void check_drivers(const ScenarioConfig& config, Problems& problems) {
                             fmt::format("{} is outside [{}, {}]", drivers.speed_factor_mean,
                                         drivers.speed_factor_minimum, drivers.speed_factor_maximum),
                             "minimum <= mean <= maximum", ""});
+    if (config.following.model == FollowingModel::krauss && drivers.idm != IdmPreset::sumo)
+        problems.push_back(
+            {config.where("drivers.idm"),
+             fmt::format("{} sets the parameters of idm, but the model is krauss", core::name(drivers.idm)),
+             "sumo with krauss", "choose the model idm, or leave this key out"});
     if (sum_of_weights(config.traffic_kinds) <= 0.0)
         problems.push_back({config.where("kinds.traffic"), "all weights are 0", "one above 0", ""});
     if (sum_of_weights(config.emergency_kinds) <= 0.0)
@@ -322,6 +327,9 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     set("--pedestrians", "per_hour", options.pedestrians, config.pedestrians, problems);
     if (options.pedestrians) config.origins["pedestrians.per_hour"] = "--pedestrians";
     if (options.idm) config.drivers.idm = *options.idm;
+    if (options.following) config.following.model = *options.following;
+    set("--driver-spread", "driver_spread", options.driver_spread, config.following, problems);
+    if (options.idm) config.origins["drivers.idm"] = "--idm";
     set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
     set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);
     if (!options.traffic_kinds.empty()) config.origins["kinds.traffic"] = "--kinds";

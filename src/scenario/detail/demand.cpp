@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "roads/route.hpp"
+#include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/trip_routes.hpp"
 #include "scenario/vehicle_types.hpp"
 
@@ -150,11 +151,15 @@ PlannedVehicle plan_vehicle(const DemandContext& context, const Routes& routes, 
     vehicle.vehicle_class = vehicle_class;
     vehicle.depart_s = departure_s(context, Purpose::demand, vehicle.id, 0.0, context.config.time.window_s);
     const VehicleKind kind = pick_kind(context, vehicle.id, context.config.traffic_kinds);
+    std::string type = type_id(vehicle_class, kind);
+    if (has_own_type(context.config, vehicle_class)) {
+        vehicle.own_type_of = type;
+        type = driver_type_id(type, vehicle.id);
+    }
     vehicle.xml = fmt::format(
         "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"best\" departSpeed=\"max\" "
         "speedFactor=\"{:.4f}\">\n        <route edges=\"{}\"/>\n    </vehicle>\n",
-        vehicle.id, type_id(vehicle_class, kind), vehicle.depart_s,
-        speed_factor(context, vehicle.id, vehicle_class),
+        vehicle.id, type, vehicle.depart_s, speed_factor(context, vehicle.id, vehicle_class),
         fmt::join(edge_ids(context.network, routes.traffic(vehicle.id)), " "));
     return vehicle;
 }
@@ -175,9 +180,11 @@ traffic::EmergencyDeparture plan_emergency(const DemandContext& context, std::st
 double speed_factor(const DemandContext& context, const std::string& id, VehicleClass vehicle_class) {
     const Drivers& drivers = context.config.drivers;
     if (vehicle_class != VehicleClass::human) return 1.0;
-    if (drivers.speed_factor_deviation <= 0.0) return drivers.speed_factor_mean;
+    const double deviation = std::max(drivers.speed_factor_deviation,
+                                      context.config.following.driver_spread * drivers.speed_factor_mean);
+    if (deviation <= 0.0) return drivers.speed_factor_mean;
     // Inverse transform sampling: one draw per driver, whatever the bounds.
-    const boost::math::normal normal(drivers.speed_factor_mean, drivers.speed_factor_deviation);
+    const boost::math::normal normal(drivers.speed_factor_mean, deviation);
     const double low = boost::math::cdf(normal, drivers.speed_factor_minimum);
     const double high = boost::math::cdf(normal, drivers.speed_factor_maximum);
     const double uniform = context.random.uniform(Purpose::driver, core::vehicle_key(id).value);

@@ -17,6 +17,9 @@ struct PlannedVehicle {
     traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
     double depart_s = 0.0;
     std::string xml;  ///< The whole element, indented, with a line end.
+    /// The SUMO type that the driver's own one is made from; empty when the driver has none
+    /// (driver_types.hpp).
+    std::string own_type_of = {};
 };
 
 /// All vehicles of one replication.
@@ -51,7 +54,7 @@ double emergency_departure_s(const DemandContext& context, const std::string& id
 traffic::VehicleKind emergency_kind(const DemandContext& context, const std::string& id);
 
 /// Individual speed factor of a driver: 1 if automated, else from the truncated normal distribution of
-/// `[drivers]`, to 0.0001.
+/// `[drivers]`, to 0.0001. A driver spread larger than the deviation there takes its place.
 double speed_factor(const DemandContext& context, const std::string& id, traffic::VehicleClass vehicle_class);
 
 /// Edge ids of a route.

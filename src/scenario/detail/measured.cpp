@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "roads/route.hpp"
 #include "scenario/detail/demand.hpp"
+#include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/own_types.hpp"
 #include "scenario/detail/route_file.hpp"
 #include "scenario/detail/trip_routes.hpp"
@@ -81,7 +82,7 @@ class MeasuredReader {
                                                        MeasuredDraw::automated);
         if (type.kind == "car" && uniform < measured_.automated_share)
             planned.vehicle_class = VehicleClass::automated;
-        set_type(vehicle, type, planned.vehicle_class);
+        set_type(vehicle, type, planned);
         vehicle.remove_attribute("color");
         if (!keeps_driver(planned.vehicle_class)) {
             const double factor = speed_factor(context_, id, planned.vehicle_class);
@@ -93,11 +94,16 @@ class MeasuredReader {
         demand_.vehicles.push_back(std::move(planned));
     }
 
-    void set_type(pugi::xml_node vehicle, const MeasuredType& type, VehicleClass vehicle_class) const {
-        const std::string id =
+    void set_type(pugi::xml_node vehicle, const MeasuredType& type, PlannedVehicle& planned) const {
+        const VehicleClass vehicle_class = planned.vehicle_class;
+        std::string id =
             measured_.own_types
                 ? own_type_id(vehicle_class, type.id)
                 : type_id(vehicle_class, *core::value_from<traffic::VehicleKind>(type.kind), type.access);
+        if (has_own_type(context_.config, vehicle_class)) {
+            planned.own_type_of = id;
+            id = driver_type_id(id, planned.id);
+        }
         vehicle.attribute("type").set_value(id.c_str());
     }
 

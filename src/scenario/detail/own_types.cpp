@@ -23,16 +23,16 @@ void set(pugi::xml_node node, const char* name, const std::string& value) {
     node.append_attribute(name).set_value(value.c_str());
 }
 
-void follow_by_idm(pugi::xml_node type, const IdmParameters& idm) {
-    while (pugi::xml_node model = type.find_child([](pugi::xml_node child) {
+void follow_by(pugi::xml_node type, const ModelAttributes& model) {
+    while (pugi::xml_node nested = type.find_child([](pugi::xml_node child) {
         return std::string_view(child.name()).starts_with("carFollowing-");
     }))
-        type.remove_child(model);
+        type.remove_child(nested);
     type.remove_attribute("speedDev");
-    set(type, "carFollowModel", "IDM");
-    set(type, "tau", fmt::format("{}", idm.time_headway_s));
-    set(type, "delta", fmt::format("{}", idm.exponent));
-    set(type, "minGap", fmt::format("{}", idm.minimum_gap_m));
+    set(type, "carFollowModel", model.model);
+    set(type, "tau", fmt::format("{}", model.time_headway_s));
+    set(type, model.extra, fmt::format("{}", model.extra_value));
+    set(type, "minGap", fmt::format("{}", model.minimum_gap_m));
     set(type, "speedFactor", "1");
     set(type, "speedDev", "0");
 }
@@ -117,7 +117,7 @@ class TypeWriter {
         set(type, "id", own_type_id(vehicle_class, listed.id));
         const bool automated = vehicle_class == VehicleClass::automated;
         if (automated || own_.car_following == CarFollowing::idm)
-            follow_by_idm(type, parameters(config_.drivers.idm));
+            follow_by(type, model_attributes(config_, vehicle_class));
         limit_speed(type, listed, automated ? config_.limits.automated_kmh : config_.limits.human_kmh);
         feel_road(type, listed, config_.road);
         add_parameter(type, traffic::class_parameter, traffic::name(vehicle_class));

@@ -11,7 +11,7 @@ namespace clearway::scenario::detail {
 std::string own_type_id(traffic::VehicleClass vehicle_class, const std::string& type);
 
 /// The `<vType>` elements of `[measured.own_types]`: each listed type as a human one, and car types also as
-/// automated ones, which use the Intelligent Driver Model without a speed factor. Throws core::InputError for
+/// automated ones, which use the model of the scenario without a speed factor. Throws core::InputError for
 /// listed types that the file does not define.
 std::string own_types_xml(const ScenarioConfig& config);
 
