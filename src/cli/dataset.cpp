@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/condition_options.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/record_jobs.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -27,6 +28,7 @@ struct Arguments {
     unsigned jobs = 0;
     Printing printing = Printing::text;
     experiment::DatasetJob job;  ///< What all jobs share.
+    std::vector<std::string> settings;
     scenario::Options options;
 };
 
@@ -40,6 +42,25 @@ void check_failures(const std::vector<std::string>& failures) {
                             "", "Give --exits known or --exits unknown"});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+/// Checks the policies and gives the job their settings.
+void apply_policies(const std::vector<std::string>& settings, experiment::DatasetJob& job) {
+    experiment::ConditionSpec condition;
+    condition.name = "dataset";
+    if (job.policies == std::vector<std::string>{"none"}) job.policies.clear();
+    condition.policies = job.policies;
+    std::vector<core::Problem> problems;
+    for (const std::string& words : settings) {
+        const std::string name = assignment("--set", words).first;
+        if (name.starts_with("failure.") || name == "loop.link_radius_m")
+            problems.push_back({"--set " + name, "is not a setting of the policies, which know everything",
+                                "", "Give the sensors of the samples with --failure"});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    apply_settings(settings, "", condition);
+    check_names({condition});
+    job.settings = condition.settings;
 }
 
 void print_files(const std::vector<std::string>& lines, Printing printing) {
@@ -66,6 +87,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.job.failures);
+    apply_policies(arguments.settings, arguments.job);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
     arguments.job.output = arguments.folder;
     const std::vector<experiment::DatasetJob> jobs =
@@ -135,6 +157,16 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--failure", job.failures, "Sensor failures, one file each (clearway list)")
         ->option_text("NAME ... [B10]")
         ->needs(samples)
+        ->group(group);
+    CLI::Option* const policy =
+        app.add_option("--policy", job.policies,
+                       "Policies that act on the traffic, in this order; they know everything")
+            ->option_text("NAME ... [none]")
+            ->needs(samples)
+            ->group(group);
+    app.add_option("--set", arguments.settings, "A setting of the policies (clearway list settings)")
+        ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
+        ->needs(policy)
         ->group(group);
     app.add_option("--interval", job.interval_s, "Simulation time between two snapshots, s")
         ->check(core::NumberRange{0.1, 3600.0})

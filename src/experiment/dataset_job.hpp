@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/settings.hpp"
 #include "core/spellings.hpp"
 #include "experiment/simulation.hpp"
 #include "sensing/failure_config.hpp"
@@ -37,7 +38,7 @@ constexpr core::Spellings<ListedPairs, 2> spellings(ListedPairs) {
     return {{{ListedPairs::true_links, "true_links"}, {ListedPairs::candidates, "candidates"}}};
 }
 
-/// A data set: one simulation without a policy, recorded.
+/// A data set: one simulation, recorded; without a policy or under some.
 struct DatasetJob : Simulation {
     std::filesystem::path output;
     DatasetKind dataset = DatasetKind::published;
@@ -46,7 +47,11 @@ struct DatasetJob : Simulation {
     std::vector<std::string> failures;
     double interval_s = 5.0;
     sensing::Exits exits = sensing::Exits::known;
+    /// Of samples: what acts on the traffic, in this order, knowing everything; empty: nothing does.
+    std::vector<std::string> policies = {};
+    core::Settings settings = {};  ///< Settings of the policies that differ from their defaults.
 
+    /// All members but the policies and their settings, which stand in a job only when there are any.
     static constexpr auto fields() {
         using Self = DatasetJob;
         return std::make_tuple(
@@ -65,6 +70,9 @@ struct DatasetJob : Simulation {
     }
     bool operator==(const DatasetJob&) const = default;
 };
+
+/// `corridor+red_privilege`; empty without a policy.
+std::string joined_policies(const DatasetJob& job);
 
 /// The file for the job's samples of one failure. `ending` tells the kind of samples; see
 /// samples::sample_ending.

@@ -90,11 +90,15 @@ void read(const Source& source, ObjectReader& reader, RunJob& job) {
 void write(Json& object, const DatasetJob& job) {
     core::write_fields<Simulation>(object, job);
     core::write_fields(object, job);
+    if (!job.policies.empty()) object["policies"] = job.policies;
+    if (!job.settings.empty()) object["settings"] = job.settings;
 }
 
 void read(const Source& source, ObjectReader& reader, DatasetJob& job) {
     read_table<Simulation>(source, reader, job);
     read_table<DatasetJob>(source, reader, job);
+    if (source.object.contains("policies")) reader.read("policies", job.policies);
+    if (source.object.contains("settings")) reader.read("settings", job.settings);
 }
 
 void write(Json& object, const LinkJob& job) {

@@ -39,6 +39,26 @@ std::string failure_name(const experiment::DatasetJob& job, const std::string& f
     return failure + (job.exits == sensing::Exits::unknown ? " exits unknown" : "");
 }
 
+/// The policies act on the truth, whatever the sensors of the samples miss.
+experiment::ConditionSpec condition_of(const experiment::DatasetJob& job) {
+    experiment::ConditionSpec condition = detail::plain_traffic("dataset");
+    condition.policies = job.policies;
+    condition.settings = job.settings;
+    return condition;
+}
+
+/// How the traffic differs from the usual one: see samples::SampleOrigin.
+std::string traffic_text(const experiment::DatasetJob& job, const scenario::Following& following) {
+    std::vector<std::string> parts;
+    if (!job.policies.empty()) parts.push_back("under " + experiment::joined_policies(job));
+    for (const auto& [name, value] : job.settings)
+        parts.push_back(fmt::format("{}={}", name, value));
+    if (following.model != scenario::FollowingModel::idm) parts.emplace_back(core::name(following.model));
+    if (following.driver_spread > 0.0)
+        parts.push_back(fmt::format("driver spread {}", following.driver_spread));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 /// One recorder per failure, all watching the same run.
 void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph::LinkRules& rules) {
     std::vector<std::unique_ptr<samples::SampleRecorder>> recorders;
@@ -52,13 +72,14 @@ void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph
                                      .features = {},
                                      .study_seed = job.study_seed,
                                      .replication = job.replication,
-                                     .link_radius_m = rules.radius_m},
+                                     .link_radius_m = rules.radius_m,
+                                     .traffic = traffic_text(job, run.scenario().following)},
                           .sensor = detail::sensor_of(failure, job.exits, detail::random_of(job),
                                                       {.network = run.network(), .rules = rules}),
                           .interval = core::Seconds(job.interval_s)}));
         all.add(*recorders.back());
     }
-    run.record(detail::plain_traffic("dataset"), all);
+    run.record(condition_of(job), all);
     for (std::size_t i = 0; i < recorders.size(); ++i) {
         const std::filesystem::path file =
             experiment::sample_file(job, job.failures[i], samples::sample_ending(job.dataset));

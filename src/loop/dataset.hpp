@@ -5,8 +5,8 @@
 
 namespace clearway::loop {
 
-/// Runs the simulation of the job without a policy and writes the data set into its output folder. Prints one
-/// line per file written. Throws core::Error.
+/// Runs the simulation of the job, under its policies if it has any, and writes the data set into its output
+/// folder. Prints one line per file written. Throws core::Error.
 core::ExitCode record_dataset(const experiment::DatasetJob& job);
 
 }  // namespace clearway::loop

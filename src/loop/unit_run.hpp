@@ -46,6 +46,7 @@ class UnitRun {
     /// When the first emergency vehicle departs; without one, the end of the warm-up.
     core::Seconds first_emergency() const;
     const std::string& scenario_hash() const { return scenario_hash_; }
+    const scenario::ScenarioConfig& scenario() const { return config_; }
 
   private:
     void warm_up();

@@ -25,13 +25,14 @@ std::string header_line() {
 }
 
 std::string origin_line(const SampleOrigin& origin) {
-    const nlohmann::ordered_json json = {{"scenario", origin.scenario},
-                                         {"failure", origin.failure},
-                                         {"features", prediction::pair_feature_schema().name},
-                                         {"feature_version", prediction::pair_feature_schema().version},
-                                         {"study_seed", origin.study_seed},
-                                         {"replication", origin.replication},
-                                         {"link_radius_m", origin.link_radius_m}};
+    nlohmann::ordered_json json = {{"scenario", origin.scenario},
+                                   {"failure", origin.failure},
+                                   {"features", prediction::pair_feature_schema().name},
+                                   {"feature_version", prediction::pair_feature_schema().version},
+                                   {"study_seed", origin.study_seed},
+                                   {"replication", origin.replication},
+                                   {"link_radius_m", origin.link_radius_m}};
+    if (!origin.traffic.empty()) json["traffic"] = origin.traffic;
     return std::string(first_words) + json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
@@ -56,6 +57,7 @@ SampleOrigin parse_origin(std::string_view line, const std::string& file) {
         json.at("study_seed").get_to(origin.study_seed);
         json.at("replication").get_to(origin.replication);
         json.at("link_radius_m").get_to(origin.link_radius_m);
+        origin.traffic = json.value("traffic", "");
         return origin;
     } catch (const nlohmann::json::exception& error) {
         throw core::InputError({file + ":1", error.what(), "", cure_remake});

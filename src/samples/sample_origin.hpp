@@ -16,6 +16,8 @@ struct SampleOrigin {
     std::uint64_t study_seed = 1;
     std::uint32_t replication = 0;
     double link_radius_m = 50.0;
+    /// How the traffic differs from the scenario's usual one: `under corridor, krauss`; empty if it does not.
+    std::string traffic = {};
 
     bool operator==(const SampleOrigin&) const = default;
 };

@@ -51,6 +51,57 @@ TEST_F(DatasetTest, records_samples_of_each_failure_and_replication) {
     EXPECT_THAT(ended.err, HasSubstr("2/2"));
 }
 
+TEST_F(DatasetTest, records_traffic_under_policies_beside_passive_traffic) {
+    const std::vector<std::string> passive = {
+        "dataset",    "line", "--out", "data", "--samples", "--failure", "report_interval_s=1",
+        "--interval", "1"};
+    std::vector<std::string> under = passive;
+    under.insert(under.end(),
+                 {"--policy", "clear_lane", "red_privilege", "--set", "red_privilege.near_m=90"});
+    ASSERT_EQ(clearway(passive).code, 0);
+    const Ended ended = clearway(under);
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string name = "data/line-report_interval_s=1";
+    const std::string told = read(name + "-under-clear_lane+red_privilege-0000.samples");
+    EXPECT_THAT(told, HasSubstr("\"traffic\":\"under clear_lane+red_privilege, red_privilege.near_m=90\""));
+    const std::string untold = read(name + "-0000.samples");
+    EXPECT_THAT(untold, Not(HasSubstr("\"traffic\"")));
+    EXPECT_NE(told.substr(told.find("}\n")), untold.substr(untold.find("}\n"))) << "the policy acted";
+    EXPECT_THAT(read("data/origin/line/jobs/0000-under-clear_lane+red_privilege.json"),
+                HasSubstr("red_privilege.near_m"));
+    EXPECT_EQ(clearway(passive).code, 0) << "the same again";
+    EXPECT_EQ(clearway(under).code, 0) << "the same again";
+    under.back() = "red_privilege.near_m=80";
+    EXPECT_THAT(clearway(under).err, HasSubstr("already exists, from another recording"));
+    EXPECT_EQ(read(name + "-0000.samples"), untold);
+}
+
+TEST_F(DatasetTest, records_other_drivers) {
+    const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "A.5",
+                                  "--car-following", "krauss", "--driver-spread", "0.2"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("data/line-A.5-0000.samples"), HasSubstr("\"traffic\":\"krauss, driver spread 0.2\""));
+    EXPECT_THAT(read("data/origin/line/scenario.toml"),
+                HasSubstr("[car_following]\nmodel = \"krauss\"\ndriver_spread = 0.2"));
+}
+
+TEST_F(DatasetTest, refuses_policies_and_settings_that_do_not_fit) {
+    const auto refusal = [&](std::vector<std::string> words) {
+        std::vector<std::string> all = {"dataset", "line", "--out", "data", "--samples"};
+        all.insert(all.end(), words.begin(), words.end());
+        return clearway(all);
+    };
+    EXPECT_THAT(refusal({"--policy", "corridoor"}).err, HasSubstr("Did you mean 'corridor'?"));
+    const Ended lossy = refusal({"--policy", "corridor", "--set", "failure.loss_rate=0.5"});
+    EXPECT_EQ(lossy.code, 3);
+    EXPECT_THAT(lossy.err, AllOf(HasSubstr("--set failure.loss_rate"), HasSubstr("--failure")));
+    EXPECT_EQ(refusal({"--policy", "corridor", "--set", "loop.link_radius_m=80"}).code, 3);
+    EXPECT_EQ(refusal({"--policy", "corridor", "--set", "green_wave.near_m=-1"}).code, 3);
+    EXPECT_EQ(refusal({"--set", "red_privilege.near_m=90"}).code, 2) << "settings of no policy";
+    EXPECT_EQ(clearway({"dataset", "line", "--out", "data", "--policy", "corridor"}).code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
+}
+
 TEST_F(DatasetTest, overwrites_no_other_recording) {
     const std::vector<std::string> first = {"dataset",   "line",       "--out", "data",
                                             "--samples", "--failure",  "B10",   "--seed",

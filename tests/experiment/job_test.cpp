@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 RunJob run_job() {
     RunJob job;
@@ -51,6 +52,8 @@ DatasetJob dataset_job() {
     job.failures = {"B10", "D3"};
     job.interval_s = 2.5;
     job.exits = sensing::Exits::unknown;
+    job.policies = {"corridor", "red_privilege"};
+    job.settings = {{"preempt_signals.lead_s", "12"}};
     return job;
 }
 
@@ -122,6 +125,17 @@ TEST_F(JobTest, NamesTheKindsThatThereAre) {
     EXPECT_THAT(complaint(R"({"kind": "fly"})"),
                 AllOf(HasSubstr("\"fly\" is not known"), HasSubstr("run, dataset, links or attach")));
     EXPECT_THAT(complaint("{}"), HasSubstr("kind: is missing"));
+}
+
+TEST_F(JobTest, SaysNothingOfPoliciesWhereADataSetHasNone) {
+    DatasetJob job = dataset_job();
+    EXPECT_EQ(sample_file(job, "B10", ".samples"),
+              "out/city-B10-exits-unknown-under-corridor+red_privilege-0004.samples");
+    job.policies.clear();
+    job.settings.clear();
+    EXPECT_THAT(to_json(job), Not(HasSubstr("policies")));
+    EXPECT_THAT(to_json(job), Not(HasSubstr("settings")));
+    EXPECT_EQ(sample_file(job, "B10", ".samples"), "out/city-B10-exits-unknown-0004.samples");
 }
 
 TEST_F(JobTest, RefusesNumbersOutOfRangeAndWordsThatAreNotKnown) {

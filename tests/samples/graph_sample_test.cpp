@@ -56,6 +56,15 @@ TEST_F(GraphSampleTest, what_was_written_is_read) {
     EXPECT_EQ(read.content_hash.size(), 32U);
 }
 
+TEST_F(GraphSampleTest, other_traffic_is_told_and_usual_traffic_is_not) {
+    samples::GraphSampleWriter(origin()).write(file());
+    EXPECT_EQ(core::read_file(file()).find("traffic"), std::string::npos);
+    samples::SampleOrigin other = origin();
+    other.traffic = "under corridor, krauss, driver spread 0.2";
+    samples::GraphSampleWriter(other).write(file());
+    EXPECT_EQ(samples::read_graph_samples(file()).origin, other);
+}
+
 TEST_F(GraphSampleTest, equal_samples_make_equal_files) {
     for (const char* name : {"a.samples", "b.samples"}) {
         samples::GraphSampleWriter writer(origin());

@@ -16,14 +16,15 @@ namespace {
 constexpr std::uint32_t most_features = 256;
 
 std::string header(const SampleOrigin& origin) {
-    const nlohmann::ordered_json json = {{"scenario", origin.scenario},
-                                         {"failure", origin.failure},
-                                         {"feature_name", origin.features.name},
-                                         {"feature_version", origin.features.version},
-                                         {"feature_count", origin.features.width},
-                                         {"study_seed", origin.study_seed},
-                                         {"replication", origin.replication},
-                                         {"link_radius_m", origin.link_radius_m}};
+    nlohmann::ordered_json json = {{"scenario", origin.scenario},
+                                   {"failure", origin.failure},
+                                   {"feature_name", origin.features.name},
+                                   {"feature_version", origin.features.version},
+                                   {"feature_count", origin.features.width},
+                                   {"study_seed", origin.study_seed},
+                                   {"replication", origin.replication},
+                                   {"link_radius_m", origin.link_radius_m}};
+    if (!origin.traffic.empty()) json["traffic"] = origin.traffic;
     return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -39,6 +40,7 @@ SampleOrigin read_origin(std::string_view line, const std::string& where) {
         json.at("study_seed").get_to(origin.study_seed);
         json.at("replication").get_to(origin.replication);
         json.at("link_radius_m").get_to(origin.link_radius_m);
+        origin.traffic = json.value("traffic", "");
         if (origin.features.width == 0 || origin.features.width > most_features) {
             throw core::InputError({where + ":2: feature_count",
                                     fmt::format("{} features", origin.features.width),
