@@ -173,6 +173,8 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
         ->option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", job.interval_s))
         ->needs(samples)
         ->group(group);
+    for (CLI::Option* const option : add_link_options(app, job, group))
+        option->needs(samples);
     return samples;
 }
 

@@ -44,12 +44,9 @@ struct Arguments {
     std::string folder;
     unsigned jobs = 0;
     Printing printing = Printing::text;
+    experiment::LinkSettings links;
     scenario::Options options;
 };
-
-/// Seeds of `--quick`.
-constexpr std::uint32_t quick_test = 3;
-constexpr std::uint32_t quick_validation = 2;
 
 std::string number_text(const std::string& option, const std::string& text) {
     if (!core::number_from(text))
@@ -168,6 +165,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     benchmark.validation = arguments.validation;
     benchmark.failures = failure_names();
     benchmark.exits = {links::Exits::known, links::Exits::unknown};
+    benchmark.links = arguments.links;
     return benchmark;
 }
 
@@ -201,12 +199,15 @@ void check(const links::LinkPlan& plan) {
 links::LinkPlan plan_of(const Arguments& arguments) {
     links::LinkPlan plan;
     plan.benchmark = arguments.benchmark.empty() ? own_benchmark(arguments) : named_benchmark(arguments);
+    if (arguments.quick) {
+        const links::QuickBenchmark quick = plan.benchmark.quick;
+        plan.benchmark.test.count = std::min(plan.benchmark.test.count, quick.test);
+        plan.benchmark.validation.count = std::min(plan.benchmark.validation.count, quick.validation);
+        if (!quick.failures.empty()) plan.benchmark.failures = quick.failures;
+        if (!quick.exits.empty()) plan.benchmark.exits = quick.exits;
+    }
     if (!arguments.failures.empty()) plan.benchmark.failures = arguments.failures;
     if (const auto exits = core::value_from<links::Exits>(arguments.exits)) plan.benchmark.exits = {*exits};
-    if (arguments.quick) {
-        plan.benchmark.test.count = std::min(plan.benchmark.test.count, quick_test);
-        plan.benchmark.validation.count = std::min(plan.benchmark.validation.count, quick_validation);
-    }
     plan.predictors = predictors_of(arguments, plan.benchmark);
     plan.split = arguments.split;
     plan.against = arguments.against;
@@ -353,7 +354,8 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
             "Replications on which F1 thresholds are chosen", 0U);
     declare("--first-validation-seed", arguments.validation.first, "Number of the first of them", 0U);
     app.add_flag("--quick", arguments.quick,
-                 fmt::format("At most {} test and {} validation seeds [all]", quick_test, quick_validation))
+                 fmt::format("At most {} test and {} validation seeds, or what the benchmark says [all]",
+                             links::QuickBenchmark{}.test, links::QuickBenchmark{}.validation))
         ->group(group);
     app.add_option_function<std::string>(
            "--split",
@@ -376,6 +378,7 @@ Action configure_evaluate(CLI::App& app) {
     add_json_option(app, arguments->printing, "all figures");
     add_seeds(app, *arguments);
     const std::size_t own_options = app.get_options().size();
+    add_link_options(app, arguments->links, "Links");
     add_scenario_options(app, arguments->options);
     const std::vector<CLI::Option*> options = app.get_options();
     for (std::size_t i = own_options; i < options.size(); ++i)

@@ -9,6 +9,7 @@
 
 #include "core/settings.hpp"
 #include "core/spellings.hpp"
+#include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -39,7 +40,7 @@ constexpr core::Spellings<ListedPairs, 2> spellings(ListedPairs) {
 }
 
 /// A data set: one simulation, recorded; without a policy or under some.
-struct DatasetJob : Simulation {
+struct DatasetJob : Simulation, LinkSettings {
     std::filesystem::path output;
     DatasetKind dataset = DatasetKind::published;
     ListedPairs pairs = ListedPairs::candidates;
@@ -54,19 +55,21 @@ struct DatasetJob : Simulation {
     /// All members but the policies and their settings, which stand in a job only when there are any.
     static constexpr auto fields() {
         using Self = DatasetJob;
-        return std::make_tuple(
-            core::Field{"output", "", &Self::output, 0, 0, "Folder of the data set", "given"},
-            core::Field{"dataset", "", &Self::dataset, 0, 0, "What is recorded", "given"},
-            core::Field{"pairs", "", &Self::pairs, 0, 0, "Of published: which pairs are listed",
-                        "the dissertation does not say"},
-            core::Field{"feature_count", "1", &Self::feature_count, 2, 5,
-                        "Of published: 2, position alone, or 5", "dissertation 5.4"},
-            core::Field{"failures", "", &Self::failures, 0, 0, "Of samples: presets of sensing", "given"},
-            core::Field{"interval_s", "s", &Self::interval_s, 0.1, 3600,
-                        "Of samples: simulation time between two of them",
-                        "assumed: neighbouring samples differ"},
-            core::Field{"exits", "", &Self::exits, 0, 0,
-                        "Of samples: whether it is known which vehicles left", "known"});
+        return std::tuple_cat(
+            LinkSettings::fields_of<Self>(),
+            std::make_tuple(
+                core::Field{"output", "", &Self::output, 0, 0, "Folder of the data set", "given"},
+                core::Field{"dataset", "", &Self::dataset, 0, 0, "What is recorded", "given"},
+                core::Field{"pairs", "", &Self::pairs, 0, 0, "Of published: which pairs are listed",
+                            "the dissertation does not say"},
+                core::Field{"feature_count", "1", &Self::feature_count, 2, 5,
+                            "Of published: 2, position alone, or 5", "dissertation 5.4"},
+                core::Field{"failures", "", &Self::failures, 0, 0, "Of samples: presets of sensing", "given"},
+                core::Field{"interval_s", "s", &Self::interval_s, 0.1, 3600,
+                            "Of samples: simulation time between two of them",
+                            "assumed: neighbouring samples differ"},
+                core::Field{"exits", "", &Self::exits, 0, 0,
+                            "Of samples: whether it is known which vehicles left", "known"}));
     }
     bool operator==(const DatasetJob&) const = default;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/settings.hpp"
+#include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -30,7 +31,7 @@ struct JudgedPredictor {
 };
 
 /// One simulation on which the links of predictors are evaluated. They do not act in it.
-struct LinkJob : Simulation {
+struct LinkJob : Simulation, LinkSettings {
     std::filesystem::path work_folder;
     std::vector<std::string> failures;
     std::vector<sensing::Exits> exits;
@@ -40,12 +41,15 @@ struct LinkJob : Simulation {
     /// All members but the predictors.
     static constexpr auto fields() {
         using Self = LinkJob;
-        return std::make_tuple(
-            core::Field{"work_folder", "", &Self::work_folder, 0, 0, "For SUMO's files; removed at the end",
-                        "given"},
-            core::Field{"failures", "", &Self::failures, 0, 0, "Presets of sensing", "given"},
-            core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left", "given"},
-            core::Field{"policy", "", &Self::policy, 0, 0, "Acts in the traffic; empty: none", "none"});
+        return std::tuple_cat(
+            LinkSettings::fields_of<Self>(),
+            std::make_tuple(
+                core::Field{"work_folder", "", &Self::work_folder, 0, 0,
+                            "For SUMO's files; removed at the end", "given"},
+                core::Field{"failures", "", &Self::failures, 0, 0, "Presets of sensing", "given"},
+                core::Field{"exits", "", &Self::exits, 0, 0, "Whether it is known which vehicles left",
+                            "given"},
+                core::Field{"policy", "", &Self::policy, 0, 0, "Acts in the traffic; empty: none", "none"}));
     }
     bool operator==(const LinkJob&) const = default;
 };

@@ -3,21 +3,46 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "graph/proximity.hpp"
 
 namespace clearway::experiment {
 
-/// Period of decisions and radius of links in the closed loop. A condition may set the members by name.
-struct LoopConfig {
-    double policy_period_s = 0.5;  ///< Time between two decisions of the policy.
+/// Which vehicles count as linked; members of whatever has link rules. Link rules beyond these are fixed.
+struct LinkSettings {
     double link_radius_m = 50.0;
+    int automated_links = 0;
+
+    graph::LinkRules rules() const {
+        using Pairs = graph::LinkRules::Pairs;
+        return {.radius_m = link_radius_m,
+                .automated_automated = automated_links != 0 ? Pairs::included : Pairs::excluded,
+                .emergency_emergency = Pairs::excluded};
+    }
+    bool operator==(const LinkSettings&) const = default;
+
+    /// The same fields as those of a type that has these members.
+    template <class Owner>
+    static constexpr auto fields_of() {
+        return std::make_tuple(core::Field{"link_radius_m", "m", &Owner::link_radius_m, 1.0, 1000.0,
+                                           "Vehicles nearer than this are linked",
+                                           "assumed 50 m: the dissertation states no value"},
+                               core::Field{"automated_links", "1", &Owner::automated_links, 0, 1,
+                                           "1: two automated vehicles may be linked, too",
+                                           "off: the dissertation links AV-HV, EV-HV and AV-EV"});
+    }
+    static constexpr auto fields() { return fields_of<LinkSettings>(); }
+};
+
+/// Period of decisions and link rules in the closed loop. A condition may set the members by name.
+struct LoopConfig : LinkSettings {
+    double policy_period_s = 0.5;  ///< Time between two decisions of the policy.
 
     static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
-                        "Time between two decisions of the policy", "assumed: half a report interval"},
-            core::Field{"link_radius_m", "m", &LoopConfig::link_radius_m, 1.0, 1000.0,
-                        "Vehicles nearer than this are linked",
-                        "assumed 50 m: the dissertation states no value"});
+        return std::tuple_cat(
+            std::make_tuple(core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
+                                        "Time between two decisions of the policy",
+                                        "assumed: half a report interval"}),
+            LinkSettings::fields_of<LoopConfig>());
     }
 };
 

@@ -56,6 +56,8 @@ scenario::Options read_options(core::StrictTable& reader) {
     number("density", 0.0, 100.0, options.density);
     number("av_share", 0.0, 1.0, options.automated_share);
     reader.word<scenario::IdmPreset>("idm", options.idm);
+    reader.word<scenario::FollowingModel>("car_following", options.following);
+    number("driver_spread", 0.0, 1.0, options.driver_spread);
     return options;
 }
 
@@ -101,6 +103,17 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
     } catch (const core::InputError& error) {
         reading.problems.insert(reading.problems.end(), error.problems().begin(), error.problems().end());
     }
+}
+
+void read_quick(core::StrictTable& root, QuickBenchmark& quick) {
+    if (!root.has("quick")) return;
+    auto reader = root.below("quick");
+    if (!reader) return;
+    reader->integer<std::uint32_t>("test", 1, most_seeds, quick.test);
+    reader->integer<std::uint32_t>("validation", 1, most_seeds, quick.validation);
+    reader->texts("failures", quick.failures);
+    reader->words<Exits>("exits", quick.exits);
+    reader->finish();
 }
 
 void read_comparisons(core::StrictTable& root, LinkBenchmark& benchmark) {
@@ -175,6 +188,16 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
     root.text("name", benchmark.name);
     root.texts("failures", benchmark.failures);
     root.words<Exits>("exits", benchmark.exits);
+    read_quick(root, benchmark.quick);
+    benchmark.candidates = prediction::CandidateReach::reported;
+    root.word<prediction::CandidateReach>("candidates", benchmark.candidates);
+    if (root.has("links")) {
+        auto reader = root.below("links");
+        if (reader) {
+            reader->read(benchmark.links);
+            reader->finish();
+        }
+    }
     read_comparisons(root, benchmark);
     read_predictors(root, benchmark);
     if (auto reader = root.below("seeds")) {

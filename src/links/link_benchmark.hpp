@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "experiment/loop_config.hpp"
+#include "prediction/candidates.hpp"
 #include "scenario/config.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -41,6 +43,14 @@ struct BenchmarkScenario {
     scenario::ScenarioConfig config;
 };
 
+/// The part of a benchmark that is judged where somebody is in a hurry.
+struct QuickBenchmark {
+    std::uint32_t test = 3;  ///< Seeds at most.
+    std::uint32_t validation = 2;
+    std::vector<std::string> failures;  ///< Empty: all of the benchmark.
+    std::vector<Exits> exits;           ///< Empty: all.
+};
+
 /// What predictors are evaluated on.
 struct LinkBenchmark {
     std::string name;
@@ -49,14 +59,19 @@ struct LinkBenchmark {
     SeedRange validation;  ///< Thresholds are chosen and settings tuned on these.
     std::vector<std::string> failures;
     std::vector<Exits> exits;
+    prediction::CandidateReach candidates = prediction::CandidateReach::twins;
+    experiment::LinkSettings links;
     std::vector<BenchmarkScenario> scenarios;
     std::vector<std::string> predictors;    ///< Judged where none are named; empty: `benchmark_predictors`.
+    QuickBenchmark quick;                   ///< Table `[quick]`.
     std::vector<ComparedPair> comparisons;  ///< Confirmatory ones; all others are exploratory.
 };
 
-/// Reads a benchmark file (TOML, strict). Each scenario states the hash of its effective configuration.
-/// Throws core::InputError with all problems, including a scenario that has changed since the benchmark was
-/// frozen. Names of failures are not checked here; those of predictors and policies are.
+/// Reads a benchmark file (TOML, strict). Without a key `candidates` the candidates are those of
+/// CandidateReach::reported, which were the only ones when `eval_v1` was frozen. Each scenario states the
+/// hash of its effective configuration. Throws core::InputError with all problems, including a scenario that
+/// has changed since the benchmark was frozen. Names of failures are not checked here; those of predictors
+/// and policies are.
 LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
 
 /// Predictors that a benchmark judges where neither it nor the user names any: those that there were when

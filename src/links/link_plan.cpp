@@ -44,7 +44,10 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
         const fs::path file = files.file(entry, replication, predictor);
         if (fs::exists(file)) continue;
         const fs::path model = predictor.model_file.empty() ? fs::path() : fs::absolute(predictor.model_file);
-        jobs.push_back({predictor.name, model.string(), predictor.settings, file});
+        core::Settings settings = predictor.settings;
+        if (plan.benchmark.candidates == prediction::CandidateReach::reported)
+            settings.emplace("reach_by_twin", "0");
+        jobs.push_back({predictor.name, model.string(), settings, file});
     }
     return jobs;
 }
@@ -68,6 +71,7 @@ std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunF
             plan.folder / "work" / fmt::format("{}-{}-{}", entry.label, replication, ::getpid());
         job.failures = plan.benchmark.failures;
         job.exits = plan.benchmark.exits;
+        static_cast<experiment::LinkSettings&>(job) = plan.benchmark.links;
         jobs.push_back(std::move(job));
     }
     return jobs;
@@ -150,6 +154,8 @@ std::string LinkRunFiles::key(const BenchmarkScenario& entry, const LinkPredicto
         content += failure + " ";
     for (const Exits exits : plan_.benchmark.exits)
         content += fmt::format("{} ", core::name(exits));
+    content += fmt::format("{} {} {} ", core::name(plan_.benchmark.candidates),
+                           plan_.benchmark.links.link_radius_m, plan_.benchmark.links.automated_links);
     if (!entry.policy.empty()) content += fmt::format("policy {} ", entry.policy);
     content += predictor.name + " " + settings_text(predictor);
     if (!predictor.model_file.empty()) content += core::content_hash(core::read_file(predictor.model_file));

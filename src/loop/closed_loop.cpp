@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
 
 void ClosedLoop::begin(Controller controller, const LoopConfig& config) {
     controller_ = std::move(controller);
-    true_links_ = metrics::TrueLinks(graph::LinkRules{.radius_m = config.link_radius_m});
+    true_links_ = metrics::TrueLinks(config.rules());
     timing_ = {};
 }
 

@@ -24,7 +24,7 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
         condition, pipeline::ChainContext{.network = context.network,
                                           .random = context.random,
                                           .policy_period_s = context.loop.policy_period_s,
-                                          .link_radius_m = context.loop.link_radius_m});
+                                          .rules = context.loop.rules()});
     actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
     actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
     if (!context.has_pedestrians) actuation.walking_s = 0.0;

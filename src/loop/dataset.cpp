@@ -93,7 +93,7 @@ core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     core::make_folder(job.output);
     const core::TemporaryFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
     UnitRun run(job, work.path());
-    const graph::LinkRules rules = detail::link_rules();
+    const graph::LinkRules rules = job.rules();
     if (job.dataset == experiment::DatasetKind::published) {
         record_published(job, run, rules);
     } else {

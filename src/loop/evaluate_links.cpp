@@ -78,7 +78,7 @@ void write_results(const experiment::LinkJob& job, const std::string& configurat
 core::ExitCode evaluate_links(const experiment::LinkJob& job) {
     const core::TemporaryFolder work(job.work_folder);
     UnitRun run(job, work.path());
-    const graph::LinkRules rules = detail::link_rules();
+    const graph::LinkRules rules = job.rules();
     links::LinkEvaluator evaluator(run.network(), rules, run.first_emergency());
     add_trials(job, run.network(), rules, evaluator);
     run.record(traffic_of(job), evaluator);

@@ -8,15 +8,15 @@
 namespace clearway::pipeline {
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : period_s_(context.policy_period_s) {
-    graph::LinkRules rules;
-    rules.radius_m = context.link_radius_m;
     const sensing::FailureConfig failure = sensing::failure_from(condition.failure);
     if (failure.signals_known == sensing::SignalsKnown::no) shown_.emplace();
-    sensor_ = sensing::make_sensor(failure, context.random, {.network = context.network, .rules = rules});
-    predictor_ = prediction::make_predictor(
-        condition.predictor,
-        {.network = context.network, .rules = rules, .model_file = experiment::checked_model(condition)},
-        core::settings_of(condition.settings, condition.predictor));
+    sensor_ =
+        sensing::make_sensor(failure, context.random, {.network = context.network, .rules = context.rules});
+    predictor_ = prediction::make_predictor(condition.predictor,
+                                            {.network = context.network,
+                                             .rules = context.rules,
+                                             .model_file = experiment::checked_model(condition)},
+                                            core::settings_of(condition.settings, condition.predictor));
     for (const std::string& name : condition.policies)
         policies_.push_back(policy::make_policy(
             name, {.network = context.network, .period = core::Seconds(period_s_)}, condition.settings));

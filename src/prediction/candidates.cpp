@@ -1,8 +1,11 @@
 #include "prediction/candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <utility>
 
 namespace clearway::prediction {
 namespace {
@@ -20,19 +23,25 @@ std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) {
                                                       : static_cast<std::uint32_t>(tracks.size());
 }
 
-/// Calls `visit(right)` once for every neighbour right > left of either row, ascending.
-template <class Visit>
-void for_each_in_either(std::span<const core::VehicleIndex> some, std::span<const core::VehicleIndex> others,
-                        std::uint32_t left, const Visit& visit) {
-    auto one = std::ranges::upper_bound(some, left);
-    auto other = std::ranges::upper_bound(others, left);
-    while (one != some.end() || other != others.end()) {
-        if (other == others.end() || (one != some.end() && *one <= *other)) {
-            if (other != others.end() && *one == *other) ++other;
-            visit(*one++);
-        } else {
-            visit(*other++);
-        }
+/// Calls `visit(right)` once for every neighbour right > left of the row in any of the graphs, ascending.
+template <std::size_t Count, class Visit>
+void for_each_in_any(const std::array<const graph::ProximityGraph*, Count>& graphs, std::uint32_t left,
+                     const Visit& visit) {
+    using Place = std::span<const core::VehicleIndex>::iterator;
+    std::array<std::pair<Place, Place>, Count> rest;
+    for (std::size_t at = 0; at < Count; ++at) {
+        const auto all = graphs[at]->neighbours_of(left);
+        rest[at] = {std::ranges::upper_bound(all, left), all.end()};
+    }
+    constexpr core::VehicleIndex nobody = std::numeric_limits<core::VehicleIndex>::max();
+    for (;;) {
+        core::VehicleIndex next = nobody;
+        for (const auto& [first, end] : rest)
+            next = first == end ? next : std::min(next, *first);
+        if (next == nobody) return;
+        visit(next);
+        for (auto& [first, end] : rest)
+            first += first != end && *first == next ? 1 : 0;
     }
 }
 
@@ -51,10 +60,15 @@ void PairList::add(RowPair pair, float last_seen_distance_m, float dead_reckoned
 }
 
 SceneBuilder::SceneBuilder(const roads::Network& network, const graph::LinkRules& rules)
-    : network_(network), rules_(rules) {}
+    : network_(network), rules_(rules), reach_(CandidateReach::reported) {}
+
+SceneBuilder::SceneBuilder(const roads::Network& network, const graph::LinkRules& rules, CandidateReach reach)
+    : network_(network), rules_(rules), reach_(reach), twins_(std::in_place, network) {}
 
 void SceneBuilder::build(const traffic::Observation& observation, Scene& scene) {
     dead_reckon(observation, network_, scene.tracks);
+    scene.twins = twins_ ? &*twins_ : nullptr;
+    if (twins_) twins_->follow(observation, scene.tracks);
     scene.known.clear();
     scene.detected.clear();
     scene.detected_range_m.clear();
@@ -90,17 +104,35 @@ void SceneBuilder::sort_pairs(Scene& scene) {
     const Tracks& tracks = scene.tracks;
     graph::LinkRules rules = rules_;
     // If all vehicles are known, nothing beyond the link radius matters.
-    if (!tracks.all_known) rules.radius_m = std::max(candidate_radius_m, rules_.radius_m);
+    if (!tracks.all_known) rules.radius_m = candidate_reach_m(rules_);
     builder_.build({tracks.x_m, tracks.y_m, tracks.vehicle_class}, rules, near_now_);
+    const graph::ProximityGraph* near_last = &near_now_;
+    const graph::ProximityGraph* near_twins = &near_now_;
     if (!tracks.all_current) {
         builder_.build({tracks.last_x_m, tracks.last_y_m, tracks.vehicle_class}, rules, near_last_);
+        near_last = &near_last_;
+        if (reach_ == CandidateReach::twins) {
+            place_twins(tracks);
+            builder_.build({twin_x_m_, twin_y_m_, tracks.vehicle_class}, rules, near_twins_);
+            near_twins = &near_twins_;
+        }
     }
-    const graph::ProximityGraph& near_last = tracks.all_current ? near_now_ : near_last_;
     for (std::uint32_t left = 0; left < tracks.size(); ++left) {
-        for_each_in_either(near_now_.neighbours_of(left), near_last.neighbours_of(left), left,
-                           [&](std::uint32_t right) {
-                               take({left, right}, scene);
-                           });
+        for_each_in_any(std::array{&std::as_const(near_now_), near_last, near_twins}, left,
+                        [&](std::uint32_t right) {
+                            take({left, right}, scene);
+                        });
+    }
+}
+
+void SceneBuilder::place_twins(const Tracks& tracks) {
+    twin_x_m_ = tracks.x_m;
+    twin_y_m_ = tracks.y_m;
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        if (tracks.age_s[row] <= 0.0F || !twins_->is_twin(row)) continue;
+        const traffic::MotionState state = twins_->state(row);
+        twin_x_m_[row] = state.x_m;
+        twin_y_m_[row] = state.y_m;
     }
 }
 

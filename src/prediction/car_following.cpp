@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -14,9 +15,6 @@ namespace {
 
 using detail::PairwisePredictor;
 using detail::RowBelief;
-
-/// Standard deviation of the logistic distribution of spread 1: pi / sqrt(3).
-constexpr float deviation_of_spread = 1.8138F;
 
 class CarFollowing final : public PairwisePredictor {
   public:
@@ -52,9 +50,9 @@ class CarFollowing final : public PairwisePredictor {
                                                 beliefs[left].state.y_m - beliefs[right].state.y_m);
             const float sensors_m =
                 std::hypot(sensor_sigma_m_[left], sensor_sigma_m_[right]) / deviation_of_spread;
-            probabilities[at] = twin_link_probability(
-                within_m - distance_m, sensors_m,
-                twin_spread_m(tracks.age_s[left], tracks.age_s[right], config_), config_);
+            probabilities[at] = probability_from_logit(
+                twin_link_logit(within_m - distance_m, sensors_m,
+                                twin_spread_m(tracks.age_s[left], tracks.age_s[right], config_), config_));
         }
     }
 
@@ -73,17 +71,18 @@ float twin_spread_m(float one_age_s, float other_age_s, const CarFollowingConfig
            static_cast<float>(config.younger_growth_m) * std::pow(younger_s, power);
 }
 
-float twin_link_probability(float room_m, float sensor_spread_m, float twin_spread_m,
-                            const CarFollowingConfig& config) {
-    const float step = room_m > 0.0F ? 1.0F : 0.0F;
+float twin_link_logit(float room_m, float sensor_spread_m, float twin_spread_m,
+                      const CarFollowingConfig& config) {
+    constexpr float sure = std::numeric_limits<float>::infinity();
     const float by_sensors = sensor_spread_m > 0.0F ? room_m / sensor_spread_m : 0.0F;
     const float by_motion = twin_spread_m > 0.0F
                                 ? static_cast<float>(config.tail_power) * std::asinh(room_m / twin_spread_m)
                                 : 0.0F;
-    if (sensor_spread_m <= 0.0F) return twin_spread_m > 0.0F ? probability_from_logit(by_motion) : step;
-    if (twin_spread_m <= 0.0F) return probability_from_logit(by_sensors);
+    if (sensor_spread_m <= 0.0F && twin_spread_m <= 0.0F) return room_m > 0.0F ? sure : -sure;
+    if (sensor_spread_m <= 0.0F) return by_motion;
+    if (twin_spread_m <= 0.0F) return by_sensors;
     const float both = std::hypot(by_sensors, by_motion);
-    return both > 0.0F ? probability_from_logit(by_sensors * std::abs(by_motion) / both) : 0.5F;
+    return both > 0.0F ? by_sensors * std::abs(by_motion) / both : 0.0F;
 }
 
 std::unique_ptr<Predictor> make_car_following(const PredictorContext& context,

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "prediction/boosted_trees.hpp"
 #include "prediction/detail/pairwise.hpp"
+#include "prediction/detail/repair_belief.hpp"
 #include "prediction/graphsage.hpp"
 #include "prediction/repair_net.hpp"
 #include "prediction/route_rule.hpp"
@@ -26,7 +27,7 @@ constexpr const char* own_name = "gradient_boosting";
 class GradientBoosting final : public PairwisePredictor {
   public:
     GradientBoosting(const PredictorContext& context, const Weights& weights)
-        : PairwisePredictor(context),
+        : PairwisePredictor(context, Needs::twins),
           builder_(context.network, context.rules),
           trees_(weights, tree_schema()) {}
     std::string_view name() const override { return own_name; }
@@ -40,9 +41,8 @@ class GradientBoosting final : public PairwisePredictor {
         }
         for (const MotionContext& ahead : builder_.ahead()) {
             beliefs[ahead.row] = {
-                detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m),
-                route_rule_sigma_m(ahead.sigma_m, tracks.age_s[ahead.row], RouteRuleConfig{}),
-                !ahead.has_left};
+                detail::state_after(network(), observation(), tracks, ahead, ahead.believed_m()),
+                detail::believed_sigma_m(tracks, ahead), !detail::has_left(scene, ahead)};
         }
     }
 
@@ -65,12 +65,7 @@ class GradientBoosting final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_gradient_boosting(const PredictorContext& context) {
-    if (context.rules.radius_m != repair_link_radius_m) {
-        throw core::InputError({"link_radius_m",
-                                fmt::format("{} with predictor {}", context.rules.radius_m, own_name),
-                                fmt::format("{} m, for which the trees were trained", repair_link_radius_m),
-                                "Choose predictor route_rule for other radii"});
-    }
+    detail::require_repair_radius(context.rules, own_name);
     return std::make_unique<GradientBoosting>(context, model_of(own_name, context.model_file));
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "prediction/detail/pairwise.hpp"
+#include "prediction/detail/repair_belief.hpp"
 #include "prediction/learned.hpp"
 #include "prediction/repair_net.hpp"
 #include "prediction/shipped_models.hpp"
@@ -21,7 +22,7 @@ constexpr float root_two = 1.41421356F;
 class GraphSage final : public PairwisePredictor {
   public:
     GraphSage(const PredictorContext& context, const Weights& weights)
-        : PairwisePredictor(context), builder_(context.network, context.rules), net_(weights) {}
+        : PairwisePredictor(context, Needs::twins), builder_(context.network, context.rules), net_(weights) {}
     std::string_view name() const override { return "graphsage"; }
 
   private:
@@ -38,7 +39,7 @@ class GraphSage final : public PairwisePredictor {
             const BelievedMotion& motion = motions_[i];
             beliefs[ahead.row] = {
                 detail::state_after(network(), observation(), tracks, ahead, motion.displacement_m),
-                root_two * motion.sigma_m, !ahead.has_left};
+                root_two * motion.sigma_m, !detail::has_left(scene, ahead)};
         }
     }
 
@@ -61,12 +62,7 @@ class GraphSage final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context) {
-    if (context.rules.radius_m != repair_link_radius_m) {
-        throw core::InputError({"link_radius_m",
-                                fmt::format("{} with predictor graphsage", context.rules.radius_m),
-                                fmt::format("{} m, for which the net was trained", repair_link_radius_m),
-                                "Choose predictor route_rule for other radii"});
-    }
+    detail::require_repair_radius(context.rules, "graphsage");
     return std::make_unique<GraphSage>(context, model_of("graphsage", context.model_file));
 }
 void check_graphsage(const Weights& weights) {

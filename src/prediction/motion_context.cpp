@@ -114,6 +114,7 @@ void MotionContextBuilder::build(const traffic::Observation& observation, const 
             list_places(tracks, ahead);
             find_neighbours(observation, tracks, ahead);
         }
+        follow_twins(scene, ahead);
         follow_detections(scene, ahead);
     }
     std::swap(places_before_, place_of_row_);
@@ -243,6 +244,7 @@ void MotionContextBuilder::hold_at_red(MotionContext& ahead) const {
 void MotionContextBuilder::find_lines(const traffic::Observation& observation, MotionContext& ahead) const {
     for (const roads::RouteStep& step : walked_) {
         if (!step.signal.exists() || step.end_m < 0.0F) continue;
+        if (step.signal.value >= observation.signals.state.size()) continue;
         const std::string& letters = observation.signals.state[step.signal.value];
         if (step.signal_link >= letters.size()) continue;
         const double since_s = signal_state_since_s_[step.signal.value][step.signal_link];
@@ -397,7 +399,7 @@ VehicleOnWay MotionContextBuilder::on_way(const traffic::Observation& observatio
 void MotionContextBuilder::find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
                                            std::vector<MotionContext>& ahead) {
     for (std::size_t entry = 0; entry < ahead.size(); ++entry) {
-        const std::span steps = std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
+        const std::span steps = way_of(entry);
         const Memory& memory = memories_[ahead[entry].row];
         ahead[entry].leader = on_way(observation, tracks, ahead, memory.leader, steps);
         ahead[entry].follower = on_way(observation, tracks, ahead, memory.follower, steps);
@@ -415,7 +417,15 @@ void MotionContextBuilder::hold_behind_leaders(std::vector<MotionContext>& ahead
     }
 }
 
-void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<MotionContext>& ahead) {
+void MotionContextBuilder::follow_twins(const Scene& scene, std::vector<MotionContext>& ahead) const {
+    if (scene.twins == nullptr) return;
+    for (MotionContext& entry : ahead) {
+        entry.drives = scene.twins->is_twin(entry.row);
+        if (entry.drives) entry.twin_m = std::clamp(scene.twins->driven_m(entry.row), 0.0F, entry.reach_m);
+    }
+}
+
+void MotionContextBuilder::list_detections(const Scene& scene) {
     const Tracks& tracks = scene.tracks;
     detections_.clear();
     for (std::size_t at = 0; at < scene.detected.size(); ++at) {
@@ -432,6 +442,27 @@ void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<Mot
     std::ranges::sort(detections_, {}, [](const Detection& detection) {
         return std::pair(detection.row, detection.from_row);
     });
+}
+
+void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<MotionContext>& ahead) {
+    list_detections(scene);
+    for (auto begin = detections_.begin(); begin != detections_.end();) {
+        const auto end = std::find_if(begin, detections_.end(), [&](const Detection& detection) {
+            return detection.row != begin->row;
+        });
+        MotionContext& entry = ahead[ahead_of_row_[begin->row]];
+        const std::span<const Detection> own(begin, end);
+        const float age_s = scene.tracks.age_s[entry.row];
+        entry.detections = static_cast<std::uint32_t>(own.size());
+        entry.displacement_m = agreed_m(entry, own, age_s, entry.displacement_m);
+        if (entry.drives) entry.twin_m = agreed_m(entry, own, age_s, entry.twin_m);
+        begin = end;
+    }
+}
+
+/// The displacement in which what is believed and what is detected agree best.
+float MotionContextBuilder::agreed_m(const MotionContext& entry, std::span<const Detection> detections,
+                                     float age_s, float believed_m) const {
     const auto radius_m = static_cast<float>(rules_.radius_m);
     const auto miss_m = [&](const Detection& detection, roads::Point place) {
         const float distance_m =
@@ -439,34 +470,25 @@ void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<Mot
         return detection.range_m >= 0.0F ? distance_m - detection.range_m
                                          : std::max(0.0F, distance_m - radius_m);
     };
-    for (auto begin = detections_.begin(); begin != detections_.end();) {
-        const auto end = std::find_if(begin, detections_.end(), [&](const Detection& detection) {
-            return detection.row != begin->row;
-        });
-        MotionContext& entry = ahead[ahead_of_row_[begin->row]];
-        entry.detections = static_cast<std::uint32_t>(end - begin);
-        const float scale_m = 1.0F + speed_change_mps * tracks.age_s[entry.row];
-        const auto cost = [&](float displacement_m) {
-            float sum = square((displacement_m - entry.displacement_m) / scale_m);
-            const roads::Point place = entry.place_at(displacement_m);
-            std::for_each(begin, end, [&](const Detection& detection) {
-                sum += square(miss_m(detection, place) / miss_scale_m);
-            });
-            return sum;
-        };
-        float best_m = entry.displacement_m;
-        float least = cost(best_m);
-        for (int at = 0; at <= detection_places; ++at) {
-            const float displacement_m =
-                entry.reach_m * static_cast<float>(at) / static_cast<float>(detection_places);
-            const float here = cost(displacement_m);
-            if (here >= least) continue;
-            least = here;
-            best_m = displacement_m;
-        }
-        entry.displacement_m = best_m;
-        begin = end;
+    const float scale_m = 1.0F + speed_change_mps * age_s;
+    const auto cost = [&](float displacement_m) {
+        float sum = square((displacement_m - believed_m) / scale_m);
+        const roads::Point place = entry.place_at(displacement_m);
+        for (const Detection& detection : detections)
+            sum += square(miss_m(detection, place) / miss_scale_m);
+        return sum;
+    };
+    float best_m = believed_m;
+    float least = cost(best_m);
+    for (int at = 0; at <= detection_places; ++at) {
+        const float displacement_m =
+            entry.reach_m * static_cast<float>(at) / static_cast<float>(detection_places);
+        const float here = cost(displacement_m);
+        if (here >= least) continue;
+        least = here;
+        best_m = displacement_m;
     }
+    return best_m;
 }
 
 namespace detail {

@@ -69,6 +69,11 @@ struct MotionContext {
     float held_at_m = 0.0F;  ///< The line that holds it, where one does.
     bool held_by_leader = false;
     std::uint32_t detections = 0;  ///< Neighbours with known places that still detect it.
+    bool drives = false;           ///< The scene has a twin of it; then `twin_m` is its displacement.
+    float twin_m = 0.0F;           ///< At most `reach_m`; by detections, as the rule's.
+
+    /// Where it is believed to be before a net corrects it: by its twin, or by the rule.
+    float believed_m() const { return drives ? twin_m : displacement_m; }
 
     roads::Point place_at(float displacement) const { return path.place_at(displacement, reach_m); }
     roads::Point direction_at(float displacement) const { return path.direction_at(displacement, reach_m); }
@@ -114,6 +119,10 @@ class MotionContextBuilder {
     const std::vector<float>& lane_speed_mps() const { return lane_speed_mps_; }
     /// Smoothed reported speed of each row, m/s.
     float smoothed_speed_mps(std::uint32_t row) const { return memories_[row].smoothed_speed_mps; }
+    /// The lanes on the way of an entry of `ahead`, from where it was last seen; empty without a route.
+    std::span<const roads::RouteStep> way_of(std::size_t entry) const {
+        return std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
+    }
 
   private:
     struct Memory {
@@ -160,7 +169,11 @@ class MotionContextBuilder {
     void find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
                          std::vector<MotionContext>& ahead);
     void hold_behind_leaders(std::vector<MotionContext>& ahead) const;
+    void follow_twins(const Scene& scene, std::vector<MotionContext>& ahead) const;
+    void list_detections(const Scene& scene);
     void follow_detections(const Scene& scene, std::vector<MotionContext>& ahead);
+    float agreed_m(const MotionContext& entry, std::span<const Detection> detections, float age_s,
+                   float believed_m) const;
     void measure_lane_speeds(const Tracks& tracks);
     VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks,
                         const std::vector<MotionContext>& ahead, core::VehicleKey key,

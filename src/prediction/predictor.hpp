@@ -45,12 +45,20 @@ class Predictor {
 /// Settings that all predictors share.
 struct PredictionConfig {
     double link_threshold = 0.5;
+    int reach_by_twin = 1;
+
+    CandidateReach reach() const {
+        return reach_by_twin != 0 ? CandidateReach::twins : CandidateReach::reported;
+    }
 
     static constexpr auto fields() {
         return std::make_tuple(
             core::Field{"link_threshold", "1", &PredictionConfig::link_threshold, 0.0, 1.0,
                         "A candidate is listed as a link when its probability is at least this",
-                        "even odds; F1 on validation seeds may favour another value"});
+                        "even odds; F1 on validation seeds may favour another value"},
+            core::Field{"reach_by_twin", "1", &PredictionConfig::reach_by_twin, 0, 1,
+                        "1: pairs whose car-following twins are near are candidates, too",
+                        "docs/reference/link-prediction.md; benchmark eval_v1 was frozen with 0"});
     }
 };
 

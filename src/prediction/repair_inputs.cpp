@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "prediction/car_following.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::prediction {
@@ -65,8 +67,22 @@ void RepairInputs::clear() {
     pair_features.clear();
 }
 
+RowPair first_end_first(const RepairInputs& inputs, RowPair pair) {
+    const auto node = [&](std::uint32_t row) {
+        return std::span(inputs.nodes).subspan(row * node_width, node_width);
+    };
+    const auto left = node(pair.left);
+    const auto right = node(pair.right);
+    constexpr std::size_t known = node_input("known");
+    constexpr std::size_t age = node_input("age");
+    const bool swapped = left[known] != right[known] ? left[known] > right[known]
+                         : left[age] != right[age]   ? left[age] < right[age]
+                                                     : std::ranges::lexicographical_compare(left, right);
+    return swapped ? RowPair{pair.right, pair.left} : pair;
+}
+
 RepairInputBuilder::RepairInputBuilder(const roads::Network& network, const graph::LinkRules& rules)
-    : network_(network), roads_(network, rules) {}
+    : network_(network), rules_(rules), roads_(network, rules) {}
 
 void RepairInputBuilder::build(const traffic::Observation& observation, const Scene& scene,
                                RepairInputs& inputs) {
@@ -75,25 +91,66 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
     inputs.clear();
     if (ahead_.empty()) return;
     inputs.rows = static_cast<std::uint32_t>(tracks.size());
+    inputs.radius_m = static_cast<float>(rules_.radius_m);
     inputs.x_m = tracks.x_m;
     inputs.y_m = tracks.y_m;
-    inputs.place_sigma_m = tracks.sensor_sigma_m;
-    x_m_ = tracks.x_m;
-    y_m_ = tracks.y_m;
-    ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(ahead_.size()));
-    for (std::uint32_t entry = 0; entry < ahead_.size(); ++entry) {
-        const MotionContext& ahead = ahead_[entry];
-        ahead_of_row_[ahead.row] = entry;
-        const roads::Point place = ahead.place_at(ahead.displacement_m);
-        x_m_[ahead.row] = place.x_m;
-        y_m_[ahead.row] = place.y_m;
-        inputs.place_sigma_m[ahead.row] = ahead.sigma_m;
-        inputs.receivers.push_back({ahead.row, ahead.displacement_m, ahead.reach_m, ahead.path});
-    }
+    place_rows(scene);
+    inputs.place_sigma_m = sigma_m_;
+    for (const MotionContext& ahead : ahead_)
+        inputs.receivers.push_back({ahead.row, ahead.believed_m(), ahead.reach_m, ahead.path});
+    look_around(observation, scene);
     list_detections(scene);
     write_nodes(observation, scene, inputs);
     write_edges(scene, inputs);
     write_pairs(scene, inputs);
+}
+
+void RepairInputBuilder::place_rows(const Scene& scene) {
+    const Tracks& tracks = scene.tracks;
+    x_m_ = tracks.x_m;
+    y_m_ = tracks.y_m;
+    rule_x_m_ = tracks.x_m;
+    rule_y_m_ = tracks.y_m;
+    sigma_m_ = tracks.sensor_sigma_m;
+    lane_.resize(tracks.size());
+    lane_position_m_.resize(tracks.size());
+    for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        lane_[row] = tracks.last[row].lane;
+        lane_position_m_[row] = tracks.last[row].lane_position_m;
+    }
+    ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(ahead_.size()));
+    for (std::uint32_t entry = 0; entry < ahead_.size(); ++entry) {
+        const MotionContext& ahead = ahead_[entry];
+        ahead_of_row_[ahead.row] = entry;
+        const roads::Point place = ahead.place_at(ahead.believed_m());
+        x_m_[ahead.row] = place.x_m;
+        y_m_[ahead.row] = place.y_m;
+        const roads::Point by_rule = ahead.place_at(ahead.displacement_m);
+        rule_x_m_[ahead.row] = by_rule.x_m;
+        rule_y_m_[ahead.row] = by_rule.y_m;
+        sigma_m_[ahead.row] = ahead.sigma_m;
+        lane_[ahead.row] = ahead.drives ? scene.twins->lane(ahead.row) : core::LaneIndex::none();
+        lane_position_m_[ahead.row] = ahead.drives ? scene.twins->lane_position_m(ahead.row) : 0.0F;
+    }
+}
+
+void RepairInputBuilder::look_around(const traffic::Observation& observation, const Scene& scene) {
+    around_.clear();
+    if (beside_.size() < ahead_.size()) beside_.resize(ahead_.size());
+    for (const MotionContext& ahead : ahead_) {
+        around_.push_back(ahead.drives ? scene.twins->surroundings(observation, ahead.row)
+                                       : TwinTraffic::Surroundings{});
+        const TwinTraffic::Surroundings& around = around_.back();
+        std::vector<std::uint32_t>& beside = beside_[around_.size() - 1];
+        beside.clear();
+        const auto add = [&](bool exists, std::uint32_t row) {
+            if (exists && std::ranges::find(beside, row) == beside.end()) beside.push_back(row);
+        };
+        add(ahead.leader.exists, ahead.leader.row);
+        add(ahead.follower.exists, ahead.follower.row);
+        add(around.leader.exists, around.leader.row);
+        add(around.follower.exists, around.follower.row);
+    }
 }
 
 void RepairInputBuilder::list_detections(const Scene& scene) {
@@ -126,9 +183,10 @@ void RepairInputBuilder::write_nodes(const traffic::Observation& observation, co
         write_motion(scene, ahead, row);
         write_line(ahead.line, line_inputs, row);
         write_line(ahead.next_line, next_line_inputs, row);
-        write_vehicle(ahead.leader, ahead.displacement_m, leader_inputs, row);
-        write_vehicle(ahead.follower, ahead.displacement_m, follower_inputs, row);
+        write_vehicle(ahead.leader, ahead.believed_m(), leader_inputs, row);
+        write_vehicle(ahead.follower, ahead.believed_m(), follower_inputs, row);
         write_neighbours(observation, scene, ahead, row);
+        if (ahead.drives) write_twin(scene, ahead_of_row_[at], row);
     }
 }
 
@@ -170,22 +228,54 @@ void RepairInputBuilder::write_neighbours(const traffic::Observation& observatio
     row.set(node_input("fresh"), tracks.freshness[ahead.row] == traffic::Freshness::fresh);
 }
 
+void RepairInputBuilder::write_twin(const Scene& scene, std::size_t entry, NetInputRow& row) const {
+    const TwinTraffic& twins = *scene.twins;
+    const std::uint32_t own = ahead_[entry].row;
+    const TwinTraffic::Surroundings& around = around_[entry];
+    row.set(node_input("twin"), true);
+    row.set(node_input("twin_displacement"), ahead_[entry].twin_m);
+    row.set(node_input("twin_speed"), twins.speed_mps(own));
+    if (twins.lane(own).exists())
+        row.set(node_input("twin_limit"), network_.lane(twins.lane(own)).speed_limit_mps);
+    row.set(node_input("twin_waits"), twins.waits(own));
+    row.set(node_input("twin_at_end"), twins.at_end(own));
+    if (around.line.distance_m >= 0.0F) {
+        row.set(node_input("twin_line"), true);
+        row.set(node_input("twin_line_distance"), around.line.distance_m);
+        row.set(node_input("twin_line_green"), traffic::is_green(around.line.state));
+    }
+    if (around.leader.exists) {
+        row.set(node_input("twin_leader"), true);
+        row.set(node_input("twin_leader_age"), scene.tracks.age_s[around.leader.row]);
+        row.set(node_input("twin_leader_gap"), around.leader.gap_m);
+        row.set(node_input("twin_leader_speed"), around.leader.speed_mps);
+    }
+    if (around.follower.exists) {
+        row.set(node_input("twin_follower"), true);
+        row.set(node_input("twin_follower_age"), scene.tracks.age_s[around.follower.row]);
+        row.set(node_input("twin_follower_gap"), around.follower.gap_m);
+        row.set(node_input("twin_follower_speed"), around.follower.speed_mps);
+    }
+}
+
+/// A receiver hears those near it, those that detect it, and those before and behind it: when it was last
+/// heard, and of its twin.
 void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
     proximity_.build_all_pairs({x_m_, y_m_, scene.tracks.vehicle_class}, message_radius_m, near_);
     auto first = detectors_.begin();
-    for (const MotionContext& ahead : ahead_) {
+    for (std::size_t entry = 0; entry < ahead_.size(); ++entry) {
+        const MotionContext& ahead = ahead_[entry];
         auto last = first;
         while (last != detectors_.end() && last->row == ahead.row) {
             ++last;
         }
         const std::span<const Detector> detectors(first, last);
-        add_nearest(scene, ahead, detectors, inputs);
-        for (const Detector& detector : detectors) {
-            add_edge(scene, ahead, detector.from, detector.range_m, inputs);
-        }
-        for (const VehicleOnWay* const other : {&ahead.leader, &ahead.follower}) {
-            if (!other->exists || detects(detectors, other->row)) continue;
-            add_edge(scene, ahead, other->row, not_detected, inputs);
+        add_nearest(scene, entry, detectors, inputs);
+        for (const Detector& detector : detectors)
+            add_edge(scene, entry, detector.from, detector.range_m, inputs);
+        for (const std::uint32_t source : beside_[entry]) {
+            if (source != ahead.row && !detects(detectors, source))
+                add_edge(scene, entry, source, not_detected, inputs);
         }
         inputs.first_edge.push_back(static_cast<std::uint32_t>(inputs.source.size()));
         first = last;
@@ -197,46 +287,39 @@ bool RepairInputBuilder::detects(std::span<const Detector> detectors, std::uint3
 }
 
 /// The nearest vehicles but those that get an edge for another reason.
-void RepairInputBuilder::add_nearest(const Scene& scene, const MotionContext& ahead,
+void RepairInputBuilder::add_nearest(const Scene& scene, std::size_t entry,
                                      std::span<const Detector> detectors, RepairInputs& inputs) {
     nearest_.clear();
-    const auto neighbours = near_.neighbours_of(ahead.row);
-    const auto distances = near_.distances_of(ahead.row);
+    const auto neighbours = near_.neighbours_of(ahead_[entry].row);
+    const auto distances = near_.distances_of(ahead_[entry].row);
     for (std::size_t at = 0; at < neighbours.size(); ++at) {
         const std::uint32_t source = neighbours[at];
-        const bool apart = (ahead.leader.exists && ahead.leader.row == source) ||
-                           (ahead.follower.exists && ahead.follower.row == source) ||
-                           detects(detectors, source);
+        const bool apart =
+            std::ranges::find(beside_[entry], source) != beside_[entry].end() || detects(detectors, source);
         if (!apart) nearest_.push_back({distances[at], source});
     }
     const std::size_t kept = std::min(most_near_sources, nearest_.size());
     std::ranges::partial_sort(nearest_, nearest_.begin() + static_cast<std::ptrdiff_t>(kept));
     for (std::size_t at = 0; at < kept; ++at) {
-        add_edge(scene, ahead, nearest_[at].row, not_detected, inputs);
+        add_edge(scene, entry, nearest_[at].row, not_detected, inputs);
     }
 }
 
 /// `range_m`: measured, -1 for presence alone, or `not_detected`.
-void RepairInputBuilder::add_edge(const Scene& scene, const MotionContext& ahead, std::uint32_t source,
-                                  float range_m, RepairInputs& inputs) {
+void RepairInputBuilder::add_edge(const Scene& scene, std::size_t entry, std::uint32_t source, float range_m,
+                                  RepairInputs& inputs) {
     const Tracks& tracks = scene.tracks;
+    const MotionContext& ahead = ahead_[entry];
     const std::uint32_t row = ahead.row;
     inputs.source.push_back(source);
     inputs.edges.resize(inputs.source.size() * edge_width, 0.0F);
-    const roads::Point along = ahead.direction_at(ahead.displacement_m);
-    const float x_m = x_m_[source] - x_m_[row];
-    const float y_m = y_m_[source] - y_m_[row];
-    const float distance_m = std::sqrt(x_m * x_m + y_m * y_m);
-    const float ahead_m = along.x_m * x_m + along.y_m * y_m;
-    const float left_m = along.x_m * y_m - along.y_m * x_m;
     const traffic::MotionState& last = tracks.last[source];
+    NetInputRow out(edge_inputs, std::span(inputs.edges).last(edge_width));
+    write_place(entry, source, out);
+    const roads::Point along = ahead.direction_at(ahead.believed_m());
     const float cosine = along.x_m * std::cos(last.heading_rad) + along.y_m * std::sin(last.heading_rad);
     const float sine = along.x_m * std::sin(last.heading_rad) - along.y_m * std::cos(last.heading_rad);
-    NetInputRow out(edge_inputs, std::span(inputs.edges).last(edge_width));
-    out.set(edge_input("ahead"), ahead_m);
-    out.set(edge_input("left"), left_m);
-    out.set(edge_input("left_near"), left_m);
-    out.set(edge_input("distance"), distance_m);
+    const float distance_m = std::hypot(x_m_[source] - x_m_[row], y_m_[source] - y_m_[row]);
     out.set(edge_input("cosine"), cosine);
     out.set(edge_input("sine"), sine);
     out.set(edge_input("speed"), last.speed_mps);
@@ -254,6 +337,29 @@ void RepairInputBuilder::add_edge(const Scene& scene, const MotionContext& ahead
         out.set(edge_input("lane_lead"), last.lane_position_m - tracks.last[row].lane_position_m);
     }
     out.set(edge_input("emergency"), tracks.vehicle_class[source] == traffic::VehicleClass::emergency);
+    const TwinTraffic::Surroundings& around = around_[entry];
+    out.set(edge_input("twin_leads"), around.leader.exists && around.leader.row == source);
+    out.set(edge_input("twin_follows"), around.follower.exists && around.follower.row == source);
+}
+
+/// Where the source is believed to be, seen from the receiver, in the plane and along the receiver's way.
+void RepairInputBuilder::write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const {
+    const MotionContext& ahead = ahead_[entry];
+    const roads::Point along = ahead.direction_at(ahead.believed_m());
+    const float x_m = x_m_[source] - x_m_[ahead.row];
+    const float y_m = y_m_[source] - y_m_[ahead.row];
+    const float left_m = along.x_m * y_m - along.y_m * x_m;
+    out.set(edge_input("ahead"), along.x_m * x_m + along.y_m * y_m);
+    out.set(edge_input("left"), left_m);
+    out.set(edge_input("left_near"), left_m);
+    out.set(edge_input("distance"), std::hypot(x_m, y_m));
+    if (!lane_[source].exists()) return;
+    for (const roads::RouteStep& step : roads_.way_of(entry)) {
+        if (step.lane != lane_[source]) continue;
+        out.set(edge_input("on_way"), true);
+        out.set(edge_input("way_lead"), step.start_m + lane_position_m_[source] - ahead.believed_m());
+        return;
+    }
 }
 
 void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
@@ -265,11 +371,10 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
     for (std::size_t at = 0; at < list.size(); ++at) {
         const auto [left, right] = list.rows[at];
         NetInputRow out(pair_inputs, std::span(inputs.pair_features).subspan(at * pair_width, pair_width));
-        const float x_m = x_m_[left] - x_m_[right];
-        const float y_m = y_m_[left] - y_m_[right];
         out.set(pair_input("last_seen"), list.last_seen_m[at]);
         out.set(pair_input("dead_reckoned"), list.dead_reckoned_m[at]);
-        out.set(pair_input("by_rule"), std::sqrt(x_m * x_m + y_m * y_m));
+        out.set(pair_input("by_rule"),
+                std::hypot(rule_x_m_[left] - rule_x_m_[right], rule_y_m_[left] - rule_y_m_[right]));
         out.set(pair_input("both_missing"), tracks.known[left] == 0 && tracks.known[right] == 0);
         out.set(pair_input("age_younger"), std::min(tracks.age_s[left], tracks.age_s[right]));
         out.set(pair_input("age_older"), std::max(tracks.age_s[left], tracks.age_s[right]));
@@ -282,12 +387,49 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
                 on_lanes && network_.lane(left_lane).edge == network_.lane(right_lane).edge);
         out.set(pair_input("same_lane"), on_lanes && left_lane == right_lane);
         out.set(pair_input("follows"), follows(left, right) || follows(right, left));
+        write_twins(scene, list.rows[at], out);
+        write_meeting(first_end_first(inputs, list.rows[at]), out);
         // If some links survive at all, a pair that is not detected is less likely to be linked.
         if (scene.detected.rows.empty()) continue;
         out.set(pair_input("any_detection"), true);
         out.set(pair_input("detected_share"),
                 static_cast<float>(scene.detected.size()) / static_cast<float>(judged));
     }
+}
+
+void RepairInputBuilder::write_twins(const Scene& scene, RowPair pair, NetInputRow& out) const {
+    constexpr CarFollowingConfig twin;
+    const auto [left, right] = pair;
+    const float distance_m = std::hypot(x_m_[left] - x_m_[right], y_m_[left] - y_m_[right]);
+    const float inside_m = static_cast<float>(rules_.radius_m) - distance_m;
+    const float sensors_m = std::hypot(sigma_m_[left], sigma_m_[right]) / deviation_of_spread;
+    const float spread_m = twin_spread_m(scene.tracks.age_s[left], scene.tracks.age_s[right], twin);
+    out.set(pair_input("by_twin"), distance_m);
+    out.set(pair_input("inside"), inside_m);
+    out.set(pair_input("twin_logit"),
+            twin_link_logit(inside_m + static_cast<float>(twin.bias_m), sensors_m, spread_m, twin));
+    out.set(pair_input("twin_same_lane"), lane_[left].exists() && lane_[left] == lane_[right]);
+    out.set(pair_input("radius"), static_cast<float>(rules_.radius_m));
+}
+
+/// `ends.left` is the first end. Both have been heard just now in no pair.
+void RepairInputBuilder::write_meeting(RowPair ends, NetInputRow& out) const {
+    const MotionContext& ahead = ahead_[ahead_of_row_[ends.left]];
+    const roads::Point to{x_m_[ends.right], y_m_[ends.right]};
+    float nearest_m = std::numeric_limits<float>::max();
+    int within = 0;
+    for (const roads::Point point : ahead.path.points) {
+        const float away_m = std::hypot(point.x_m - to.x_m, point.y_m - to.y_m);
+        nearest_m = std::min(nearest_m, away_m);
+        if (away_m < static_cast<float>(rules_.radius_m)) ++within;
+    }
+    const roads::Point along = ahead.direction_at(ahead.believed_m());
+    const float x_m = to.x_m - x_m_[ends.left];
+    const float y_m = to.y_m - y_m_[ends.left];
+    out.set(pair_input("nearest"), nearest_m);
+    out.set(pair_input("share_within"), static_cast<float>(within) / static_cast<float>(path_points));
+    out.set(pair_input("ahead"), along.x_m * x_m + along.y_m * y_m);
+    out.set(pair_input("left"), along.x_m * y_m - along.y_m * x_m);
 }
 
 bool RepairInputBuilder::follows(std::uint32_t one, std::uint32_t other) const {

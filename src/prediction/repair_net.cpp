@@ -254,7 +254,6 @@ void RepairNet::refuse_result() const {
 
 /// Writes the distance inputs of the decoder and returns the score.
 float RepairNet::distance_facts(const RepairInputs& inputs, const RowPair& pair, float* facts) const {
-    const auto radius_m = static_cast<float>(repair_link_radius_m);
     const float x_m = place_x_m_[pair.left] - place_x_m_[pair.right];
     const float y_m = place_y_m_[pair.left] - place_y_m_[pair.right];
     const float distance_m = std::sqrt(x_m * x_m + y_m * y_m + 1e-3F);
@@ -264,7 +263,7 @@ float RepairNet::distance_facts(const RepairInputs& inputs, const RowPair& pair,
         return place_m * place_m + sigma_m_[row] * sigma_m_[row] * (side_share + along * along);
     };
     const float spread_m = std::sqrt(1.0F + variance(pair.left) + variance(pair.right));
-    const float score = std::clamp((radius_m - distance_m) / spread_m, -6.0F, 6.0F);
+    const float score = std::clamp((inputs.radius_m - distance_m) / spread_m, -6.0F, 6.0F);
     facts[0] = std::min(distance_m / 50.0F, 4.0F);
     facts[1] = 0.5F * score;
     facts[2] = 0.5F + 0.5F * std::erf(score * root_half);

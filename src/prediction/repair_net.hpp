@@ -24,7 +24,9 @@ struct RepairDimensions {
 inline constexpr const char* repair_architecture = "graphsage_repair";
 
 // Constants of the net; training and inference share them.
-inline constexpr double repair_link_radius_m = 50.0;  ///< The radius that the net was trained for.
+/// Link radii that nets and trees take, m: the range that they are trained for.
+inline constexpr double least_repair_radius_m = 25.0;
+inline constexpr double most_repair_radius_m = 300.0;
 inline constexpr float motion_step_m = 3.0F;  ///< A vehicle is moved by (this + share x reach) x output.
 inline constexpr float motion_share = 0.2F;
 inline constexpr float least_sigma_m = 0.5F;
@@ -50,19 +52,20 @@ struct BelievedMotion {
 ///     m_i     = mean over j in N(i) of g(A h_j + B h_i + C e_ij + b) (D h_j + E e_ij + b)
 ///     h_i     = relu(F m_i + b + G h_i)
 ///     (o, p)  = W relu(W h_i + b) + b
-///     s_i     = rule + (3 m + 0.2 reach) o
+///     s_i     = s0_i + (3 m + 0.2 reach) o
 ///     sigma_i = 0.5 m + (3 m + 0.2 reach) ln(1 + e^p)
 ///     z_i     = W h_i + b
 ///     logit   = MLP([z_i * z_j, |z_i - z_j|, pair features, d / 50, c / 2, Phi(c), v / 20]) + skip c
 // clang-format on
 ///
 /// The second and third line, GraphSAGE's mean aggregation (Hamilton et al. 2017) with gates, are applied
-/// `layers` times and change only receivers; known vehicles keep h. s_i is the displacement along the path,
-/// clamped to the reach, and d the distance of the believed places. v^2 is 1 m^2 plus the variances of both
-/// ends: of the place where each was last seen, and of its displacement, projected on the line between them
-/// (a fiftieth of it acts across the road). c = (50 m - d) / v, clamped to +-6. The logit does not depend on
-/// the order of a pair. A test of the training module compares the results with libtorch. Single precision;
-/// both kernels give the same bits; no allocation once buffers have grown; one object, one thread.
+/// `layers` times and change only receivers; known vehicles keep h. s0_i is the displacement of the twin (of
+/// the route rule, where there is none), s_i the corrected one along the path, clamped to the reach, and d
+/// the distance of the believed places. v^2 is 1 m^2 plus the variances of both ends: of the place where each
+/// was last seen, and of its displacement, projected on the line between them (a fiftieth of it acts across
+/// the road). c = (r - d) / v, clamped to +-6, with the link radius r. The logit does not depend on the order
+/// of a pair. A test of the training module compares the results with libtorch. Single precision; both
+/// kernels give the same bits; no allocation once buffers have grown; one object, one thread.
 class RepairNet {
   public:
     /// Throws core::InputError when the weights are not such a net for `repair_schema()`.

@@ -13,7 +13,7 @@ InputNames names_of(std::string_view kind, std::span<const NetInput> table) {
 }  // namespace
 
 FeatureSchema repair_schema() {
-    return {"repair", 2, node_width};
+    return {"repair", 3, node_width};
 }
 
 std::vector<InputNames> repair_input_names() {

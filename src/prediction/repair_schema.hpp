@@ -41,7 +41,8 @@ inline constexpr std::array node_inputs = {
              "A vehicle was ahead of it in its lane when it was last heard"},
     NetInput{"leader_known", "flag", 1.0F, unbounded, "That vehicle was heard just now"},
     NetInput{"leader_distance", "m", 50.0F, 6.0F, "Distance of the leader from where it was last seen"},
-    NetInput{"leader_gap", "m", 50.0F, 4.0F, "Gap to the leader's rear after the displacement"},
+    NetInput{"leader_gap", "m", 50.0F, 4.0F,
+             "Gap to the leader's rear after the displacement that is corrected"},
     NetInput{"leader_speed", "m/s", 15.0F, unbounded, "Speed of the leader"},
     NetInput{"follower", "flag", 1.0F, unbounded, "It was ahead of a vehicle when that one was last heard"},
     NetInput{"follower_known", "flag", 1.0F, unbounded, "The follower was heard just now"},
@@ -61,6 +62,23 @@ inline constexpr std::array node_inputs = {
     NetInput{"lane_speed", "m/s", 15.0F, unbounded, "Mean speed of the known vehicles there"},
     NetInput{"inside_junction", "flag", 1.0F, unbounded, "Its last reported lane is inside a junction"},
     NetInput{"fresh", "flag", 1.0F, unbounded, "Its report is of the newest round"},
+    NetInput{"twin", "flag", 1.0F, unbounded, "It drives on as a car-following twin"},
+    NetInput{"twin_displacement", "m", 100.0F, 4.0F, "Displacement of its twin along its route"},
+    NetInput{"twin_speed", "m/s", 15.0F, 4.0F, "Speed of its twin"},
+    NetInput{"twin_limit", "m/s", 15.0F, 4.0F, "Speed limit where its twin is"},
+    NetInput{"twin_waits", "flag", 1.0F, unbounded, "Its twin waits for room in a lane that leads on"},
+    NetInput{"twin_at_end", "flag", 1.0F, unbounded, "Its twin has come to the end of its route"},
+    NetInput{"twin_line", "flag", 1.0F, unbounded, "A stop line with a signal is ahead of its twin"},
+    NetInput{"twin_line_distance", "m", 100.0F, 4.0F, "Distance of that line from its twin"},
+    NetInput{"twin_line_green", "flag", 1.0F, unbounded, "Its signal is green"},
+    NetInput{"twin_leader", "flag", 1.0F, unbounded, "A vehicle is ahead of its twin"},
+    NetInput{"twin_leader_age", "s", 10.0F, 6.0F, "Age of that vehicle's newest report"},
+    NetInput{"twin_leader_gap", "m", 50.0F, 4.0F, "Gap of its twin to that vehicle's rear"},
+    NetInput{"twin_leader_speed", "m/s", 15.0F, 4.0F, "Speed of that vehicle"},
+    NetInput{"twin_follower", "flag", 1.0F, unbounded, "A vehicle is behind its twin in the same lane"},
+    NetInput{"twin_follower_age", "s", 10.0F, 6.0F, "Age of that vehicle's newest report"},
+    NetInput{"twin_follower_gap", "m", 50.0F, 4.0F, "Gap of that vehicle to the twin's rear"},
+    NetInput{"twin_follower_speed", "m/s", 15.0F, 4.0F, "Speed of that vehicle"},
 };
 
 /// Of an edge that carries a message from a source to a receiver. Directions are those of the receiver's way.
@@ -83,9 +101,14 @@ inline constexpr std::array edge_inputs = {
     NetInput{"same_lane", "flag", 1.0F, unbounded, "Both were last seen in one lane"},
     NetInput{"lane_lead", "m", 50.0F, 3.0F, "How far the source was ahead in that lane"},
     NetInput{"emergency", "flag", 1.0F, unbounded, "The source is an emergency vehicle"},
+    NetInput{"twin_leads", "flag", 1.0F, unbounded, "The source is ahead of the receiver's twin"},
+    NetInput{"twin_follows", "flag", 1.0F, unbounded, "It is behind the receiver's twin"},
+    NetInput{"on_way", "flag", 1.0F, unbounded, "It is on the lanes of the receiver's way"},
+    NetInput{"way_lead", "m", 50.0F, 3.0F, "How far it is ahead of the receiver on these lanes"},
 };
 
-/// Of a pair whose link is to be judged.
+/// Of a pair whose link is to be judged. The first end is the one that was not heard; of two such, the one
+/// with the older report.
 inline constexpr std::array pair_inputs = {
     NetInput{"last_seen", "m", 50.0F, 4.0F, "Distance of the last reported places"},
     NetInput{"dead_reckoned", "m", 50.0F, 4.0F, "Distance of the dead-reckoned places"},
@@ -99,6 +122,15 @@ inline constexpr std::array pair_inputs = {
     NetInput{"follows", "flag", 1.0F, unbounded, "One is the other's leader or follower"},
     NetInput{"any_detection", "flag", 1.0F, unbounded, "Some pair of the scene is detected"},
     NetInput{"detected_share", "1", 1.0F, unbounded, "Detected pairs among detected and candidate ones"},
+    NetInput{"by_twin", "m", 50.0F, 8.0F, "Distance of the believed places: of twins where there are twins"},
+    NetInput{"inside", "m", 50.0F, 4.0F, "Link radius less that distance"},
+    NetInput{"twin_logit", "1", 4.0F, 3.0F, "Logit of the link by the predictor car_following"},
+    NetInput{"twin_same_lane", "flag", 1.0F, unbounded, "Both are believed to be in one lane"},
+    NetInput{"radius", "m", 50.0F, 20.0F, "Link radius"},
+    NetInput{"nearest", "m", 50.0F, 4.0F, "Least distance of the first end's way to the second's place"},
+    NetInput{"share_within", "1", 1.0F, unbounded, "Share of that way within the link radius of the place"},
+    NetInput{"ahead", "m", 50.0F, 4.0F, "The second's place ahead of the first's"},
+    NetInput{"left", "m", 50.0F, 4.0F, "The second's place to the left of the first's"},
 };
 
 inline constexpr std::size_t node_width = node_inputs.size();

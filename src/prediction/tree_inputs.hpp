@@ -13,15 +13,6 @@ namespace clearway::prediction {
 // What gradient boosting is given of a candidate pair. It is made from what the improved net is given and
 // nothing else, so that the two differ in the model alone.
 
-/// Of both ends together. The first end is the one that was not heard; of two such, the one with the older
-/// report.
-inline constexpr std::array meeting_inputs = {
-    NetInput{"nearest", "m", 50.0F, 4.0F, "Least distance of the first end's way to the second's place"},
-    NetInput{"share_within", "1", 1.0F, unbounded, "Share of that way within the link radius of the place"},
-    NetInput{"ahead", "m", 50.0F, 4.0F, "The second's place ahead of the first's"},
-    NetInput{"left", "m", 50.0F, 4.0F, "The second's place to the left of the first's"},
-};
-
 /// Of an end: what its edges tell. Vehicles that were heard have no edges, and 0.
 inline constexpr std::array gathered_inputs = {
     NetInput{"sources", "1", 1.0F, unbounded, "Vehicles near it, its leader, its follower, who detects it"},
@@ -33,9 +24,8 @@ inline constexpr std::array gathered_inputs = {
     NetInput{"range_error", "m", 50.0F, 3.0F, "Mean of the distances less the ranges that were measured"},
 };
 
-/// In this order: the pair, the meeting, then node and gathered inputs of the first end and of the second.
-inline constexpr std::size_t tree_width =
-    pair_width + meeting_inputs.size() + 2 * (node_width + gathered_inputs.size());
+/// In this order: the pair, then node and gathered inputs of its first end and of its second.
+inline constexpr std::size_t tree_width = pair_width + 2 * (node_width + gathered_inputs.size());
 
 /// Name and version of all of this.
 FeatureSchema tree_schema();

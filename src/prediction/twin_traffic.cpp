@@ -67,18 +67,20 @@ void TwinTraffic::follow(const traffic::Observation& observation, const Tracks& 
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         take_report(observation, tracks, row);
         Twin& twin = twins_[twin_of_row_[row]];
+        twin.row = row;
         if (!twin.on_route) continue;
-        if (twin.time_s > tracks.time_s - same_time_s) continue;
-        lay_path(observation, twin);
+        const bool is_now = twin.time_s > tracks.time_s - same_time_s;
+        if (!is_now || tracks.known[row] == 0) lay_path(observation, twin);
+        if (is_now) continue;
         lagging_.push_back(twin_of_row_[row]);
         from_s = std::min(from_s, twin.time_s);
     }
-    if (lagging_.empty()) return;
     const auto steps = static_cast<int>(std::ceil((tracks.time_s - from_s) / config_.step_s - same_time_s));
     for (int step = 0; step < steps; ++step) {
         const double left_s = config_.step_s * (steps - step - 1);
         drive(observation, std::max(from_s, tracks.time_s - left_s - config_.step_s), tracks.time_s - left_s);
     }
+    list_places(tracks.time_s);
 }
 
 /// Both lists are ordered by key. Twins of vehicles that are gone are given to new ones.
@@ -136,6 +138,7 @@ void TwinTraffic::take_report(const traffic::Observation& observation, const Tra
     twin.on_route = lies_on_route(network_, observation, info, seen);
     twin.at_end = false;
     twin.path.clear();
+    twin.before_path_m = 0.0F;
     twin.travelled_m = 0.0F;
     twin.speed_mps = seen.speed_mps;
     twin.lane = seen.lane;
@@ -188,6 +191,7 @@ void TwinTraffic::lay_path(const traffic::Observation& observation, Twin& twin) 
         step.exit_lane = at + 1 < walked_.size() ? exit_lane(step.road, walked_[at + 1]) : step.road.lane;
     }
     twin.at = 0;
+    twin.before_path_m += twin.travelled_m;
     twin.travelled_m = 0.0F;
 }
 
@@ -289,14 +293,21 @@ void TwinTraffic::look_ahead(const traffic::Observation& observation, const Twin
     }
 }
 
-/// The first vehicle of `lane` behind the place `after` in the order of places. `start_m`: of the lane.
-// NOLINTNEXTLINE(readability-function-size): who, where, from where on, and what comes of it
-bool TwinTraffic::heed_vehicle(const Twin& twin, core::LaneIndex lane, const LanePlace& after, float start_m,
-                               Ahead& ahead) const {
+/// The first vehicle of `lane` behind the place `after` in the order of places.
+const TwinTraffic::LanePlace* TwinTraffic::next_on_lane(const Twin& twin, core::LaneIndex lane,
+                                                        const LanePlace& after) const {
     auto next = std::ranges::upper_bound(places_, after);
     while (next != places_.end() && next->key == twin.key)
         ++next;
-    if (next == places_.end() || next->lane != lane) return false;
+    return next == places_.end() || next->lane != lane ? nullptr : &*next;
+}
+
+/// `start_m`: of the lane.
+// NOLINTNEXTLINE(readability-function-size): who, where, from where on, and what comes of it
+bool TwinTraffic::heed_vehicle(const Twin& twin, core::LaneIndex lane, const LanePlace& after, float start_m,
+                               Ahead& ahead) const {
+    const LanePlace* const next = next_on_lane(twin, lane, after);
+    if (next == nullptr) return false;
     const Twin& leader = twins_[next->twin];
     const float gap_m = start_m + next->position_m - leader.length_m - twin.travelled_m;
     ahead.interaction_mps2 =
@@ -305,14 +316,19 @@ bool TwinTraffic::heed_vehicle(const Twin& twin, core::LaneIndex lane, const Lan
     return true;
 }
 
+/// What the signal at the end of a step shows; null where there is none.
+const char* TwinTraffic::letter_of(const traffic::Observation& observation, const roads::RouteStep& step) {
+    if (!step.signal.exists() || step.signal.value >= observation.signals.state.size()) return nullptr;
+    const std::string& letters = observation.signals.state[step.signal.value];
+    return step.signal_link < letters.size() ? &letters[step.signal_link] : nullptr;
+}
+
 /// Whether the twin stops at the end of a step.
 bool TwinTraffic::heed_signal(const traffic::Observation& observation, const Twin& twin,
                               const roads::RouteStep& step, Ahead& ahead) const {
-    if (!step.signal.exists() || step.signal.value >= observation.signals.state.size()) return false;
-    const std::string& letters = observation.signals.state[step.signal.value];
-    if (step.signal_link >= letters.size()) return false;
-    const char letter = letters[step.signal_link];
-    if (traffic::is_green(letter)) return false;
+    const char* const shown = letter_of(observation, step);
+    if (shown == nullptr || traffic::is_green(*shown)) return false;
+    const char letter = *shown;
     const float way_m = step.end_m - twin.travelled_m;
     const bool yellow = letter == 'y' || letter == 'Y';
     const float most_mps2 = yellow ? twin.driver.deceleration_mps2 : hardest_braking_mps2;
@@ -371,6 +387,59 @@ traffic::MotionState TwinTraffic::state(std::uint32_t row) const {
         .lane = twin.lane,
         .lane_position_m = twin.lane_position_m,
         .route_edge = twin.route_edge};
+}
+
+float TwinTraffic::driven_m(std::uint32_t row) const {
+    const Twin& twin = twin_of(row);
+    return twin.before_path_m + twin.travelled_m;
+}
+
+bool TwinTraffic::waits(std::uint32_t row) const {
+    const Twin& twin = twin_of(row);
+    return !twin.path.empty() && twin.lane != twin.path[twin.at].exit_lane;
+}
+
+TwinTraffic::Neighbour TwinTraffic::leader_of(const Twin& twin) const {
+    const float horizon_m = twin.travelled_m + least_view_m + view_s * twin.speed_mps;
+    for (std::size_t at = twin.at; at < twin.path.size(); ++at) {
+        const Step& step = twin.path[at];
+        if (step.road.start_m > horizon_m) break;
+        const core::LaneIndex lane = at == twin.at ? twin.lane : step.exit_lane;
+        const LanePlace after = at == twin.at ? LanePlace{lane, twin.lane_position_m, twin.key, 0}
+                                              : LanePlace{lane, std::numeric_limits<float>::lowest(), {}, 0};
+        const LanePlace* const next = next_on_lane(twin, lane, after);
+        if (next == nullptr) continue;
+        const Twin& leader = twins_[next->twin];
+        const float gap_m = step.road.start_m + next->position_m - leader.length_m - twin.travelled_m;
+        return {true, leader.row, gap_m, leader.speed_mps};
+    }
+    return {};
+}
+
+TwinTraffic::Neighbour TwinTraffic::follower_of(const Twin& twin) const {
+    auto place = std::ranges::lower_bound(places_, LanePlace{twin.lane, twin.lane_position_m, twin.key, 0});
+    while (place != places_.begin()) {
+        --place;
+        if (place->lane != twin.lane) return {};
+        if (place->key == twin.key) continue;
+        const Twin& follower = twins_[place->twin];
+        return {true, follower.row, twin.lane_position_m - twin.length_m - place->position_m,
+                follower.speed_mps};
+    }
+    return {};
+}
+
+TwinTraffic::Surroundings TwinTraffic::surroundings(const traffic::Observation& observation,
+                                                    std::uint32_t row) const {
+    const Twin& twin = twin_of(row);
+    Surroundings around{leader_of(twin), follower_of(twin), {}};
+    for (std::size_t at = twin.at; at < twin.path.size(); ++at) {
+        const char* const letter = letter_of(observation, twin.path[at].road);
+        if (letter == nullptr) continue;
+        around.line = {std::max(0.0F, twin.path[at].road.end_m - twin.travelled_m), *letter};
+        break;
+    }
+    return around;
 }
 
 float TwinTraffic::seen_sigma_m(std::uint32_t row) const {

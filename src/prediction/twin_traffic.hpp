@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "prediction/car_following.hpp"
+#include "prediction/car_following_config.hpp"
 #include "prediction/motion_filter.hpp"
 #include "prediction/tracks.hpp"
 #include "roads/network.hpp"
@@ -44,7 +44,7 @@ struct IdmDriver {
 class TwinTraffic {
   public:
     /// `network` outlives the twins.
-    TwinTraffic(const roads::Network& network, const CarFollowingConfig& config);
+    explicit TwinTraffic(const roads::Network& network, const CarFollowingConfig& config = {});
 
     /// Takes in an observation and its tracks, and drives all twins to its time. Call it with every
     /// observation, in order; one that is older than the last starts anew.
@@ -58,6 +58,35 @@ class TwinTraffic {
     float seen_sigma_m(std::uint32_t row) const;
     /// The twin has come to the end of its route.
     bool at_end(std::uint32_t row) const { return twin_of(row).at_end; }
+    /// Of a twin: where it is on its lane now, and how fast.
+    core::LaneIndex lane(std::uint32_t row) const { return twin_of(row).lane; }
+    float lane_position_m(std::uint32_t row) const { return twin_of(row).lane_position_m; }
+    float speed_mps(std::uint32_t row) const { return twin_of(row).speed_mps; }
+    /// Of a twin: driven along its route since its report, m.
+    float driven_m(std::uint32_t row) const;
+    /// Of a twin: it waits for room in a lane that leads on.
+    bool waits(std::uint32_t row) const;
+
+    /// A vehicle before or behind a twin, fresh or a twin itself.
+    struct Neighbour {
+        bool exists = false;
+        std::uint32_t row = 0;
+        float gap_m = 0.0F;  ///< From bumper to bumper; negative where they overlap.
+        float speed_mps = 0.0F;
+    };
+    /// A stop line with a signal before a twin.
+    struct Line {
+        float distance_m = -1.0F;  ///< Negative: there is none.
+        char state = 0;            ///< SUMO's letter.
+    };
+    struct Surroundings {
+        Neighbour leader;    ///< On its way, as far as it looks.
+        Neighbour follower;  ///< In its lane.
+        Line line;           ///< Within its path.
+    };
+    /// Of a twin, at the time of `observation`, which is the one followed last. O(log vehicles + lanes
+    /// ahead).
+    Surroundings surroundings(const traffic::Observation& observation, std::uint32_t row) const;
 
   private:
     /// One lane of a twin's way.
@@ -68,6 +97,7 @@ class TwinTraffic {
     };
     struct Twin {
         core::VehicleKey key;
+        std::uint32_t row = 0;
         double time_s = 0.0;    ///< Of its place.
         double report_s = 0.0;  ///< Of the report that it started from.
         traffic::MotionState seen;
@@ -84,6 +114,7 @@ class TwinTraffic {
         std::uint32_t at = 0;  ///< The step that it is on.
         bool ends = false;     ///< The route ends with the path.
         float travelled_m = 0.0F;
+        float before_path_m = 0.0F;  ///< Driven since its report before the path begins.
         float speed_mps = 0.0F;
         float next_speed_mps = 0.0F;
         core::LaneIndex lane;
@@ -117,6 +148,10 @@ class TwinTraffic {
     void look_ahead(const traffic::Observation& observation, const Twin& twin, Ahead& ahead) const;
     bool heed_vehicle(const Twin& twin, core::LaneIndex lane, const LanePlace& after, float start_m,
                       Ahead& ahead) const;
+    const LanePlace* next_on_lane(const Twin& twin, core::LaneIndex lane, const LanePlace& after) const;
+    Neighbour leader_of(const Twin& twin) const;
+    Neighbour follower_of(const Twin& twin) const;
+    static const char* letter_of(const traffic::Observation& observation, const roads::RouteStep& step);
     bool heed_signal(const traffic::Observation& observation, const Twin& twin, const roads::RouteStep& step,
                      Ahead& ahead) const;
     void change_lane(Twin& twin) const;

@@ -73,7 +73,8 @@ class GraphSampleWriter {
 /// written, or has an index, label or number out of range.
 GraphSampleFile read_graph_samples(const std::filesystem::path& file);
 
-/// The sample files directly in `folder`, sorted by name. Throws core::InputError when there is none.
+/// The sample files in `folder` and the folders in it, sorted by name. Throws core::InputError when there is
+/// none.
 std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::path& folder);
 
 }  // namespace clearway::samples

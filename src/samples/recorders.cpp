@@ -63,17 +63,14 @@ void GraphSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
 }
 
 /// For graphsage: its inputs, the true displacements, and the route rule's probabilities of the same pairs.
-/// Input builder and route rule keep state, so they see every report. The rule is the one of the inputs,
-/// under which vehicles that were seen standing stay: training draws pairs by it, and shipped nets shall be
-/// trained alike again.
+/// Input builder and route rule keep state, so they see every report.
 class RepairSampleRecorder final : public SampleRecorder {
   public:
     explicit RepairSampleRecorder(Setup setup)
-        : SampleRecorder(std::move(setup)),
+        : SampleRecorder(std::move(setup), prediction::CandidateReach::twins),
           inputs_(network(), rules()),
           rule_(prediction::make_predictor("route_rule",
-                                           {.network = network(), .rules = rules(), .model_file = ""},
-                                           {{"start_acceleration_mps2", "0"}})),
+                                           {.network = network(), .rules = rules(), .model_file = ""})),
           writer_(with_features(origin(), prediction::repair_schema())) {}
     std::string write(const std::filesystem::path& file) const override {
         writer_.write(file);
@@ -154,11 +151,12 @@ void PairSampleRecorder::record(const truth::Snapshot& /*snapshot*/) {
 
 }  // namespace
 
-SampleRecorder::SampleRecorder(Setup setup)
+SampleRecorder::SampleRecorder(Setup setup, std::optional<prediction::CandidateReach> twins)
     : network_(setup.network),
       origin_(std::move(setup.origin)),
       sensor_(std::move(setup.sensor)),
-      scenes_(setup.network, setup.rules),
+      scenes_(twins ? prediction::SceneBuilder(setup.network, setup.rules, *twins)
+                    : prediction::SceneBuilder(setup.network, setup.rules)),
       truth_(setup.rules),
       interval_s_(setup.interval.value) {}
 
@@ -207,7 +205,7 @@ PairDatasetRecorder::PairDatasetRecorder(const roads::Network& network, const gr
                                          const prediction::FeatureSchema& features,
                                          experiment::ListedPairs pairs)
     : network_(network), feature_count_(features.width), truth_(rules), listed_(rules) {
-    if (pairs == experiment::ListedPairs::candidates) listed_.radius_m = prediction::candidate_radius_m;
+    if (pairs == experiment::ListedPairs::candidates) listed_.radius_m = prediction::candidate_reach_m(rules);
 }
 
 void PairDatasetRecorder::on_step(const truth::Snapshot& snapshot, const traffic::Roster& /*roster*/) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ class SampleRecorder : public trace::StepListener {
     virtual std::string write(const std::filesystem::path& file) const = 0;
 
   protected:
-    explicit SampleRecorder(Setup setup);
+    /// With `twins`, scenes have car-following twins, and candidates reach as it says.
+    explicit SampleRecorder(Setup setup, std::optional<prediction::CandidateReach> twins = {});
     const roads::Network& network() const { return network_; }
     const graph::LinkRules& rules() const { return truth_.rules(); }
     const SampleOrigin& origin() const { return origin_; }

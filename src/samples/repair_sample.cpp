@@ -20,7 +20,7 @@ using detail::ByteReader;
 using detail::cure_remake;
 using prediction::common_width;
 
-constexpr std::string_view first_line = "clearway repair samples 1\n";
+constexpr std::string_view first_line = "clearway repair samples 2\n";
 constexpr std::size_t receiver_width = prediction::node_width - prediction::common_width;
 
 static_assert(sizeof(prediction::RowPair) == 8);
@@ -67,6 +67,8 @@ std::string fault(const RepairSample& sample) {
     if (std::ranges::any_of(sample.linked, [](std::uint8_t label) { return label > 1; })) {
         return "a label other than 0 and 1";
     }
+    if (!std::isfinite(inputs.radius_m) || inputs.radius_m <= 0.0F)
+        return "a link radius that is not positive";
     if (!all_finite(inputs.nodes) || !all_finite(inputs.edges) || !all_finite(inputs.pair_features) ||
         !all_finite(sample.rule) || !all_finite(sample.true_displacement_m)) {
         return "a number that is not finite";
@@ -78,6 +80,7 @@ RepairSample read_sample(ByteReader& reader) {
     RepairSample sample;
     prediction::RepairInputs& inputs = sample.inputs;
     sample.time_s = reader.next<double>();
+    inputs.radius_m = reader.next<float>();
     inputs.rows = reader.next_count(sizeof(float));
     const auto receivers = reader.next_count(sizeof(std::uint32_t));
     const auto edges = reader.next_count(sizeof(std::uint32_t));
@@ -124,6 +127,7 @@ void RepairSampleWriter::add(const RepairSample& sample) {
     }
     const prediction::RepairInputs& inputs = sample.inputs;
     append(bytes_, sample.time_s);
+    append(bytes_, inputs.radius_m);
     append(bytes_, inputs.rows);
     append(bytes_, static_cast<std::uint32_t>(inputs.receivers.size()));
     append(bytes_, static_cast<std::uint32_t>(inputs.source.size()));

@@ -26,7 +26,7 @@ struct RepairSampleFile {
 };
 
 /// Collects the samples of one run with one failure, as GraphSampleWriter does. The file has the same frame
-/// and the first line `clearway repair samples 1`. Receiver features of vehicles that are not receivers are
+/// and the first line `clearway repair samples 2`. Receiver features of vehicles that are not receivers are
 /// zero by construction and left out.
 class RepairSampleWriter {
   public:

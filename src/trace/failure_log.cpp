@@ -10,7 +10,7 @@ namespace clearway::trace {
 
 FailureLogger::FailureLogger(const RecordingInfo& info, const std::string& failure,
                              const roads::Network& network)
-    : true_links_(graph::LinkRules{.radius_m = info.settings.link_radius_m}) {
+    : true_links_(loop_of(info).rules()) {
     const core::KeyedRandom random(core::StudySeed{info.provenance.study_seed},
                                    core::Replication{info.key.replication});
     sensor_ = sensing::make_sensor(sensing::failure_from(failure), random,

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
+#include "experiment/settings.hpp"
 #include "trace/detail/seal.hpp"
 #include "trace/detail/step_tables.hpp"
 
@@ -248,6 +249,13 @@ const std::string& RecordingReader::content_hash() const {
 std::filesystem::path recording_file(const std::filesystem::path& run_folder, const experiment::RunKey& key) {
     return run_folder / "recordings" / key.scenario / key.condition /
            fmt::format("{:05}.h5", key.replication);
+}
+
+experiment::LoopConfig loop_of(const RecordingInfo& info) {
+    experiment::LoopConfig loop = experiment::loop_config(info.condition);
+    loop.policy_period_s = info.settings.policy_period_s;
+    loop.link_radius_m = info.settings.link_radius_m;
+    return loop;
 }
 
 }  // namespace clearway::trace

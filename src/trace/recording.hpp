@@ -10,6 +10,7 @@
 
 #include "core/fields.hpp"
 #include "experiment/condition.hpp"
+#include "experiment/loop_config.hpp"
 #include "experiment/run_key.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/command.hpp"
@@ -53,6 +54,9 @@ struct RecordingInfo {
 
     bool operator==(const RecordingInfo&) const = default;
 };
+
+/// The closed loop of the run: what its condition sets, with the recorded period and radius.
+experiment::LoopConfig loop_of(const RecordingInfo& info);
 
 /// The state at the end of a step.
 struct RecordedStep {

@@ -62,8 +62,8 @@ class Replay {
                              .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
                                                          core::Replication{info.key.replication}),
                              .policy_period_s = loop.policy_period_s,
-                             .link_radius_m = loop.link_radius_m}),
-          true_links_(graph::LinkRules{.radius_m = loop.link_radius_m}) {}
+                             .rules = loop.rules()}),
+          true_links_(loop.rules()) {}
 
     void step(const RecordedStep& step) {
         const truth::Snapshot& snapshot = *step.snapshot;
@@ -137,9 +137,7 @@ class Replay {
 
 ReplayResult replay(RecordingReader& recording, const experiment::ConditionSpec& condition,
                     const roads::Network& network) {
-    const RecordingSettings& recorded = recording.info().settings;
-    const experiment::LoopConfig loop = experiment::loop_config(
-        condition, {.policy_period_s = recorded.policy_period_s, .link_radius_m = recorded.link_radius_m});
+    const experiment::LoopConfig loop = experiment::loop_config(condition, loop_of(recording.info()));
     Replay replay(recording.info(), condition, network, loop);
     while (const auto step = recording.next())
         replay.step(*step);

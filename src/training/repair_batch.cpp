@@ -63,6 +63,7 @@ void append_pairs(const samples::RepairSample& sample, const std::vector<std::in
         batch.pair_right.push_back(numbers[inputs.pairs[at].right]);
         const float* const features = &inputs.pair_features[at * prediction::pair_width];
         batch.pair_features.insert(batch.pair_features.end(), features, features + prediction::pair_width);
+        batch.radius_m.push_back(inputs.radius_m);
         batch.label.push_back(sample.linked[at]);
         batch.weight.push_back(weight);
     }

@@ -23,6 +23,7 @@ struct RepairBatch {
     std::vector<float> edges;  ///< edges x edge_width.
     std::vector<std::int64_t> pair_left, pair_right;
     std::vector<float> pair_features;  ///< pairs x pair_width.
+    std::vector<float> radius_m;       ///< Of links, one per pair.
     std::vector<float> label;          ///< 0 or 1, one per pair.
     std::vector<float> weight;         ///< In the loss, one per pair.
 

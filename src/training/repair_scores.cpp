@@ -17,12 +17,14 @@ using samples::RepairSample;
 using samples::RepairSampleFile;
 
 void check_radius(const RepairSampleFile& file, const char* model) {
-    if (file.origin.link_radius_m == prediction::repair_link_radius_m) return;
+    const double radius_m = file.origin.link_radius_m;
+    if (radius_m >= prediction::least_repair_radius_m && radius_m <= prediction::most_repair_radius_m) return;
     throw core::InputError({fmt::format("--data: {}, {}, replication {}", file.origin.scenario,
                                         file.origin.failure, file.origin.replication),
-                            fmt::format("links below {} m", file.origin.link_radius_m),
-                            fmt::format("{} m, for which {} made", prediction::repair_link_radius_m, model),
-                            "Record with link_radius_m = 50"});
+                            fmt::format("links below {} m", radius_m),
+                            fmt::format("{} to {} m, for which {} made", prediction::least_repair_radius_m,
+                                        prediction::most_repair_radius_m, model),
+                            "Record with another --link-radius"});
 }
 
 RepairScores scores_of(const RepairSampleFile& file, const ScoreFile& score) {

@@ -20,8 +20,6 @@ using detail::uniform_parameter;
 using prediction::path_points;
 using torch::Tensor;
 
-constexpr double link_radius_m = prediction::repair_link_radius_m;
-
 std::int64_t size_of(std::size_t size) {
     return static_cast<std::int64_t>(size);
 }
@@ -45,13 +43,14 @@ struct Inputs {
           right(index_tensor(batch.pair_right)),
           pair_features(
               float_tensor(batch.pair_features, {size_of(batch.pair_count()), prediction::pair_width})),
+          radius(float_tensor(batch.radius_m, {size_of(batch.pair_count()), 1})),
           label(float_tensor(batch.label, {size_of(batch.pair_count()), 1})),
           weight(float_tensor(batch.weight, {size_of(batch.pair_count()), 1})) {
         degree = torch::zeros({vehicles}).scatter_add(0, receiver, torch::ones(receiver.sizes()));
     }
     std::int64_t vehicles, receivers;
     Tensor nodes, places, place_sigma, path, displacement, reach, true_displacement;
-    Tensor source, receiver, edges, left, right, pair_features, label, weight;
+    Tensor source, receiver, edges, left, right, pair_features, radius, label, weight;
     Tensor degree;  ///< Messages that each row receives.
 };
 
@@ -226,7 +225,7 @@ struct TorchRepairNet::Parts {
                    rows_of(sigmas, rows).square() * (prediction::side_share + along.square());
         };
         const Tensor spread = (1.0 + variance(inputs.left) + variance(inputs.right)).sqrt();
-        score = ((link_radius_m - distance) / spread).clamp(-6.0, 6.0);
+        score = ((inputs.radius - distance) / spread).clamp(-6.0, 6.0);
         const Tensor probability = 0.5 + 0.5 * at::erf(score * M_SQRT1_2);
         return at::cat(
             {(distance / 50.0).clamp_max(4.0), 0.5 * score, probability, (spread / 20.0).clamp_max(6.0)}, 1);

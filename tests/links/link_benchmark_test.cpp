@@ -62,14 +62,35 @@ TEST_F(LinkBenchmarkFile, eval_v1_is_frozen) {
     }
     EXPECT_TRUE(benchmark.predictors.empty());
     EXPECT_TRUE(benchmark.comparisons.empty());
+    EXPECT_EQ(benchmark.candidates, prediction::CandidateReach::reported) << "there was no other reach";
+    EXPECT_EQ(benchmark.links, experiment::LinkSettings{});
 }
 
-/// It is a draft: sensing options are still to come. It must stay readable, on seeds of its own.
-TEST_F(LinkBenchmarkFile, the_draft_of_eval_v2_can_be_read_and_has_a_study_seed_of_its_own) {
-    const LinkBenchmark benchmark = read_link_benchmark(CLEARWAY_SOURCE_DIR "/studies/links/eval_v2.toml");
+TEST_F(LinkBenchmarkFile, states_candidates_and_link_rules) {
+    const LinkBenchmark benchmark =
+        read("exits = ",
+             "candidates = \"twins\"\nlinks = { link_radius_m = 80.0, automated_links = 1 }\nexits = ");
+    EXPECT_EQ(benchmark.candidates, prediction::CandidateReach::twins);
+    EXPECT_EQ(benchmark.links.link_radius_m, 80.0);
+    EXPECT_TRUE(
+        benchmark.links.rules().allows(traffic::VehicleClass::automated, traffic::VehicleClass::automated));
+    EXPECT_THAT(refusal("exits = ", "candidates = \"twin\"\nexits = "), HasSubstr("reported"));
+    EXPECT_THAT(refusal("exits = ", "links = { link_radius_m = 0.0, automated_links = 0 }\nexits = "),
+                HasSubstr("link_radius_m"));
+}
+
+/// A change makes figures that were measured on it void: then it is another benchmark.
+TEST_F(LinkBenchmarkFile, eval_v2_is_frozen_and_has_a_study_seed_of_its_own) {
+    const std::filesystem::path file = CLEARWAY_SOURCE_DIR "/studies/links/eval_v2.toml";
+    EXPECT_EQ(core::content_hash(core::read_file(file)), "0fb8f9968ed7f0cac3f68183b29ac1cb");
+    const LinkBenchmark benchmark = read_link_benchmark(file);
+    EXPECT_EQ(benchmark.candidates, prediction::CandidateReach::twins);
+    EXPECT_EQ(benchmark.quick.test, 1U);
+    EXPECT_THAT(benchmark.quick.failures, testing::ElementsAre("B10", "B20", "mixed"));
+    EXPECT_EQ(benchmark.quick.exits, std::vector{Exits::known});
     EXPECT_EQ(benchmark.name, "eval_v2");
     EXPECT_EQ(benchmark.test, (SeedRange{0, 10}));
-    EXPECT_EQ(benchmark.validation, (SeedRange{100, 5}));
+    EXPECT_EQ(benchmark.validation, (SeedRange{100, 3}));
     EXPECT_EQ(benchmark.study_seed, 8201U);
     EXPECT_NE(benchmark.study_seed, read_link_benchmark(eval_v1).study_seed);
     std::set<std::string> scenarios;

@@ -78,6 +78,7 @@ TEST(BoostedTrees, RefusesOtherModels) {
 RepairInputs three_vehicles() {
     RepairInputs inputs;
     inputs.rows = 3;
+    inputs.radius_m = 50.0F;
     inputs.nodes.assign(3 * node_width, 0.0F);
     inputs.x_m = {0.0F, 30.0F, 100.0F};
     inputs.y_m = {0.0F, 4.0F, 0.0F};
@@ -134,18 +135,11 @@ TEST(TreeInputs, DoNotDependOnTheOrderOfAPair) {
         EXPECT_EQ(row_of(inputs, at), row_of(before, at)) << at;
 }
 
-TEST(TreeInputs, SayWhereTheTwoMeet) {
+TEST(TreeInputs, PutTheEndWithTheOlderReportFirst) {
     const RepairInputs inputs = three_vehicles();
-    // Vehicle 0 is believed at 50 m and may be anywhere from 0 to 150 m; vehicle 2 stands at 100 m.
-    EXPECT_FLOAT_EQ(number(inputs, 1, "nearest"), 0.0F);
-    EXPECT_FLOAT_EQ(number(inputs, 1, "share_within"), 9.0F / 16.0F);
-    EXPECT_FLOAT_EQ(number(inputs, 1, "ahead"), 1.0F);
-    EXPECT_FLOAT_EQ(number(inputs, 1, "left"), 0.0F);
-    // Of two that were not heard, the older report comes first: vehicle 1 is 20 m behind 0's place, 4 m left.
-    EXPECT_FLOAT_EQ(number(inputs, 0, "ahead"), -0.4F);
-    EXPECT_FLOAT_EQ(number(inputs, 0, "left"), 0.08F);
     EXPECT_FLOAT_EQ(number(inputs, 0, "first_age"), 0.3F);
     EXPECT_FLOAT_EQ(number(inputs, 0, "second_age"), 0.1F);
+    EXPECT_FLOAT_EQ(number(inputs, 1, "second_known"), 1.0F);
 }
 
 TEST(TreeInputs, GatherWhatEdgesTell) {

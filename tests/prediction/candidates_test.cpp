@@ -85,6 +85,49 @@ TEST(SceneBuilder, TakesPairsThatAreNearByEitherPosition) {
     EXPECT_NEAR(found.candidates.dead_reckoned_m[0], 220.0F, 1e-3F);
 }
 
+TEST(SceneBuilder, ReachesByTwinsWhereItIsAsked) {
+    // a1 was seen standing; its twin has driven on to e1, 300 m ahead, and waits behind it.
+    support::Scene scene(R"(
+        10 m per cell, limit 20 m/s, speed 0 m/s
+        .a.............................e..............
+    )");
+    const traffic::Observation observation = after_outage(scene, 40.0, {"a1"});
+    EXPECT_THAT(built(scene, observation).candidates.rows, IsEmpty());
+    SceneBuilder builder(scene.network(), {}, CandidateReach::twins);
+    Scene found;
+    builder.build(observation, found);
+    EXPECT_THAT(names(scene, found, found.candidates), ElementsAre("a1-e1"));
+    ASSERT_NE(found.twins, nullptr);
+    const auto a1 = static_cast<std::uint32_t>(scene.row("a1"));
+    const TwinTraffic::Surroundings around = found.twins->surroundings(observation, a1);
+    ASSERT_TRUE(around.leader.exists);
+    EXPECT_EQ(found.tracks.key[around.leader.row], scene.key("e1"));
+    EXPECT_NEAR(around.leader.gap_m, 2.5F, 0.7F);
+    EXPECT_NEAR(found.twins->driven_m(a1), 300.0F - 5.0F - around.leader.gap_m, 0.1F);
+
+    SceneBuilder only_drives(scene.network(), {}, CandidateReach::reported);
+    only_drives.build(observation, found);
+    EXPECT_THAT(found.candidates.rows, IsEmpty());
+    EXPECT_NE(found.twins, nullptr);
+}
+
+TEST(SceneBuilder, ReachesFurtherForWiderLinks) {
+    support::Scene scene(row_of_four);
+    const traffic::Observation observation = after_outage(scene, 3.0, {"h1"});
+    SceneBuilder builder(scene.network(), {.radius_m = 20.0});
+    Scene found;
+    builder.build(observation, found);
+    EXPECT_THAT(names(scene, found, found.candidates), UnorderedElementsAre("a1-h1", "e1-h1"));
+    support::Scene long_road(R"(
+        10 m per cell, limit 20 m/s, speed 0 m/s
+        h.................................a.......................
+    )");
+    const traffic::Observation far = after_outage(long_road, 3.0, {"h1"});
+    SceneBuilder wide(long_road.network(), {.radius_m = 300.0});
+    wide.build(far, found);
+    EXPECT_THAT(names(long_road, found, found.candidates), ElementsAre("a1-h1"));
+}
+
 TEST(SceneBuilder, SetsDetectedPairsApartFromCandidates) {
     support::Scene scene(row_of_four);
     traffic::Observation observation = after_outage(scene, 3.0, {"a1"});

@@ -294,7 +294,12 @@ TEST(IdmDriver, HasItsEquilibriumWhereThePaperSays) {
     EXPECT_FLOAT_EQ(driver.interaction(0.0F, 2.0F, -5.0F), 1.4F) << "who parts is not drawn along";
 }
 
-TEST(TwinLinkProbability, IsOneHalfAtTheRadiusAndLessSureWithAge) {
+float twin_link_probability(float room_m, float sensor_spread_m, float spread_m,
+                            const CarFollowingConfig& config) {
+    return probability_from_logit(twin_link_logit(room_m, sensor_spread_m, spread_m, config));
+}
+
+TEST(TwinLinkLogit, IsEvenAtTheRadiusAndLessSureWithAge) {
     const CarFollowingConfig config;
     const auto probability = [&](float room_m, float one_s, float other_s) {
         return twin_link_probability(room_m, 0.0F, twin_spread_m(one_s, other_s, config), config);
@@ -308,7 +313,7 @@ TEST(TwinLinkProbability, IsOneHalfAtTheRadiusAndLessSureWithAge) {
     EXPECT_EQ(probability(-1.0F, 0.0F, 0.0F), 0.0F);
 }
 
-TEST(TwinLinkProbability, AddsTheDoubtsOfSensors) {
+TEST(TwinLinkLogit, AddsTheDoubtsOfSensors) {
     const CarFollowingConfig config;
     EXPECT_NEAR(twin_link_probability(4.0F, 2.0F, 0.0F, config), 1.0 / (1.0 + std::exp(-2.0)), 1e-5);
     const float spread_m = twin_spread_m(10.0F, 0.0F, config);

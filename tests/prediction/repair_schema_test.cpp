@@ -33,17 +33,19 @@ TEST(NetInputRow, writes_each_quantity_to_the_place_of_its_name) {
 }
 
 /// Weights that are shipped know inputs by these places; another number or order is another version.
-TEST(RepairSchema, version_2_has_its_inputs_at_their_places) {
-    EXPECT_EQ(repair_schema(), (FeatureSchema{"repair", 2, 45}));
-    EXPECT_EQ(edge_width, 18u);
-    EXPECT_EQ(pair_width, 12u);
+TEST(RepairSchema, version_3_has_its_inputs_at_their_places) {
+    EXPECT_EQ(repair_schema(), (FeatureSchema{"repair", 3, 62}));
+    EXPECT_EQ(edge_width, 22u);
+    EXPECT_EQ(pair_width, 21u);
     EXPECT_EQ(common_width, 6u);
     EXPECT_EQ(node_input("displacement"), 10u);
     EXPECT_EQ(node_input("leader"), 23u);
     EXPECT_EQ(node_input("follower"), 28u);
     EXPECT_EQ(node_input("fresh"), 44u);
+    EXPECT_EQ(node_input("twin_displacement"), 46u);
     EXPECT_EQ(edge_input("detects"), 12u);
     EXPECT_EQ(pair_input("both_missing"), 3u);
+    EXPECT_EQ(pair_input("twin_logit"), 14u);
 }
 
 void expect_each_input_described_once(std::span<const NetInput> table) {
@@ -101,7 +103,7 @@ TEST(RepairSchema, refuses_weights_that_name_other_inputs) {
     EXPECT_THAT(message(), HasSubstr("input 4 of a node is smoothed_speed"));
     std::swap(weights.inputs[0].inputs[3], weights.inputs[0].inputs[4]);
     weights.inputs[0].inputs.pop_back();
-    EXPECT_THAT(message(), HasSubstr("44 inputs of a node"));
+    EXPECT_THAT(message(), HasSubstr("61 inputs of a node"));
 }
 
 }  // namespace

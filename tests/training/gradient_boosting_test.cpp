@@ -104,9 +104,9 @@ TEST(TrainGradientBoosting, SaysWhatTheDataLack) {
     EXPECT_THAT(message_of([&] { train_gradient_boosting(one_class, {}); }),
                 HasSubstr("hold only pairs that are not linked"));
     std::vector<RepairSampleFile> other_radius = runs(4, 4);
-    other_radius[2].origin.link_radius_m = 30.0;
+    other_radius[2].origin.link_radius_m = 20.0;
     EXPECT_THAT(message_of([&] { train_gradient_boosting(other_radius, {}); }),
-                HasSubstr("links below 30 m"));
+                HasSubstr("links below 20 m"));
 }
 
 TEST(TrainGradientBoosting, AnInterruptedTrainingKeepsWhatItHas) {

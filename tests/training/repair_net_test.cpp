@@ -121,7 +121,7 @@ TEST(RepairNet, refuses_other_features_and_sizes) {
     prediction::Weights other = good;
     other.features.version = 99;
     EXPECT_THAT(message_of(other), ::testing::AllOf(::testing::HasSubstr("repair version 99"),
-                                                    ::testing::HasSubstr("repair version 2")));
+                                                    ::testing::HasSubstr("repair version 3")));
     other = good;
     for (prediction::Dimension& dimension : other.dimensions) {
         if (dimension.name == "edge") dimension.value = 3;

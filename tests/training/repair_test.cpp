@@ -163,8 +163,8 @@ TEST(TrainRepair, says_what_the_data_lack) {
     EXPECT_THAT(message_of([&] { train_repair(one_class, {}, {}); }),
                 HasSubstr("hold only pairs that are not linked"));
     std::vector<RepairSampleFile> other_radius = runs(4, 4);
-    other_radius[2].origin.link_radius_m = 30.0;
-    EXPECT_THAT(message_of([&] { train_repair(other_radius, {}, {}); }), HasSubstr("links below 30 m"));
+    other_radius[2].origin.link_radius_m = 20.0;
+    EXPECT_THAT(message_of([&] { train_repair(other_radius, {}, {}); }), HasSubstr("links below 20 m"));
 }
 
 TEST(TrainRepair, ablations_leave_out_what_they_say) {

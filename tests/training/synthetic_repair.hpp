@@ -13,11 +13,12 @@ namespace clearway::training {
 /// is below 0.5 and all of it otherwise, so that there is something to learn that the rule does not know.
 class SyntheticRepair {
   public:
-    explicit SyntheticRepair(std::uint32_t seed) : random_(seed) {}
+    explicit SyntheticRepair(std::uint32_t seed, float radius_m = 50.0F)
+        : random_(seed), radius_m_(radius_m) {}
 
     samples::RepairSampleFile file(std::uint32_t replication, int samples, const char* failure = "B10") {
         samples::RepairSampleFile file;
-        file.origin = {"line", failure, prediction::repair_schema(), 1, replication, 50.0};
+        file.origin = {"line", failure, prediction::repair_schema(), 1, replication, radius_m_};
         for (int second = 0; second < samples; ++second)
             file.samples.push_back(sample(second));
         return file;
@@ -29,6 +30,7 @@ class SyntheticRepair {
         sample.time_s = time_s;
         prediction::RepairInputs& inputs = sample.inputs;
         inputs.rows = rows;
+        inputs.radius_m = radius_m_;
         inputs.nodes.assign(rows * prediction::node_width, 0.0F);
         std::vector<float> true_x_m(rows);
         for (std::uint32_t row = 0; row < rows; ++row) {
@@ -96,13 +98,14 @@ class SyntheticRepair {
                                                              : uniform() - 0.5F);
         }
         const float apart_m = std::abs(true_x_m[pair.left] - true_x_m[pair.right]);
-        sample.linked.push_back(apart_m < 50.0F ? 1 : 0);
-        sample.rule.push_back(1.0F / (1.0F + std::exp((distance_m - 50.0F) / 10.0F)));
+        sample.linked.push_back(apart_m < radius_m_ ? 1 : 0);
+        sample.rule.push_back(1.0F / (1.0F + std::exp((distance_m - radius_m_) / 10.0F)));
     }
 
     float uniform() { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random_); }
 
     std::mt19937 random_;
+    float radius_m_;
 };
 
 /// Runs with two failures in turn.

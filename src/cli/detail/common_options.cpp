@@ -56,4 +56,16 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
         ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
+std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links,
+                                           const char* group) {
+    return {app.add_option("--link-radius", links.link_radius_m, "Vehicles nearer than this are linked, m")
+                ->check(core::NumberRange{1.0, 1000.0})
+                ->option_text(fmt::format("METRES, 1 to 1000 [{}]", links.link_radius_m))
+                ->group(group),
+            app.add_flag_callback(
+                   "--automated-links", [&links] { links.automated_links = 1; },
+                   "Two automated vehicles may be linked, too [no]")
+                ->group(group)};
+}
+
 }  // namespace clearway::cli

@@ -6,6 +6,7 @@
 
 #include <CLI/App.hpp>
 
+#include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
 
@@ -32,5 +33,8 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
+
+/// `--link-radius` and `--automated-links`.
+std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links, const char* group);
 
 }  // namespace clearway::cli

@@ -5,9 +5,7 @@
 
 #include "core/random.hpp"
 #include "experiment/condition.hpp"
-#include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
-#include "graph/proximity.hpp"
 #include "sensing/sensor.hpp"
 
 namespace clearway::loop::detail {
@@ -20,10 +18,6 @@ inline experiment::ConditionSpec plain_traffic(const std::string& name) {
     experiment::ConditionSpec condition;
     condition.name = name;
     return condition;
-}
-
-inline graph::LinkRules link_rules() {
-    return {.radius_m = experiment::LoopConfig{}.link_radius_m};
 }
 
 /// The random draws of a job's failures.

@@ -16,11 +16,13 @@ traffic::BelievedVehicle own_belief(const traffic::ObservedVehicle& own) {
 
 }  // namespace
 
-PairwisePredictor::PairwisePredictor(const PredictorContext& context)
+PairwisePredictor::PairwisePredictor(const PredictorContext& context, Needs needs)
     : network_(context.network),
       rules_(context.rules),
       threshold_(static_cast<float>(context.config.link_threshold)),
-      builder_(context.network, context.rules) {}
+      builder_(needs == Needs::twins || context.config.reach() == CandidateReach::twins
+                   ? SceneBuilder(context.network, context.rules, context.config.reach())
+                   : SceneBuilder(context.network, context.rules)) {}
 
 void PairwisePredictor::predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) {
     builder_.build(observation, scene_);

@@ -30,7 +30,9 @@ void score_by_place(const PairList& candidates, const std::vector<RowBelief>& be
 /// *believed* distance is below the link radius, detected pairs always, candidates from the threshold up.
 class PairwisePredictor : public Predictor {
   public:
-    explicit PairwisePredictor(const PredictorContext& context);
+    /// What a predictor needs in its scenes besides candidates.
+    enum class Needs : std::uint8_t { reports, twins };
+    explicit PairwisePredictor(const PredictorContext& context, Needs needs = Needs::reports);
 
     void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) final;
     CandidateScores scores() const final;

@@ -128,7 +128,7 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
                                               std::string_view what, std::string_view cure) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
         if (entry.path().filename().string().ends_with(ending)) files.push_back(entry.path());
     }
     if (error || files.empty()) {

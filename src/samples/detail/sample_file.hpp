@@ -79,8 +79,8 @@ void read_sample_bytes(const std::filesystem::path& file, std::string_view first
 /// Throws core::InputError when the number of samples differs from what the last line says.
 void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
 
-/// The files directly in `folder` whose names end in `ending`, sorted by name. Throws core::InputError, with
-/// `what` they are and the `cure`, when there is none.
+/// The files in `folder` and the folders in it whose names end in `ending`, sorted by name. Throws
+/// core::InputError, with `what` they are and the `cure`, when there is none.
 std::vector<std::filesystem::path> find_files(const std::filesystem::path& folder, std::string_view ending,
                                               std::string_view what, std::string_view cure);
 
