@@ -63,12 +63,17 @@ class CarFollowing final : public PairwisePredictor {
 
 }  // namespace
 
+float twin_growth(float age_s, const CarFollowingConfig& config) {
+    return std::pow(std::max(0.0F, age_s), static_cast<float>(config.growth_power));
+}
+
+float twin_spread_of(float one_growth, float other_growth, const CarFollowingConfig& config) {
+    return static_cast<float>(config.older_growth_m) * std::max(one_growth, other_growth) +
+           static_cast<float>(config.younger_growth_m) * std::min(one_growth, other_growth);
+}
+
 float twin_spread_m(float one_age_s, float other_age_s, const CarFollowingConfig& config) {
-    const float older_s = std::max(0.0F, std::max(one_age_s, other_age_s));
-    const float younger_s = std::max(0.0F, std::min(one_age_s, other_age_s));
-    const auto power = static_cast<float>(config.growth_power);
-    return static_cast<float>(config.older_growth_m) * std::pow(older_s, power) +
-           static_cast<float>(config.younger_growth_m) * std::pow(younger_s, power);
+    return twin_spread_of(twin_growth(one_age_s, config), twin_growth(other_age_s, config), config);
 }
 
 float twin_link_logit(float room_m, float sensor_spread_m, float twin_spread_m,

@@ -10,6 +10,9 @@ namespace clearway::prediction {
 /// Spread of a pair's link by the ages of both reports, m:
 /// older_growth_m (age of the older / 1 s)^growth_power + younger_growth_m (of the younger)^growth_power.
 float twin_spread_m(float one_age_s, float other_age_s, const CarFollowingConfig& config);
+/// The power of an age that it contains, and the spread from two of these.
+float twin_growth(float age_s, const CarFollowingConfig& config);
+float twin_spread_of(float one_growth, float other_growth, const CarFollowingConfig& config);
 
 /// Logit of the link of a pair whose distance is `room_m` below the radius:
 /// tail_power asinh(room / spread); infinite without any spread. The tails are those of a power, because a

@@ -112,9 +112,11 @@ void RepairInputBuilder::place_rows(const Scene& scene) {
     rule_x_m_ = tracks.x_m;
     rule_y_m_ = tracks.y_m;
     sigma_m_ = tracks.sensor_sigma_m;
+    growth_.resize(tracks.size());
     lane_.resize(tracks.size());
     lane_position_m_.resize(tracks.size());
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
+        growth_[row] = tracks.age_s[row] > 0.0F ? twin_growth(tracks.age_s[row], CarFollowingConfig{}) : 0.0F;
         lane_[row] = tracks.last[row].lane;
         lane_position_m_[row] = tracks.last[row].lane_position_m;
     }
@@ -387,7 +389,7 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
                 on_lanes && network_.lane(left_lane).edge == network_.lane(right_lane).edge);
         out.set(pair_input("same_lane"), on_lanes && left_lane == right_lane);
         out.set(pair_input("follows"), follows(left, right) || follows(right, left));
-        write_twins(scene, list.rows[at], out);
+        write_twins(list.rows[at], out);
         write_meeting(first_end_first(inputs, list.rows[at]), out);
         // If some links survive at all, a pair that is not detected is less likely to be linked.
         if (scene.detected.rows.empty()) continue;
@@ -397,13 +399,13 @@ void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
     }
 }
 
-void RepairInputBuilder::write_twins(const Scene& scene, RowPair pair, NetInputRow& out) const {
+void RepairInputBuilder::write_twins(RowPair pair, NetInputRow& out) const {
     constexpr CarFollowingConfig twin;
     const auto [left, right] = pair;
     const float distance_m = std::hypot(x_m_[left] - x_m_[right], y_m_[left] - y_m_[right]);
     const float inside_m = static_cast<float>(rules_.radius_m) - distance_m;
     const float sensors_m = std::hypot(sigma_m_[left], sigma_m_[right]) / deviation_of_spread;
-    const float spread_m = twin_spread_m(scene.tracks.age_s[left], scene.tracks.age_s[right], twin);
+    const float spread_m = twin_spread_of(growth_[left], growth_[right], twin);
     out.set(pair_input("by_twin"), distance_m);
     out.set(pair_input("inside"), inside_m);
     out.set(pair_input("twin_logit"),
@@ -416,17 +418,20 @@ void RepairInputBuilder::write_twins(const Scene& scene, RowPair pair, NetInputR
 void RepairInputBuilder::write_meeting(RowPair ends, NetInputRow& out) const {
     const MotionContext& ahead = ahead_[ahead_of_row_[ends.left]];
     const roads::Point to{x_m_[ends.right], y_m_[ends.right]};
-    float nearest_m = std::numeric_limits<float>::max();
+    const auto radius_m = static_cast<float>(rules_.radius_m);
+    float nearest_m2 = std::numeric_limits<float>::max();
     int within = 0;
     for (const roads::Point point : ahead.path.points) {
-        const float away_m = std::hypot(point.x_m - to.x_m, point.y_m - to.y_m);
-        nearest_m = std::min(nearest_m, away_m);
-        if (away_m < static_cast<float>(rules_.radius_m)) ++within;
+        const float x_m = point.x_m - to.x_m;
+        const float y_m = point.y_m - to.y_m;
+        const float away_m2 = x_m * x_m + y_m * y_m;
+        nearest_m2 = std::min(nearest_m2, away_m2);
+        within += away_m2 < radius_m * radius_m ? 1 : 0;
     }
     const roads::Point along = ahead.direction_at(ahead.believed_m());
     const float x_m = to.x_m - x_m_[ends.left];
     const float y_m = to.y_m - y_m_[ends.left];
-    out.set(pair_input("nearest"), nearest_m);
+    out.set(pair_input("nearest"), std::sqrt(nearest_m2));
     out.set(pair_input("share_within"), static_cast<float>(within) / static_cast<float>(path_points));
     out.set(pair_input("ahead"), along.x_m * x_m + along.y_m * y_m);
     out.set(pair_input("left"), along.x_m * y_m - along.y_m * x_m);

@@ -87,7 +87,7 @@ class RepairInputBuilder {
                   RepairInputs& inputs);
     void write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const;
     void write_pairs(const Scene& scene, RepairInputs& inputs);
-    void write_twins(const Scene& scene, RowPair pair, NetInputRow& out) const;
+    void write_twins(RowPair pair, NetInputRow& out) const;
     void write_meeting(RowPair ends, NetInputRow& out) const;
     /// Whether `other` is leader or follower of `one`.
     bool follows(std::uint32_t one, std::uint32_t other) const;
@@ -104,7 +104,7 @@ class RepairInputBuilder {
     /// By entry: leaders and followers, those of the twin included.
     std::vector<std::vector<std::uint32_t>> beside_;
     // Of each row, as believed by twins, and by the rule where there are none.
-    std::vector<float> x_m_, y_m_, sigma_m_, lane_position_m_;
+    std::vector<float> x_m_, y_m_, sigma_m_, growth_, lane_position_m_;
     std::vector<core::LaneIndex> lane_;
     std::vector<float> rule_x_m_, rule_y_m_;
     std::vector<Detector> detectors_;
