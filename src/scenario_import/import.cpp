@@ -132,6 +132,19 @@ void check_version(const scenario::NetworkDocument& document, const std::filesys
                                          "a map or network with roads for cars", "choose another file"});
 }
 
+/// Reads the copy of `given` that the import made. Problems name the lines of the given file.
+roads::Network read_copy(const std::filesystem::path& copy, const std::filesystem::path& given) {
+    try {
+        return roads::Network::read(copy);
+    } catch (const core::InputError& error) {
+        roads::Network::read(given);
+        std::vector<core::Problem> problems = error.problems();
+        for (core::Problem& problem : problems)
+            problem.where = given.string();
+        throw core::InputError(std::move(problems));
+    }
+}
+
 roads::Network take_network(Import& import, const std::filesystem::path& file) {
     scenario::NetworkDocument document(file);
     check_version(document, file);
@@ -148,7 +161,7 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
             fmt::format("{} lanes or connections open to cars are opened to emergency vehicles", admitted));
     import.findings.left_hand = document.attribute("lefthand") == "true";
     core::write_atomically(import.scenario / network_name, document.text());
-    roads::Network network = roads::Network::read(import.scenario / network_name);
+    roads::Network network = read_copy(import.scenario / network_name, file);
     detail::survey(network, import.findings);
     if (import.findings.car_edges == 0) refuse_without_roads(import);
     return network;

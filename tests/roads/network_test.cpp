@@ -15,6 +15,7 @@
 namespace clearway::roads {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
@@ -84,6 +85,20 @@ TEST_F(NetworkTest, ReadsEdgesAndLanes) {
     EXPECT_FALSE(network.find_edge("nowhere").has_value());
     EXPECT_FALSE(network.find_lane("west_2").has_value());
     EXPECT_FALSE(network.find_signal("K").has_value());
+}
+
+/// Netconvert 1.22 and newer write the same index for all lanes of an edge inside a junction.
+TEST_F(NetworkTest, TakesTheNumberOfALaneInsideAJunctionFromItsId) {
+    const Network network = read(altered(R"(<lane id=":J_0_1" index="1")", R"(<lane id=":J_0_1" index="0")"));
+    EXPECT_EQ(network.lane(*network.find_lane(":J_0_1")).number, 1u);
+    EXPECT_EQ(network.lane_of(*network.find_edge(":J_0"), 1), network.find_lane(":J_0_1"));
+}
+
+TEST_F(NetworkTest, RefusesLanesOutOfOrder) {
+    EXPECT_THAT(complaint(altered(R"(<lane id="west_1" index="1")", R"(<lane id="west_1" index="0")")),
+                AllOf(HasSubstr(R"(index="0" of lane "west_1" (allowed: 1))"), HasSubstr("netconvert")));
+    EXPECT_THAT(complaint(altered(R"(<lane id=":J_0_1" index="1")", R"(<lane id=":J_0_7" index="0")")),
+                HasSubstr(R"(index="0" of lane ":J_0_7" (allowed: 1))"));
 }
 
 TEST_F(NetworkTest, ReadsThePlaceOnTheGlobe) {

@@ -1,4 +1,6 @@
 // Files that cannot be imported: each gets a clear message and leaves nothing behind.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -146,6 +148,19 @@ TEST_F(BadMap, a_network_of_an_unknown_version) {
     ASSERT_NE(at, std::string::npos);
     text.replace(at, std::string("<net version=\"").size(), "<net version=\"7");
     EXPECT_THAT(refused("new.net.xml", text), HasSubstr("unknown version \"7"));
+}
+
+TEST_F(BadMap, a_network_with_lanes_out_of_order_is_named_as_given) {
+    std::string text = core::read_file(line_network());
+    const std::string lane = "<lane id=\"first_1\" index=\"1\"";
+    const std::size_t at = text.find(lane);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, lane.size(), "<lane id=\"first_1\" index=\"0\"");
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+    EXPECT_THAT(
+        refused("mine.net.xml", text),
+        AllOf(HasSubstr(fmt::format("{}:{}: index=\"0\"", (folder() / "mine.net.xml").string(), line)),
+              HasSubstr("netconvert --sumo-net-file"), Not(HasSubstr("importing"))));
 }
 
 TEST_F(BadMap, a_network_without_roads_for_cars) {

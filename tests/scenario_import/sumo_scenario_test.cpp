@@ -57,6 +57,17 @@ TEST_F(SumoScenario, an_unsorted_file_is_sorted_and_that_is_said) {
     EXPECT_LT(routes.find("id=\"early\""), routes.find("id=\"late\""));
 }
 
+TEST_F(SumoScenario, a_network_of_netconvert_1_22_is_imported) {
+    std::string text = core::read_file(line_network());
+    const std::string second = "<lane id=\":b_1_1\" index=\"1\"";
+    ASSERT_NE(text.find(second), std::string::npos) << text;
+    text.replace(text.find(second), second.size(), "<lane id=\":b_1_1\" index=\"0\"");
+    const auto network = write("new.net.xml", text);
+    const Findings findings =
+        run(request({network, write("line.rou.xml", "<routes>" + cars(20) + "</routes>")}));
+    EXPECT_EQ(findings.vehicles.at("car"), 20);
+}
+
 TEST_F(SumoScenario, gaps_and_unknown_edges_are_refused_with_vehicle_and_edges) {
     const std::string gap = refusal(line_with(cars(3) + car("jumper", 5, "first side")));
     EXPECT_THAT(gap, AllOf(HasSubstr("line.rou.xml:1: \"jumper\""), HasSubstr("gap"), HasSubstr("\"side\""),

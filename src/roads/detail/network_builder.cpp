@@ -176,9 +176,13 @@ void NetworkBuilder::read_lane(const core::XmlAttributes& attributes) {
     lane.id = text(attributes, "id");
     lane.edge = core::EdgeIndex{static_cast<std::uint32_t>(network_.edges_.size() - 1)};
     lane.number = static_cast<std::uint32_t>(number(attributes, "index", 0, 1000));
+    // Netconvert 1.22 and newer repeat the index inside junctions; ids count on.
+    if (edge.internal && lane.id == fmt::format("{}_{}", edge.id, edge.lane_count))
+        lane.number = edge.lane_count;
     if (lane.number != edge.lane_count) {
         add_problem(fmt::format("index=\"{}\" of lane \"{}\"", lane.number, lane.id),
-                    std::to_string(edge.lane_count));
+                    std::to_string(edge.lane_count),
+                    "write the network again: netconvert --sumo-net-file OLD --output-file NEW");
     }
     lane.length_m = static_cast<float>(number(attributes, "length", 0, 1e7));
     lane.speed_limit_mps = static_cast<float>(number(attributes, "speed", 0, 1e3));
