@@ -23,7 +23,7 @@ struct ChainContext {
     const roads::Network& network;
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};  ///< For the sensor failures.
     double policy_period_s = 0.5;                                      ///< Time between two decisions.
-    graph::LinkRules rules;
+    graph::LinkRules rules = {};
 };
 
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
