@@ -140,6 +140,23 @@ TEST(LearnedPredictors, RefuseDamagedNumbersWhenTheyOverflow) {
     }
 }
 
+TEST(LearnedPredictors, SayForWhichLinkRadiiTheyWereTrained) {
+    const support::Scene scene(platoon);
+    for (const char* const name : {"graphsage", "gradient_boosting"}) {
+        for (const double radius_m : {25.0, 120.0, 300.0})
+            EXPECT_NO_THROW(make_predictor(name, {scene.network(), {.radius_m = radius_m}, "", {}})) << name;
+        for (const double radius_m : {24.0, 301.0}) {
+            try {
+                make_predictor(name, {scene.network(), {.radius_m = radius_m}, "", {}});
+                ADD_FAILURE() << name << radius_m;
+            } catch (const core::InputError& error) {
+                EXPECT_THAT(error.what(), AllOf(HasSubstr("link_radius_m"), HasSubstr("25 to 300 m"),
+                                                HasSubstr("car_following")));
+            }
+        }
+    }
+}
+
 TEST(LearnedPredictors, RefuseTensorsThatNoLayerReads) {
     const support::TemporaryFolder folder;
     const std::string file = (folder.path() / "more.weights").string();
