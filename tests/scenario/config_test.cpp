@@ -33,7 +33,8 @@ class Config : public ScratchTest {
 };
 
 TEST_F(Config, shipped_scenarios_are_listed_and_load) {
-    EXPECT_THAT(list(), ElementsAre("bologna", "city", "intersection", "merge"));
+    EXPECT_THAT(list(), ElementsAre("bologna", "city", "grid_signals", "intersection", "merge", "random_town",
+                                    "spider"));
     for (const std::string& name : list()) {
         const ScenarioConfig config = load(name);
         EXPECT_EQ(config.name, name);
