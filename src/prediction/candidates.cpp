@@ -23,25 +23,28 @@ std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) {
                                                       : static_cast<std::uint32_t>(tracks.size());
 }
 
+/// At most so many places of a vehicle count: last seen, dead-reckoned, of its twin.
+constexpr std::size_t most_graphs = 3;
+using Graphs = std::span<const graph::ProximityGraph* const>;
+
 /// Calls `visit(right)` once for every neighbour right > left of the row in any of the graphs, ascending.
-template <std::size_t Count, class Visit>
-void for_each_in_any(const std::array<const graph::ProximityGraph*, Count>& graphs, std::uint32_t left,
-                     const Visit& visit) {
-    using Place = std::span<const core::VehicleIndex>::iterator;
-    std::array<std::pair<Place, Place>, Count> rest;
-    for (std::size_t at = 0; at < Count; ++at) {
+template <class Visit>
+void for_each_in_any(Graphs graphs, std::uint32_t left, const Visit& visit) {
+    std::array<std::span<const core::VehicleIndex>, most_graphs> rest;
+    for (std::size_t at = 0; at < graphs.size(); ++at) {
         const auto all = graphs[at]->neighbours_of(left);
         rest[at] = {std::ranges::upper_bound(all, left), all.end()};
     }
     constexpr core::VehicleIndex nobody = std::numeric_limits<core::VehicleIndex>::max();
     for (;;) {
         core::VehicleIndex next = nobody;
-        for (const auto& [first, end] : rest)
-            next = first == end ? next : std::min(next, *first);
+        for (const auto& neighbours : rest)
+            next = neighbours.empty() ? next : std::min(next, neighbours.front());
         if (next == nobody) return;
         visit(next);
-        for (auto& [first, end] : rest)
-            first += first != end && *first == next ? 1 : 0;
+        for (auto& neighbours : rest) {
+            if (!neighbours.empty() && neighbours.front() == next) neighbours = neighbours.subspan(1);
+        }
     }
 }
 
@@ -106,22 +109,21 @@ void SceneBuilder::sort_pairs(Scene& scene) {
     // If all vehicles are known, nothing beyond the link radius matters.
     if (!tracks.all_known) rules.radius_m = candidate_reach_m(rules_);
     builder_.build({tracks.x_m, tracks.y_m, tracks.vehicle_class}, rules, near_now_);
-    const graph::ProximityGraph* near_last = &near_now_;
-    const graph::ProximityGraph* near_twins = &near_now_;
+    std::array<const graph::ProximityGraph*, most_graphs> graphs = {&near_now_};
+    std::size_t count = 1;
     if (!tracks.all_current) {
         builder_.build({tracks.last_x_m, tracks.last_y_m, tracks.vehicle_class}, rules, near_last_);
-        near_last = &near_last_;
-        if (reach_ == CandidateReach::twins) {
-            place_twins(tracks);
-            builder_.build({twin_x_m_, twin_y_m_, tracks.vehicle_class}, rules, near_twins_);
-            near_twins = &near_twins_;
-        }
+        graphs[count++] = &near_last_;
+    }
+    if (reach_ == CandidateReach::twins && !tracks.all_current && !tracks.all_known) {
+        place_twins(tracks);
+        builder_.build({twin_x_m_, twin_y_m_, tracks.vehicle_class}, rules, near_twins_);
+        graphs[count++] = &near_twins_;
     }
     for (std::uint32_t left = 0; left < tracks.size(); ++left) {
-        for_each_in_any(std::array{&std::as_const(near_now_), near_last, near_twins}, left,
-                        [&](std::uint32_t right) {
-                            take({left, right}, scene);
-                        });
+        for_each_in_any(Graphs(graphs).first(count), left, [&](std::uint32_t right) {
+            take({left, right}, scene);
+        });
     }
 }
 

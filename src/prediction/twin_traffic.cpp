@@ -80,7 +80,7 @@ void TwinTraffic::follow(const traffic::Observation& observation, const Tracks& 
         const double left_s = config_.step_s * (steps - step - 1);
         drive(observation, std::max(from_s, tracks.time_s - left_s - config_.step_s), tracks.time_s - left_s);
     }
-    list_places(tracks.time_s);
+    if (!tracks.all_known) list_places(tracks.time_s);
 }
 
 /// Both lists are ordered by key. Twins of vehicles that are gone are given to new ones.
@@ -276,11 +276,12 @@ void TwinTraffic::look_ahead(const traffic::Observation& observation, const Twin
                 ahead.limit_mps2 = std::min(ahead.limit_mps2, -braking_mps2);
         }
         if (!vehicle) {
-            const core::LaneIndex lane = here ? twin.lane : step.exit_lane;
-            vehicle = heed_vehicle(twin, lane,
-                                   here ? LanePlace{lane, twin.lane_position_m, twin.key, 0}
-                                        : LanePlace{lane, std::numeric_limits<float>::lowest(), {}, 0},
-                                   step.road.start_m, ahead);
+            const Neighbour leader = next_on(twin, at);
+            vehicle = leader.exists;
+            if (vehicle)
+                ahead.interaction_mps2 = std::max(
+                    ahead.interaction_mps2,
+                    twin.driver.interaction(twin.speed_mps, leader.gap_m, twin.speed_mps - leader.speed_mps));
         }
         const bool waits = here && twin.lane != step.exit_lane;
         const bool stops = !line && heed_signal(observation, twin, step.road, ahead);
@@ -293,27 +294,19 @@ void TwinTraffic::look_ahead(const traffic::Observation& observation, const Twin
     }
 }
 
-/// The first vehicle of `lane` behind the place `after` in the order of places.
-const TwinTraffic::LanePlace* TwinTraffic::next_on_lane(const Twin& twin, core::LaneIndex lane,
-                                                        const LanePlace& after) const {
+/// The first vehicle before the twin on a step of its path.
+TwinTraffic::Neighbour TwinTraffic::next_on(const Twin& twin, std::size_t step) const {
+    const bool here = step == twin.at;
+    const core::LaneIndex lane = here ? twin.lane : twin.path[step].exit_lane;
+    const LanePlace after = here ? LanePlace{lane, twin.lane_position_m, twin.key, 0}
+                                 : LanePlace{lane, std::numeric_limits<float>::lowest(), {}, 0};
     auto next = std::ranges::upper_bound(places_, after);
     while (next != places_.end() && next->key == twin.key)
         ++next;
-    return next == places_.end() || next->lane != lane ? nullptr : &*next;
-}
-
-/// `start_m`: of the lane.
-// NOLINTNEXTLINE(readability-function-size): who, where, from where on, and what comes of it
-bool TwinTraffic::heed_vehicle(const Twin& twin, core::LaneIndex lane, const LanePlace& after, float start_m,
-                               Ahead& ahead) const {
-    const LanePlace* const next = next_on_lane(twin, lane, after);
-    if (next == nullptr) return false;
+    if (next == places_.end() || next->lane != lane) return {};
     const Twin& leader = twins_[next->twin];
-    const float gap_m = start_m + next->position_m - leader.length_m - twin.travelled_m;
-    ahead.interaction_mps2 =
-        std::max(ahead.interaction_mps2,
-                 twin.driver.interaction(twin.speed_mps, gap_m, twin.speed_mps - leader.speed_mps));
-    return true;
+    const float gap_m = twin.path[step].road.start_m + next->position_m - leader.length_m - twin.travelled_m;
+    return {true, leader.row, gap_m, leader.speed_mps};
 }
 
 /// What the signal at the end of a step shows; null where there is none.
@@ -402,16 +395,8 @@ bool TwinTraffic::waits(std::uint32_t row) const {
 TwinTraffic::Neighbour TwinTraffic::leader_of(const Twin& twin) const {
     const float horizon_m = twin.travelled_m + least_view_m + view_s * twin.speed_mps;
     for (std::size_t at = twin.at; at < twin.path.size(); ++at) {
-        const Step& step = twin.path[at];
-        if (step.road.start_m > horizon_m) break;
-        const core::LaneIndex lane = at == twin.at ? twin.lane : step.exit_lane;
-        const LanePlace after = at == twin.at ? LanePlace{lane, twin.lane_position_m, twin.key, 0}
-                                              : LanePlace{lane, std::numeric_limits<float>::lowest(), {}, 0};
-        const LanePlace* const next = next_on_lane(twin, lane, after);
-        if (next == nullptr) continue;
-        const Twin& leader = twins_[next->twin];
-        const float gap_m = step.road.start_m + next->position_m - leader.length_m - twin.travelled_m;
-        return {true, leader.row, gap_m, leader.speed_mps};
+        if (twin.path[at].road.start_m > horizon_m) break;
+        if (const Neighbour next = next_on(twin, at); next.exists) return next;
     }
     return {};
 }

@@ -146,9 +146,7 @@ class TwinTraffic {
     void drive(const traffic::Observation& observation, double from_s, double to_s);
     float acceleration(const traffic::Observation& observation, const Twin& twin) const;
     void look_ahead(const traffic::Observation& observation, const Twin& twin, Ahead& ahead) const;
-    bool heed_vehicle(const Twin& twin, core::LaneIndex lane, const LanePlace& after, float start_m,
-                      Ahead& ahead) const;
-    const LanePlace* next_on_lane(const Twin& twin, core::LaneIndex lane, const LanePlace& after) const;
+    Neighbour next_on(const Twin& twin, std::size_t step) const;
     Neighbour leader_of(const Twin& twin) const;
     Neighbour follower_of(const Twin& twin) const;
     static const char* letter_of(const traffic::Observation& observation, const roads::RouteStep& step);
