@@ -124,8 +124,10 @@ void LaneGrid::near(const Point& point, core::Metres reach, std::vector<LanePlac
         return one.position_m < other.position_m;
     };
     std::ranges::sort(places, order);
-    const auto rest = std::ranges::unique(places, {}, &LanePlace::lane);
-    places.erase(rest.begin(), rest.end());
+    const auto same_lane = [](const LanePlace& one, const LanePlace& other) {
+        return one.lane == other.lane;
+    };
+    places.erase(std::unique(places.begin(), places.end(), same_lane), places.end());
 }
 
 }  // namespace clearway::roads
