@@ -8,6 +8,9 @@
 #include "traffic/signal.hpp"
 
 namespace clearway::prediction {
+
+using detail::VehicleOnLane;
+
 namespace {
 
 /// A vehicle may drive at up to 1.25 times the limit (the largest speed factor in the scenarios), and its
@@ -17,18 +20,10 @@ constexpr float least_reach_m = 10.0F;
 /// Leaders farther ahead do not matter for an outage of a minute.
 constexpr float leader_horizon_m = 80.0F;
 constexpr float newest_weight = 0.3F;
-constexpr float speed_change_mps = 2.5F;
-constexpr float miss_scale_m = 5.0F;
-/// Places tried for a detected vehicle: every 1/64 of its reach.
-constexpr int detection_places = 64;
 constexpr double new_report_s = 1e-3;
 constexpr float slowest_limit_mps = 1.0F;
 /// Slower vehicles before a stop line are in its queue.
 constexpr float queued_mps = 2.0F;
-
-float square(float value) {
-    return value * value;
-}
 
 /// Where a displacement lies on a path: index of the segment and share of its length.
 struct OnPath {
@@ -41,10 +36,6 @@ OnPath on_path(float displacement_m, float reach_m) {
     const float place = std::clamp(displacement_m / reach_m, 0.0F, 1.0F) * segments;
     const float segment = std::min(std::floor(place), segments - 1.0F);
     return {static_cast<std::size_t>(segment), place - segment};
-}
-
-const traffic::VehicleInfo* info_of(const traffic::Observation& observation, core::VehicleKey key) {
-    return observation.roster == nullptr ? nullptr : observation.roster->find(key);
 }
 
 /// How far a vehicle gets in `time_s` at the speed limits of the lanes on its way.
@@ -107,12 +98,12 @@ void MotionContextBuilder::build(const traffic::Observation& observation, const 
         note_neighbours(observation, tracks);
         sort_places();
         measure_lane_speeds(tracks);
-        find_neighbours(observation, tracks, ahead);
+        find_neighbours(tracks, ahead);
         // The second round takes into account leaders that the first held behind their own leaders.
         for (int round = 0; round < 2; ++round) {
             hold_behind_leaders(ahead);
             list_places(tracks, ahead);
-            find_neighbours(observation, tracks, ahead);
+            find_neighbours(tracks, ahead);
         }
         follow_twins(scene, ahead);
         follow_detections(scene, ahead);
@@ -182,7 +173,7 @@ void MotionContextBuilder::look_ahead(const traffic::Observation& observation, c
     const std::uint32_t row = ahead.row;
     const traffic::MotionState& last = tracks.last[row];
     const float age_s = tracks.age_s[row];
-    const traffic::VehicleInfo* const info = info_of(observation, tracks.key[row]);
+    const traffic::VehicleInfo* const info = tracks.info[row];
     Steps& steps = steps_of_.emplace_back();
     steps.first = static_cast<std::uint32_t>(steps_.size());
     ahead.smoothed_speed_mps = memories_[row].smoothed_speed_mps;
@@ -288,7 +279,7 @@ void MotionContextBuilder::lay_path(const Tracks& tracks, MotionContext& ahead) 
 void MotionContextBuilder::list_places(const Tracks& tracks, const std::vector<MotionContext>& ahead) {
     place_of_row_.resize(tracks.size());
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
-        LanePlace& place = place_of_row_[row];
+        VehicleOnLane& place = place_of_row_[row];
         place = {tracks.last[row].lane, tracks.last[row].lane_position_m, tracks.key[row], row};
         if (tracks.known[row] != 0) continue;
         const std::uint32_t entry = ahead_of_row_[row];
@@ -306,7 +297,7 @@ void MotionContextBuilder::list_places(const Tracks& tracks, const std::vector<M
 void MotionContextBuilder::sort_places() {
     lane_places_.clear();
     std::ranges::copy_if(place_of_row_, std::back_inserter(lane_places_),
-                         [](const LanePlace& place) { return place.lane.exists(); });
+                         [](const VehicleOnLane& place) { return place.lane.exists(); });
     std::ranges::sort(lane_places_);
 }
 
@@ -317,12 +308,12 @@ void MotionContextBuilder::measure_lane_speeds(const Tracks& tracks) {
         float sum_mps = 0.0F;
         int known = 0;
         for (; end != lane_places_.end() && end->lane == begin->lane; ++end) {
-            if (tracks.known[end->row] == 0) continue;
-            sum_mps += tracks.last[end->row].speed_mps;
+            if (tracks.known[end->index] == 0) continue;
+            sum_mps += tracks.last[end->index].speed_mps;
             ++known;
         }
         for (; begin != end; ++begin) {
-            if (known > 0) lane_speed_mps_[begin->row] = sum_mps / static_cast<float>(known);
+            if (known > 0) lane_speed_mps_[begin->index] = sum_mps / static_cast<float>(known);
         }
     }
 }
@@ -330,17 +321,17 @@ void MotionContextBuilder::measure_lane_speeds(const Tracks& tracks) {
 /// The vehicle next ahead in the same lane, or on the lanes that follow along the route, at the previous
 /// call.
 core::VehicleKey MotionContextBuilder::leader_before(const traffic::Observation& observation,
-                                                     const Tracks& tracks, const LanePlace& place) {
+                                                     const Tracks& tracks, const VehicleOnLane& place) {
     auto next = std::ranges::upper_bound(places_before_, place);
     if (next != places_before_.end() && next->key == place.key) ++next;
     if (next != places_before_.end() && next->lane == place.lane) return next->key;
-    const traffic::VehicleInfo* const info = info_of(observation, place.key);
-    if (!on_route(info, tracks.last[place.row])) return {};
-    roads::lanes_ahead(network_, observation.roster->route(info->route), tracks.last[place.row],
+    const traffic::VehicleInfo* const info = tracks.info[place.index];
+    if (!on_route(info, tracks.last[place.index])) return {};
+    roads::lanes_ahead(network_, observation.roster->route(info->route), tracks.last[place.index],
                        core::Metres(leader_horizon_m), walked_);
     for (std::size_t at = 1; at < walked_.size(); ++at) {
         const auto first =
-            std::ranges::lower_bound(places_before_, LanePlace{walked_[at].lane, -1e9F, {}, 0});
+            std::ranges::lower_bound(places_before_, VehicleOnLane{walked_[at].lane, -1e9F, {}, 0});
         if (first == places_before_.end() || first->lane != walked_[at].lane) continue;
         return walked_[at].start_m + first->position_m < leader_horizon_m ? first->key : core::VehicleKey{};
     }
@@ -357,11 +348,11 @@ void MotionContextBuilder::note_neighbours(const traffic::Observation& observati
         memory.neighbours_noted = true;
         memory.leader = {};
         memory.follower = {};
-        const LanePlace place{tracks.last[row].lane, tracks.last[row].lane_position_m, memory.key, row};
+        const VehicleOnLane place{tracks.last[row].lane, tracks.last[row].lane_position_m, memory.key, row};
         if (!place.lane.exists()) continue;
         memory.leader = leader_before(observation, tracks, place);
         auto behind = std::ranges::lower_bound(
-            places_before_, LanePlace{place.lane, place.position_m, core::VehicleKey{0}, 0});
+            places_before_, VehicleOnLane{place.lane, place.position_m, core::VehicleKey{0}, 0});
         while (behind != places_before_.begin()) {
             --behind;
             if (behind->lane != place.lane) break;
@@ -373,19 +364,19 @@ void MotionContextBuilder::note_neighbours(const traffic::Observation& observati
 }
 
 // NOLINTNEXTLINE(readability-function-size): whose way, who on it, and what is believed of all
-VehicleOnWay MotionContextBuilder::on_way(const traffic::Observation& observation, const Tracks& tracks,
-                                          const std::vector<MotionContext>& ahead, core::VehicleKey key,
+VehicleOnWay MotionContextBuilder::on_way(const Tracks& tracks, const std::vector<MotionContext>& ahead,
+                                          core::VehicleKey key,
                                           std::span<const roads::RouteStep> steps) const {
     if (key.value == 0) return {};
     const std::uint32_t row = row_of(tracks, key);
     if (row == tracks.size() || !place_of_row_[row].lane.exists()) return {};
     const std::uint32_t entry = ahead_of_row_[row];
     if (entry < ahead.size() && ahead[entry].has_left) return {};
-    const LanePlace& place = place_of_row_[row];
+    const VehicleOnLane& place = place_of_row_[row];
     const core::EdgeIndex edge = network_.lane(place.lane).edge;
     for (const roads::RouteStep& step : steps) {
         if (network_.lane(step.lane).edge != edge) continue;
-        const traffic::VehicleInfo* const info = info_of(observation, key);
+        const traffic::VehicleInfo* const info = tracks.info[row];
         return {true,
                 tracks.known[row] != 0,
                 row,
@@ -396,13 +387,12 @@ VehicleOnWay MotionContextBuilder::on_way(const traffic::Observation& observatio
     return {};
 }
 
-void MotionContextBuilder::find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
-                                           std::vector<MotionContext>& ahead) {
+void MotionContextBuilder::find_neighbours(const Tracks& tracks, std::vector<MotionContext>& ahead) {
     for (std::size_t entry = 0; entry < ahead.size(); ++entry) {
         const std::span steps = way_of(entry);
         const Memory& memory = memories_[ahead[entry].row];
-        ahead[entry].leader = on_way(observation, tracks, ahead, memory.leader, steps);
-        ahead[entry].follower = on_way(observation, tracks, ahead, memory.follower, steps);
+        ahead[entry].leader = on_way(tracks, ahead, memory.leader, steps);
+        ahead[entry].follower = on_way(tracks, ahead, memory.follower, steps);
     }
 }
 
@@ -425,70 +415,20 @@ void MotionContextBuilder::follow_twins(const Scene& scene, std::vector<MotionCo
     }
 }
 
-void MotionContextBuilder::list_detections(const Scene& scene) {
-    const Tracks& tracks = scene.tracks;
-    detections_.clear();
-    for (std::size_t at = 0; at < scene.detected.size(); ++at) {
-        const RowPair pair = scene.detected.rows[at];
-        const float range_m = scene.detected_range_m[at];
-        const auto add = [&](std::uint32_t row, std::uint32_t from) {
-            if (tracks.known[row] == 0 && tracks.known[from] != 0) {
-                detections_.push_back({row, from, {tracks.x_m[from], tracks.y_m[from]}, range_m});
-            }
-        };
-        add(pair.left, pair.right);
-        add(pair.right, pair.left);
-    }
-    std::ranges::sort(detections_, {}, [](const Detection& detection) {
-        return std::pair(detection.row, detection.from_row);
-    });
-}
-
 void MotionContextBuilder::follow_detections(const Scene& scene, std::vector<MotionContext>& ahead) {
-    list_detections(scene);
-    for (auto begin = detections_.begin(); begin != detections_.end();) {
-        const auto end = std::find_if(begin, detections_.end(), [&](const Detection& detection) {
-            return detection.row != begin->row;
-        });
-        MotionContext& entry = ahead[ahead_of_row_[begin->row]];
-        const std::span<const Detection> own(begin, end);
-        const float age_s = scene.tracks.age_s[entry.row];
-        entry.detections = static_cast<std::uint32_t>(own.size());
-        entry.displacement_m = agreed_m(entry, own, age_s, entry.displacement_m);
-        if (entry.drives) entry.twin_m = agreed_m(entry, own, age_s, entry.twin_m);
-        begin = end;
+    const Tracks& tracks = scene.tracks;
+    detections_.list(scene);
+    for (MotionContext& entry : ahead) {
+        const std::span<const detail::Detection> own = detections_.of(entry.row);
+        entry.detections = static_cast<std::uint32_t>(std::ranges::count_if(
+            own, [&](const detail::Detection& detection) { return tracks.known[detection.from] != 0; }));
+        if (entry.detections == 0) continue;
+        const auto agreed_m = [&](float believed_m) {
+            return detail::agreed_displacement_m(entry, own, tracks, rules_.radius_m, believed_m);
+        };
+        entry.displacement_m = agreed_m(entry.displacement_m);
+        if (entry.drives) entry.twin_m = agreed_m(entry.twin_m);
     }
-}
-
-/// The displacement in which what is believed and what is detected agree best.
-float MotionContextBuilder::agreed_m(const MotionContext& entry, std::span<const Detection> detections,
-                                     float age_s, float believed_m) const {
-    const auto radius_m = static_cast<float>(rules_.radius_m);
-    const auto miss_m = [&](const Detection& detection, roads::Point place) {
-        const float distance_m =
-            std::sqrt(square(place.x_m - detection.from.x_m) + square(place.y_m - detection.from.y_m));
-        return detection.range_m >= 0.0F ? distance_m - detection.range_m
-                                         : std::max(0.0F, distance_m - radius_m);
-    };
-    const float scale_m = 1.0F + speed_change_mps * age_s;
-    const auto cost = [&](float displacement_m) {
-        float sum = square((displacement_m - believed_m) / scale_m);
-        const roads::Point place = entry.place_at(displacement_m);
-        for (const Detection& detection : detections)
-            sum += square(miss_m(detection, place) / miss_scale_m);
-        return sum;
-    };
-    float best_m = believed_m;
-    float least = cost(best_m);
-    for (int at = 0; at <= detection_places; ++at) {
-        const float displacement_m =
-            entry.reach_m * static_cast<float>(at) / static_cast<float>(detection_places);
-        const float here = cost(displacement_m);
-        if (here >= least) continue;
-        least = here;
-        best_m = displacement_m;
-    }
-    return best_m;
 }
 
 namespace detail {
@@ -496,7 +436,7 @@ namespace detail {
 traffic::MotionState state_after(const roads::Network& network, const traffic::Observation& observation,
                                  const Tracks& tracks, const MotionContext& ahead, float displacement_m) {
     traffic::MotionState state = tracks.last[ahead.row];
-    const traffic::VehicleInfo* const info = info_of(observation, tracks.key[ahead.row]);
+    const traffic::VehicleInfo* const info = tracks.info[ahead.row];
     if (on_route(info, state)) {
         state = roads::advance(network, observation.roster->route(info->route), state,
                                core::Metres(displacement_m))

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "prediction/candidates.hpp"
+#include "prediction/detail/detections.hpp"
+#include "prediction/detail/vehicle_on_lane.hpp"
 #include "prediction/motion_filter.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"
@@ -123,6 +125,8 @@ class MotionContextBuilder {
     std::span<const roads::RouteStep> way_of(std::size_t entry) const {
         return std::span(steps_).subspan(steps_of_[entry].first, steps_of_[entry].count);
     }
+    /// Of the last scene in which a vehicle was not known.
+    const detail::Detections& detections() const { return detections_; }
 
   private:
     struct Memory {
@@ -132,19 +136,6 @@ class MotionContextBuilder {
         MotionFilter seen;                  ///< When it was last heard.
         core::VehicleKey leader, follower;  ///< When it was last heard; value 0: none.
         bool neighbours_noted = false;
-    };
-    struct LanePlace {
-        core::LaneIndex lane;
-        float position_m = 0.0F;
-        core::VehicleKey key;
-        std::uint32_t row = 0;
-        auto operator<=>(const LanePlace&) const = default;
-    };
-    struct Detection {
-        std::uint32_t row = 0;  ///< Of the vehicle that is not known.
-        std::uint32_t from_row = 0;
-        roads::Point from;
-        float range_m = -1.0F;
     };
     /// Steps of one entry of `ahead` in `steps_`.
     struct Steps {
@@ -165,18 +156,13 @@ class MotionContextBuilder {
     void sort_places();
     void note_neighbours(const traffic::Observation& observation, const Tracks& tracks);
     core::VehicleKey leader_before(const traffic::Observation& observation, const Tracks& tracks,
-                                   const LanePlace& place);
-    void find_neighbours(const traffic::Observation& observation, const Tracks& tracks,
-                         std::vector<MotionContext>& ahead);
+                                   const detail::VehicleOnLane& place);
+    void find_neighbours(const Tracks& tracks, std::vector<MotionContext>& ahead);
     void hold_behind_leaders(std::vector<MotionContext>& ahead) const;
     void follow_twins(const Scene& scene, std::vector<MotionContext>& ahead) const;
-    void list_detections(const Scene& scene);
     void follow_detections(const Scene& scene, std::vector<MotionContext>& ahead);
-    float agreed_m(const MotionContext& entry, std::span<const Detection> detections, float age_s,
-                   float believed_m) const;
     void measure_lane_speeds(const Tracks& tracks);
-    VehicleOnWay on_way(const traffic::Observation& observation, const Tracks& tracks,
-                        const std::vector<MotionContext>& ahead, core::VehicleKey key,
+    VehicleOnWay on_way(const Tracks& tracks, const std::vector<MotionContext>& ahead, core::VehicleKey key,
                         std::span<const roads::RouteStep> steps) const;
     std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) const;
 
@@ -188,12 +174,12 @@ class MotionContextBuilder {
     std::vector<std::vector<double>> signal_state_since_s_;
     std::vector<roads::RouteStep> steps_, walked_;
     std::vector<Steps> steps_of_;
-    std::vector<std::uint32_t> ahead_of_row_;  ///< Entry of `ahead`, or the number of rows.
-    std::vector<LanePlace> place_of_row_;      ///< Where each vehicle is believed to be.
-    std::vector<LanePlace> lane_places_;       ///< The same on lanes, sorted.
-    std::vector<LanePlace> places_before_;     ///< Of the previous call; sorted on first use.
+    std::vector<std::uint32_t> ahead_of_row_;           ///< Entry of `ahead`, or the number of rows.
+    std::vector<detail::VehicleOnLane> place_of_row_;   ///< Where each vehicle is believed to be.
+    std::vector<detail::VehicleOnLane> lane_places_;    ///< The same on lanes, sorted.
+    std::vector<detail::VehicleOnLane> places_before_;  ///< Of the previous call; sorted on first use.
     bool places_before_sorted_ = false;
-    std::vector<Detection> detections_;
+    detail::Detections detections_;
     std::vector<float> lane_speed_mps_;
 };
 

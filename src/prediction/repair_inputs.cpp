@@ -99,7 +99,6 @@ void RepairInputBuilder::build(const traffic::Observation& observation, const Sc
     for (const MotionContext& ahead : ahead_)
         inputs.receivers.push_back({ahead.row, ahead.believed_m(), ahead.reach_m, ahead.path});
     look_around(observation, scene);
-    list_detections(scene);
     write_nodes(observation, scene, inputs);
     write_edges(scene, inputs);
     write_pairs(scene, inputs);
@@ -113,17 +112,23 @@ void RepairInputBuilder::place_rows(const Scene& scene) {
     rule_y_m_ = tracks.y_m;
     sigma_m_ = tracks.sensor_sigma_m;
     growth_.resize(tracks.size());
+    heading_cosine_.resize(tracks.size());
+    heading_sine_.resize(tracks.size());
     lane_.resize(tracks.size());
     lane_position_m_.resize(tracks.size());
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         growth_[row] = tracks.age_s[row] > 0.0F ? twin_growth(tracks.age_s[row], CarFollowingConfig{}) : 0.0F;
+        heading_cosine_[row] = std::cos(tracks.last[row].heading_rad);
+        heading_sine_[row] = std::sin(tracks.last[row].heading_rad);
         lane_[row] = tracks.last[row].lane;
         lane_position_m_[row] = tracks.last[row].lane_position_m;
     }
+    along_.clear();
     ahead_of_row_.assign(tracks.size(), static_cast<std::uint32_t>(ahead_.size()));
     for (std::uint32_t entry = 0; entry < ahead_.size(); ++entry) {
         const MotionContext& ahead = ahead_[entry];
         ahead_of_row_[ahead.row] = entry;
+        along_.push_back(ahead.direction_at(ahead.believed_m()));
         const roads::Point place = ahead.place_at(ahead.believed_m());
         x_m_[ahead.row] = place.x_m;
         y_m_[ahead.row] = place.y_m;
@@ -153,17 +158,6 @@ void RepairInputBuilder::look_around(const traffic::Observation& observation, co
         add(around.leader.exists, around.leader.row);
         add(around.follower.exists, around.follower.row);
     }
-}
-
-void RepairInputBuilder::list_detections(const Scene& scene) {
-    detectors_.clear();
-    for (std::size_t at = 0; at < scene.detected.size(); ++at) {
-        const RowPair pair = scene.detected.rows[at];
-        const float range_m = scene.detected_range_m[at];
-        if (scene.tracks.known[pair.left] == 0) detectors_.push_back({pair.left, pair.right, range_m});
-        if (scene.tracks.known[pair.right] == 0) detectors_.push_back({pair.right, pair.left, range_m});
-    }
-    std::ranges::sort(detectors_);
 }
 
 void RepairInputBuilder::write_nodes(const traffic::Observation& observation, const Scene& scene,
@@ -264,40 +258,34 @@ void RepairInputBuilder::write_twin(const Scene& scene, std::size_t entry, NetIn
 /// heard, and of its twin.
 void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
     proximity_.build_all_pairs({x_m_, y_m_, scene.tracks.vehicle_class}, message_radius_m, near_);
-    auto first = detectors_.begin();
     for (std::size_t entry = 0; entry < ahead_.size(); ++entry) {
-        const MotionContext& ahead = ahead_[entry];
-        auto last = first;
-        while (last != detectors_.end() && last->row == ahead.row) {
-            ++last;
-        }
-        const std::span<const Detector> detectors(first, last);
-        add_nearest(scene, entry, detectors, inputs);
-        for (const Detector& detector : detectors)
-            add_edge(scene, entry, detector.from, detector.range_m, inputs);
+        const std::uint32_t row = ahead_[entry].row;
+        const std::span<const detail::Detection> detections = roads_.detections().of(row);
+        add_nearest(scene, entry, detections, inputs);
+        for (const detail::Detection& detection : detections)
+            add_edge(scene, entry, detection.from, detection.range_m, inputs);
         for (const std::uint32_t source : beside_[entry]) {
-            if (source != ahead.row && !detects(detectors, source))
+            if (source != row && !detects(detections, source))
                 add_edge(scene, entry, source, not_detected, inputs);
         }
         inputs.first_edge.push_back(static_cast<std::uint32_t>(inputs.source.size()));
-        first = last;
     }
 }
 
-bool RepairInputBuilder::detects(std::span<const Detector> detectors, std::uint32_t row) {
-    return std::ranges::find(detectors, row, &Detector::from) != detectors.end();
+bool RepairInputBuilder::detects(std::span<const detail::Detection> detections, std::uint32_t source) {
+    return std::ranges::find(detections, source, &detail::Detection::from) != detections.end();
 }
 
 /// The nearest vehicles but those that get an edge for another reason.
 void RepairInputBuilder::add_nearest(const Scene& scene, std::size_t entry,
-                                     std::span<const Detector> detectors, RepairInputs& inputs) {
+                                     std::span<const detail::Detection> detections, RepairInputs& inputs) {
     nearest_.clear();
     const auto neighbours = near_.neighbours_of(ahead_[entry].row);
     const auto distances = near_.distances_of(ahead_[entry].row);
     for (std::size_t at = 0; at < neighbours.size(); ++at) {
         const std::uint32_t source = neighbours[at];
         const bool apart =
-            std::ranges::find(beside_[entry], source) != beside_[entry].end() || detects(detectors, source);
+            std::ranges::find(beside_[entry], source) != beside_[entry].end() || detects(detections, source);
         if (!apart) nearest_.push_back({distances[at], source});
     }
     const std::size_t kept = std::min(most_near_sources, nearest_.size());
@@ -317,13 +305,11 @@ void RepairInputBuilder::add_edge(const Scene& scene, std::size_t entry, std::ui
     inputs.edges.resize(inputs.source.size() * edge_width, 0.0F);
     const traffic::MotionState& last = tracks.last[source];
     NetInputRow out(edge_inputs, std::span(inputs.edges).last(edge_width));
-    write_place(entry, source, out);
-    const roads::Point along = ahead.direction_at(ahead.believed_m());
-    const float cosine = along.x_m * std::cos(last.heading_rad) + along.y_m * std::sin(last.heading_rad);
-    const float sine = along.x_m * std::sin(last.heading_rad) - along.y_m * std::cos(last.heading_rad);
-    const float distance_m = std::hypot(x_m_[source] - x_m_[row], y_m_[source] - y_m_[row]);
+    const float distance_m = write_place(entry, source, out);
+    const roads::Point along = along_[entry];
+    const float cosine = along.x_m * heading_cosine_[source] + along.y_m * heading_sine_[source];
     out.set(edge_input("cosine"), cosine);
-    out.set(edge_input("sine"), sine);
+    out.set(edge_input("sine"), along.x_m * heading_sine_[source] - along.y_m * heading_cosine_[source]);
     out.set(edge_input("speed"), last.speed_mps);
     out.set(edge_input("relative_speed"), last.speed_mps * cosine - tracks.last[row].speed_mps);
     out.set(edge_input("known"), tracks.known[source] != 0);
@@ -345,23 +331,25 @@ void RepairInputBuilder::add_edge(const Scene& scene, std::size_t entry, std::ui
 }
 
 /// Where the source is believed to be, seen from the receiver, in the plane and along the receiver's way.
-void RepairInputBuilder::write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const {
+float RepairInputBuilder::write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const {
     const MotionContext& ahead = ahead_[entry];
-    const roads::Point along = ahead.direction_at(ahead.believed_m());
+    const roads::Point along = along_[entry];
     const float x_m = x_m_[source] - x_m_[ahead.row];
     const float y_m = y_m_[source] - y_m_[ahead.row];
     const float left_m = along.x_m * y_m - along.y_m * x_m;
     out.set(edge_input("ahead"), along.x_m * x_m + along.y_m * y_m);
     out.set(edge_input("left"), left_m);
     out.set(edge_input("left_near"), left_m);
-    out.set(edge_input("distance"), std::hypot(x_m, y_m));
-    if (!lane_[source].exists()) return;
+    const float distance_m = std::hypot(x_m, y_m);
+    out.set(edge_input("distance"), distance_m);
+    if (!lane_[source].exists()) return distance_m;
     for (const roads::RouteStep& step : roads_.way_of(entry)) {
         if (step.lane != lane_[source]) continue;
         out.set(edge_input("on_way"), true);
         out.set(edge_input("way_lead"), step.start_m + lane_position_m_[source] - ahead.believed_m());
-        return;
+        break;
     }
+    return distance_m;
 }
 
 void RepairInputBuilder::write_pairs(const Scene& scene, RepairInputs& inputs) {
@@ -416,19 +404,19 @@ void RepairInputBuilder::write_twins(RowPair pair, NetInputRow& out) const {
 
 /// `ends.left` is the first end. Both have been heard just now in no pair.
 void RepairInputBuilder::write_meeting(RowPair ends, NetInputRow& out) const {
-    const MotionContext& ahead = ahead_[ahead_of_row_[ends.left]];
+    const std::uint32_t entry = ahead_of_row_[ends.left];
     const roads::Point to{x_m_[ends.right], y_m_[ends.right]};
     const auto radius_m = static_cast<float>(rules_.radius_m);
     float nearest_m2 = std::numeric_limits<float>::max();
     int within = 0;
-    for (const roads::Point point : ahead.path.points) {
+    for (const roads::Point point : ahead_[entry].path.points) {
         const float x_m = point.x_m - to.x_m;
         const float y_m = point.y_m - to.y_m;
         const float away_m2 = x_m * x_m + y_m * y_m;
         nearest_m2 = std::min(nearest_m2, away_m2);
         within += away_m2 < radius_m * radius_m ? 1 : 0;
     }
-    const roads::Point along = ahead.direction_at(ahead.believed_m());
+    const roads::Point along = along_[entry];
     const float x_m = to.x_m - x_m_[ends.left];
     const float y_m = to.y_m - y_m_[ends.left];
     out.set(pair_input("nearest"), std::sqrt(nearest_m2));

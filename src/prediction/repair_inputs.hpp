@@ -65,13 +65,6 @@ class RepairInputBuilder {
     const std::vector<MotionContext>& ahead() const { return ahead_; }
 
   private:
-    struct Detector {
-        std::uint32_t row = 0;
-        std::uint32_t from = 0;
-        float range_m = -1.0F;
-        auto operator<=>(const Detector&) const = default;
-    };
-
     void write_nodes(const traffic::Observation& observation, const Scene& scene, RepairInputs& inputs);
     void write_motion(const Scene& scene, const MotionContext& ahead, NetInputRow& row) const;
     void write_neighbours(const traffic::Observation& observation, const Scene& scene,
@@ -80,18 +73,18 @@ class RepairInputBuilder {
     void look_around(const traffic::Observation& observation, const Scene& scene);
     void write_twin(const Scene& scene, std::size_t entry, NetInputRow& row) const;
     void write_edges(const Scene& scene, RepairInputs& inputs);
-    static bool detects(std::span<const Detector> detectors, std::uint32_t row);
-    void add_nearest(const Scene& scene, std::size_t entry, std::span<const Detector> detectors,
+    static bool detects(std::span<const detail::Detection> detections, std::uint32_t source);
+    void add_nearest(const Scene& scene, std::size_t entry, std::span<const detail::Detection> detections,
                      RepairInputs& inputs);
     void add_edge(const Scene& scene, std::size_t entry, std::uint32_t source, float range_m,
                   RepairInputs& inputs);
-    void write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const;
+    /// Returns the distance of both, m.
+    float write_place(std::size_t entry, std::uint32_t source, NetInputRow& out) const;
     void write_pairs(const Scene& scene, RepairInputs& inputs);
     void write_twins(RowPair pair, NetInputRow& out) const;
     void write_meeting(RowPair ends, NetInputRow& out) const;
     /// Whether `other` is leader or follower of `one`.
     bool follows(std::uint32_t one, std::uint32_t other) const;
-    void list_detections(const Scene& scene);
 
     const roads::Network& network_;
     graph::LinkRules rules_;
@@ -101,13 +94,15 @@ class RepairInputBuilder {
     std::vector<MotionContext> ahead_;
     std::vector<std::uint32_t> ahead_of_row_;
     std::vector<TwinTraffic::Surroundings> around_;  ///< By entry of `ahead_`.
+    std::vector<roads::Point> along_;  ///< By entry: direction of travel where it is believed to be.
     /// By entry: leaders and followers, those of the twin included.
     std::vector<std::vector<std::uint32_t>> beside_;
     // Of each row, as believed by twins, and by the rule where there are none.
     std::vector<float> x_m_, y_m_, sigma_m_, growth_, lane_position_m_;
     std::vector<core::LaneIndex> lane_;
     std::vector<float> rule_x_m_, rule_y_m_;
-    std::vector<Detector> detectors_;
+    std::vector<float> heading_cosine_, heading_sine_;  ///< Of each row, as reported.
+    std::vector<detail::Detection> detectors_;
     struct Near {
         float distance_m = 0.0F;
         std::uint32_t row = 0;

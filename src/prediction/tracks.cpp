@@ -22,8 +22,7 @@ void move_on(const traffic::Observation& observation, const roads::Network& netw
     traffic::MotionState& state = tracks.state[row];
     const float distance_m = state.speed_mps * tracks.age_s[row];
     if (distance_m < least_move_m) return;
-    const traffic::VehicleInfo* info =
-        observation.roster == nullptr ? nullptr : observation.roster->find(tracks.key[row]);
+    const traffic::VehicleInfo* const info = tracks.info[row];
     if (info == nullptr || !info->route.exists() || !state.lane.exists()) {
         go_straight_on(state, distance_m);
         return;
@@ -39,6 +38,7 @@ void move_on(const traffic::Observation& observation, const roads::Network& netw
 void Tracks::resize(std::size_t rows) {
     key.resize(rows);
     vehicle_class.resize(rows);
+    info.resize(rows);
     last_x_m.resize(rows);
     last_y_m.resize(rows);
     x_m.resize(rows);
@@ -62,6 +62,7 @@ void dead_reckon(const traffic::Observation& observation, const roads::Network& 
         const traffic::ObservedVehicle& vehicle = observation.vehicles[row];
         tracks.key[row] = vehicle.key;
         tracks.vehicle_class[row] = vehicle.vehicle_class;
+        tracks.info[row] = observation.roster == nullptr ? nullptr : observation.roster->find(vehicle.key);
         tracks.last_x_m[row] = vehicle.state.x_m;
         tracks.last_y_m[row] = vehicle.state.y_m;
         tracks.age_s[row] = vehicle.age_s;

@@ -15,6 +15,8 @@ namespace clearway::prediction {
 struct Tracks {
     std::vector<core::VehicleKey> key;
     std::vector<traffic::VehicleClass> vehicle_class;
+    /// Null where the roster does not have it. Valid until the roster changes.
+    std::vector<const traffic::VehicleInfo*> info;
     std::vector<float> last_x_m, last_y_m;    ///< As reported.
     std::vector<float> x_m, y_m;              ///< Dead-reckoned to now.
     std::vector<float> age_s;                 ///< Of the report.

@@ -5,9 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "prediction/detail/nearly_sorted.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::prediction {
+
+using detail::VehicleOnLane;
+
 namespace {
 
 constexpr float least_gap_m = 0.1F;
@@ -28,10 +32,6 @@ constexpr float least_shown_mps = 5.0F;
 
 float square(float value) {
     return value * value;
-}
-
-const traffic::VehicleInfo* info_of(const traffic::Observation& observation, core::VehicleKey key) {
-    return observation.roster == nullptr ? nullptr : observation.roster->find(key);
 }
 
 /// Whether a state is where its route says, so that the route can be walked from there.
@@ -88,6 +88,7 @@ void TwinTraffic::match_rows(const Tracks& tracks) {
     std::swap(twin_of_row_, old_twin_of_row_);
     twin_of_row_.resize(tracks.size());
     auto old = old_twin_of_row_.begin();
+    const std::size_t unused_before = unused_.size();
     constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         for (; old != old_twin_of_row_.end() && twins_[*old].key < tracks.key[row]; ++old)
@@ -96,6 +97,12 @@ void TwinTraffic::match_rows(const Tracks& tracks) {
         twin_of_row_[row] = known ? *old++ : nobody;
     }
     unused_.insert(unused_.end(), old, old_twin_of_row_.end());
+    if (unused_.size() > unused_before) {
+        for (std::size_t at = unused_before; at < unused_.size(); ++at)
+            twins_[unused_[at]].key = {};
+        std::erase_if(in_order_,
+                      [&](std::uint32_t index) { return twins_[index].key == core::VehicleKey{}; });
+    }
     for (std::uint32_t row = 0; row < tracks.size(); ++row) {
         if (twin_of_row_[row] != nobody) continue;
         if (unused_.empty()) {
@@ -104,6 +111,7 @@ void TwinTraffic::match_rows(const Tracks& tracks) {
         }
         twin_of_row_[row] = unused_.back();
         unused_.pop_back();
+        in_order_.push_back(twin_of_row_[row]);
         Twin& twin = twins_[twin_of_row_[row]];
         twin.key = tracks.key[row];
         twin.report_s = std::numeric_limits<double>::lowest();
@@ -115,7 +123,7 @@ void TwinTraffic::take_report(const traffic::Observation& observation, const Tra
                               std::uint32_t row) {
     Twin& twin = twins_[twin_of_row_[row]];
     const double report_s = tracks.time_s - tracks.age_s[row];
-    const traffic::VehicleInfo* const info = info_of(observation, twin.key);
+    const traffic::VehicleInfo* const info = tracks.info[row];
     const core::RouteIndex route = info == nullptr ? core::RouteIndex::none() : info->route;
     const bool is_old =
         std::abs(report_s - twin.report_s) < same_time_s && twin.time_s < tracks.time_s + same_time_s;
@@ -218,15 +226,21 @@ core::LaneIndex TwinTraffic::exit_lane(const roads::RouteStep& step, const roads
 /// Where everybody is at `time_s`; those that reported later are taken back at their present speed.
 void TwinTraffic::list_places(double time_s) {
     places_.clear();
-    for (const std::uint32_t index : twin_of_row_) {
+    left_out_.clear();
+    for (const std::uint32_t index : in_order_) {
         const Twin& twin = twins_[index];
-        if (!twin.lane.exists() || twin.at_end) continue;
         // One without a route is gone from where it was last seen.
-        if (!twin.on_route && twin.time_s < time_s - same_time_s) continue;
+        const bool gone = !twin.on_route && twin.time_s < time_s - same_time_s;
+        if (!twin.lane.exists() || twin.at_end || gone) {
+            left_out_.push_back(index);
+            continue;
+        }
         const float back_m = twin.speed_mps * static_cast<float>(twin.time_s - time_s);
         places_.push_back({twin.lane, twin.lane_position_m - std::max(0.0F, back_m), twin.key, index});
     }
-    std::ranges::sort(places_);
+    detail::sort_nearly_sorted(places_, moved_);
+    std::ranges::transform(places_, in_order_.begin(), &VehicleOnLane::index);
+    std::ranges::copy(left_out_, in_order_.begin() + static_cast<std::ptrdiff_t>(places_.size()));
 }
 
 void TwinTraffic::drive(const traffic::Observation& observation, double from_s, double to_s) {
@@ -298,13 +312,13 @@ void TwinTraffic::look_ahead(const traffic::Observation& observation, const Twin
 TwinTraffic::Neighbour TwinTraffic::next_on(const Twin& twin, std::size_t step) const {
     const bool here = step == twin.at;
     const core::LaneIndex lane = here ? twin.lane : twin.path[step].exit_lane;
-    const LanePlace after = here ? LanePlace{lane, twin.lane_position_m, twin.key, 0}
-                                 : LanePlace{lane, std::numeric_limits<float>::lowest(), {}, 0};
+    const VehicleOnLane after = here ? VehicleOnLane{lane, twin.lane_position_m, twin.key, 0}
+                                     : VehicleOnLane{lane, std::numeric_limits<float>::lowest(), {}, 0};
     auto next = std::ranges::upper_bound(places_, after);
     while (next != places_.end() && next->key == twin.key)
         ++next;
     if (next == places_.end() || next->lane != lane) return {};
-    const Twin& leader = twins_[next->twin];
+    const Twin& leader = twins_[next->index];
     const float gap_m = twin.path[step].road.start_m + next->position_m - leader.length_m - twin.travelled_m;
     return {true, leader.row, gap_m, leader.speed_mps};
 }
@@ -339,13 +353,13 @@ void TwinTraffic::change_lane(Twin& twin) const {
 }
 
 bool TwinTraffic::has_room(const Twin& twin, core::LaneIndex lane) const {
-    const LanePlace place{lane, twin.lane_position_m, twin.key, 0};
+    const VehicleOnLane place{lane, twin.lane_position_m, twin.key, 0};
     const auto next = std::ranges::upper_bound(places_, place);
     if (next != places_.end() && next->lane == lane && next->key != twin.key &&
-        next->position_m - twins_[next->twin].length_m < twin.lane_position_m + twin.driver.min_gap_m)
+        next->position_m - twins_[next->index].length_m < twin.lane_position_m + twin.driver.min_gap_m)
         return false;
     if (next == places_.begin()) return true;
-    const LanePlace& behind = *(next - 1);
+    const VehicleOnLane& behind = *(next - 1);
     return behind.lane != lane || behind.key == twin.key ||
            behind.position_m + twin.driver.min_gap_m < twin.lane_position_m - twin.length_m;
 }
@@ -402,12 +416,13 @@ TwinTraffic::Neighbour TwinTraffic::leader_of(const Twin& twin) const {
 }
 
 TwinTraffic::Neighbour TwinTraffic::follower_of(const Twin& twin) const {
-    auto place = std::ranges::lower_bound(places_, LanePlace{twin.lane, twin.lane_position_m, twin.key, 0});
+    auto place =
+        std::ranges::lower_bound(places_, VehicleOnLane{twin.lane, twin.lane_position_m, twin.key, 0});
     while (place != places_.begin()) {
         --place;
         if (place->lane != twin.lane) return {};
         if (place->key == twin.key) continue;
-        const Twin& follower = twins_[place->twin];
+        const Twin& follower = twins_[place->index];
         return {true, follower.row, twin.lane_position_m - twin.length_m - place->position_m,
                 follower.speed_mps};
     }

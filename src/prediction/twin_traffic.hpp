@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prediction/car_following_config.hpp"
+#include "prediction/detail/vehicle_on_lane.hpp"
 #include "prediction/motion_filter.hpp"
 #include "prediction/tracks.hpp"
 #include "roads/network.hpp"
@@ -121,14 +122,6 @@ class TwinTraffic {
         float lane_position_m = 0.0F;
         std::uint32_t route_edge = 0;
     };
-    /// A vehicle on a lane, at the time of a step.
-    struct LanePlace {
-        core::LaneIndex lane;
-        float position_m = 0.0F;
-        core::VehicleKey key;
-        std::uint32_t twin = 0;
-        auto operator<=>(const LanePlace&) const = default;
-    };
     /// What a twin has ahead: the largest interaction, and the least acceleration that limits demand.
     struct Ahead {
         float interaction_mps2 = 0.0F;
@@ -162,8 +155,12 @@ class TwinTraffic {
     std::vector<Twin> twins_;  ///< A twin keeps its place as long as its vehicle is observed.
     std::vector<std::uint32_t> unused_;
     std::vector<std::uint32_t> twin_of_row_, old_twin_of_row_;
-    std::vector<std::uint32_t> lagging_;  ///< Twins that have not reached the observation's time.
-    std::vector<LanePlace> places_;       ///< Sorted.
+    std::vector<std::uint32_t> lagging_;         ///< Twins that have not reached the observation's time.
+    std::vector<detail::VehicleOnLane> places_;  ///< At the time of a step, by place in `twins_`; sorted.
+    std::vector<detail::VehicleOnLane> moved_;
+    /// All twins in the order of `places_` when these were last listed, which they nearly have the next time,
+    /// too.
+    std::vector<std::uint32_t> in_order_, left_out_;
     std::vector<roads::RouteStep> walked_;
 };
 
