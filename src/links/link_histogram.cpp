@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "links/detail/sparse_bins.hpp"
+
 namespace clearway::links {
 namespace {
 
@@ -119,20 +121,10 @@ std::uint64_t LinkSummary::true_links() const {
 }
 
 void LinkSummary::add(const LinkSummary& other) {
-    std::vector<Bin> merged;
-    merged.reserve(bins.size() + other.bins.size());
-    auto one = bins.begin();
-    for (const Bin& bin : other.bins) {
-        while (one != bins.end() && one->bin < bin.bin)
-            merged.push_back(*one++);
-        merged.push_back(bin);
-        if (one == bins.end() || one->bin != bin.bin) continue;
-        merged.back().linked += one->linked;
-        merged.back().unlinked += one->unlinked;
-        ++one;
-    }
-    merged.insert(merged.end(), one, bins.end());
-    bins = std::move(merged);
+    detail::add_bins(bins, other.bins, [](Bin& sum, const Bin& bin) {
+        sum.linked += bin.linked;
+        sum.unlinked += bin.unlinked;
+    });
     for (std::size_t bin = 0; bin < calibration.size(); ++bin) {
         calibration[bin].pairs += other.calibration[bin].pairs;
         calibration[bin].linked += other.calibration[bin].linked;

@@ -91,17 +91,11 @@ class Reader {
     }
     LinkSummary summary() {
         LinkSummary summary;
-        const std::uint64_t bins = integer();
-        if (bins > LinkGrid::size) refuse(file_, fmt::format("lists {} bins", bins));
-        std::uint32_t last = 0;
-        for (std::uint64_t i = 0; i < bins; ++i) {
-            last = bin_after(last, LinkGrid::size);
-            LinkSummary::Bin& bin = summary.bins.emplace_back();
-            bin.bin = last;
-            bin.linked = integer();
-            bin.unlinked = integer();
-        }
-        if (bins == 0) return summary;
+        read_bins("links", LinkGrid::size, [&](std::uint32_t bin) {
+            const std::uint64_t linked = integer();
+            summary.bins.push_back({bin, linked, integer()});
+        });
+        if (summary.bins.empty()) return summary;
         summary.log_loss = integer();
         summary.brier = integer();
         for (LinkSummary::Calibration& bin : summary.calibration) {
@@ -120,23 +114,26 @@ class Reader {
     }
     PlaceErrors places() {
         PlaceErrors errors;
-        const std::uint64_t bins = integer();
-        if (bins > PlaceGrid::size) refuse(file_, fmt::format("lists {} bins of place errors", bins));
-        std::uint32_t last = 0;
-        for (std::uint64_t i = 0; i < bins; ++i) {
-            last = bin_after(last, PlaceGrid::size);
-            errors.bins.push_back({last, integer()});
-        }
+        read_bins("place errors", PlaceGrid::size, [&](std::uint32_t bin) {
+            errors.bins.push_back({bin, integer()});
+        });
         return errors;
     }
     bool at_end() const { return rest_.empty(); }
 
   private:
-    /// Bins are stored as the steps between them.
-    std::uint32_t bin_after(std::uint32_t last, std::uint32_t size) {
-        const std::uint64_t bin = last + integer();
-        if (bin >= size) refuse(file_, fmt::format("names bin {}", bin));
-        return static_cast<std::uint32_t>(bin);
+    /// Calls `read_counts(bin)` for each bin of a list on a grid of `size` bins. They are stored as the steps
+    /// between them.
+    template <typename ReadCounts>
+    void read_bins(std::string_view of_what, std::uint32_t size, ReadCounts&& read_counts) {
+        const std::uint64_t bins = integer();
+        if (bins > size) refuse(file_, fmt::format("lists {} bins of {}", bins, of_what));
+        std::uint64_t bin = 0;
+        for (std::uint64_t i = 0; i < bins; ++i) {
+            bin += integer();
+            if (bin >= size) refuse(file_, fmt::format("names bin {} of {}", bin, of_what));
+            read_counts(static_cast<std::uint32_t>(bin));
+        }
     }
 
     std::string_view rest_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "links/detail/sparse_bins.hpp"
+
 namespace clearway::links {
 namespace {
 
@@ -34,19 +36,7 @@ std::uint64_t PlaceErrors::vehicles() const {
 }
 
 void PlaceErrors::add(const PlaceErrors& other) {
-    std::vector<Bin> merged;
-    merged.reserve(bins.size() + other.bins.size());
-    auto one = bins.begin();
-    for (const Bin& bin : other.bins) {
-        while (one != bins.end() && one->bin < bin.bin)
-            merged.push_back(*one++);
-        merged.push_back(bin);
-        if (one == bins.end() || one->bin != bin.bin) continue;
-        merged.back().vehicles += one->vehicles;
-        ++one;
-    }
-    merged.insert(merged.end(), one, bins.end());
-    bins = std::move(merged);
+    detail::add_bins(bins, other.bins, [](Bin& sum, const Bin& bin) { sum.vehicles += bin.vehicles; });
 }
 
 void PlaceHistogram::add(double error_m) {

@@ -10,9 +10,7 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
-#include "roads/route.hpp"
-#include "scenario/prepare.hpp"
-#include "scratch.hpp"
+#include "prepared_demand.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -59,28 +57,6 @@ std::map<std::string, Row> rows_of(const std::filesystem::path& file) {
     }
     return rows;
 }
-
-class PreparedDemand : public ScratchTest {
-  protected:
-    Prepared prepared(const std::string& name, const Options& options = {}, std::uint32_t replication = 0) {
-        const ScenarioConfig config = load(name, options);
-        if (!networks_.contains(name))
-            networks_.emplace(name, build_network(config, folder() / "networks" / config.name));
-        return prepare(config, networks_.at(name), core::StudySeed{1}, core::Replication{replication},
-                       folder() / "demand" / std::to_string(++folders_));
-    }
-    const roads::Network& network(const std::string& name) const { return networks_.at(name).network; }
-    double length_m(const std::string& name, const std::vector<std::string>& edges) const {
-        std::vector<core::EdgeIndex> route;
-        for (const std::string& id : edges)
-            route.push_back(network(name).find_edge(id).value());
-        return roads::route_length(network(name), route).value;
-    }
-
-  private:
-    std::map<std::string, BuiltNetwork> networks_;
-    int folders_ = 0;
-};
 
 TEST_F(PreparedDemand, counts_are_those_asked_for) {
     const Prepared merge = prepared("merge");
@@ -325,149 +301,6 @@ TEST_F(PreparedDemand, thinning_measured_demand_keeps_who_is_automated) {
     EXPECT_NEAR(static_cast<double>(thinned.size()) / static_cast<double>(all.size()), 0.5, 0.03);
     for (const auto& [id, row] : thinned)
         EXPECT_EQ(all.at(id).type, row.type);
-}
-
-class CustomDemand : public PreparedDemand {
-  protected:
-    void SetUp() override {
-        PreparedDemand::SetUp();
-        write("line.nod.xml", line_nodes);
-        write("line.edg.xml", line_edges);
-    }
-    std::vector<core::Problem> problems(const std::string& rest) {
-        const std::string file = write("scenario.toml", line_head + rest).string();
-        return problems_of([&] { prepared(file); });
-    }
-};
-
-TEST_F(CustomDemand, unknown_edge_is_named_with_its_line_and_the_nearest) {
-    const auto found = problems("[[flow]]\nfrom = \"frist\"\nto = \"second\"\n");
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].where, HasSubstr("scenario.toml:7:1: flow[0].from"));
-    EXPECT_THAT(found[0].what, HasSubstr("no edge \"frist\""));
-    EXPECT_THAT(found[0].cure, HasSubstr("first"));
-}
-
-TEST_F(CustomDemand, unreachable_destination_is_named) {
-    const auto found = problems("[[flow]]\nfrom = \"second\"\nto = \"first\"\n");
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].where, HasSubstr("scenario.toml:8:1: flow[0].to"));
-    EXPECT_THAT(found[0].what, HasSubstr("no car can reach \"first\" from \"second\""));
-}
-
-TEST_F(CustomDemand, every_bad_flow_is_reported) {
-    EXPECT_EQ(problems("[[flow]]\nfrom = \"x\"\nto = \"y\"\nshare = 0.5\n"
-                       "[[flow]]\nfrom = \"second\"\nto = \"side\"\nshare = 0.5\n")
-                  .size(),
-              3U);
-}
-
-TEST_F(CustomDemand, emergency_trip_takes_its_own_route_and_departure) {
-    const std::string file =
-        write("scenario.toml",
-              std::string(line_head) +
-                  "[[flow]]\nfrom = \"first\"\nto = \"second\"\n[[emergency_trip]]\nfrom = \"side\"\n"
-                  "to = \"second\"\ndepart_s = 75.5\nkind = \"fire_engine\"\n")
-            .string();
-    const Prepared demand = prepared(file);
-    ASSERT_EQ(demand.emergency.size(), 1U);
-    EXPECT_EQ(demand.emergency[0].edges, (std::vector<std::string>{"side", "second"}));
-    EXPECT_EQ(demand.emergency[0].depart.value, 75.5);
-    EXPECT_EQ(demand.emergency[0].type, "emergency_fire_engine");
-}
-
-TEST_F(CustomDemand, trips_longer_than_the_network_are_refused) {
-    init(folder() / "far", "city");
-    const std::filesystem::path file = folder() / "far" / "scenario.toml";
-    std::string text = core::read_file(file);
-    const std::string from = "emergency_minimum_length_m = 1000.0";
-    core::write_atomically(
-        file, text.replace(text.find(from), from.size(), "emergency_minimum_length_m = 900000.0"));
-    const auto found = problems_of([&] { prepared(file.string()); });
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].where, HasSubstr("trips.emergency_minimum_length_m"));
-}
-
-TEST_F(CustomDemand, measured_types_must_be_listed) {
-    write("measured.rou.xml",
-          "<routes><vehicle id=\"a\" type=\"lorry\" depart=\"0\"><route edges=\"first second\"/></vehicle>"
-          "<vehicle id=\"b\" type=\"known\" depart=\"1\"><route edges=\"first third\"/></vehicle></routes>");
-    const auto found =
-        problems("[measured]\nroutes = [\"measured.rou.xml\"]\n[[measured.type]]\nid = \"known\"\n");
-    ASSERT_EQ(found.size(), 2U);
-    EXPECT_THAT(found[0].what, HasSubstr("type \"lorry\" is not listed"));
-    EXPECT_THAT(found[1].what, HasSubstr("no edge \"third\""));
-}
-
-TEST_F(CustomDemand, measured_persons_go_by_departure_within_the_window_under_ids_of_their_own) {
-    write("cars.rou.xml",
-          "<routes><vehicle id=\"person.b\" type=\"car\" depart=\"0\"><route edges=\"first "
-          "second\"/></vehicle></routes>");
-    write("walkers.rou.xml",
-          "<routes><vType id=\"car\" vClass=\"pedestrian\"/>"
-          "<person id=\"b\" type=\"car\" depart=\"9.5\"><walk edges=\"first side\"/></person>"
-          "<person id=\"a\" type=\"car\" depart=\"2\"><walk edges=\"first\"/><stop edge=\"first\" "
-          "duration=\"1\"/></person>"
-          "<person id=\"late\" type=\"car\" depart=\"99\"><walk edges=\"first\"/></person></routes>");
-    const std::string measured =
-        "[time]\nwindow_s = 10.0\nwarm_up_s = 0.0\n[measured]\n"
-        "routes = [\"cars.rou.xml\"]\n[[measured.type]]\nid = \"car\"\n";
-    const auto made = [&](const std::string& text) {
-        return prepared(write("scenario.toml", line_head + text).string());
-    };
-    const Prepared alone = made(measured);
-    std::string walked = measured;
-    walked.insert(walked.find("[[measured.type]]"), "persons = [\"walkers.rou.xml\"]\n");
-    const Prepared among = made(walked);
-    EXPECT_EQ(alone.route_files.size(), 1U);
-    ASSERT_EQ(among.route_files.size(), 2U);
-    EXPECT_EQ(core::read_file(among.route_files[0]), core::read_file(alone.route_files[0]));
-    EXPECT_NE(among.demand_hash, alone.demand_hash);
-    const std::string text = core::read_file(among.route_files[1]);
-    EXPECT_THAT(text, HasSubstr("<vType id=\"person.car\" vClass=\"pedestrian\""));
-    const std::size_t first = text.find("<person id=\"person.a\" type=\"person.car\" depart=\"2\"");
-    EXPECT_LT(first, text.find("<person id=\"person.person.b\" type=\"person.car\" depart=\"9.5\""));
-    EXPECT_EQ(text.find("late"), std::string::npos);
-}
-
-TEST_F(CustomDemand, measured_persons_who_cannot_walk_are_refused_together) {
-    write("cars.rou.xml",
-          "<routes><vehicle id=\"c\" type=\"car\" depart=\"0\"><route edges=\"first "
-          "second\"/></vehicle></routes>");
-    const auto person = [](const std::string& id, const std::string& plan, const std::string& rest) {
-        return "<person id=\"" + id + "\" type=\"" + rest + ">" + plan + "</person>";
-    };
-    const std::string walk = "<walk edges=\"first\"/>";
-    const std::string now = "t\" depart=\"0\"";
-    write("walkers.rou.xml",
-          "<routes><vType id=\"t\" vClass=\"pedestrian\"/>" + person("a", walk, "t\" depart=\"soon\"") +
-              person("b", walk, now) + person("b", walk, now) + person("c", walk, "x\" depart=\"0\"") +
-              person("d", "<ride lines=\"x\"/>" + walk, now) + person("e", "<walk from=\"first\"/>", now) +
-              person("f", "<walk edges=\"third\"/>", now) +
-              person("g", "<walk edges=\"first side second first\"/>", now) + person("h", "", now) +
-              "<personFlow id=\"i\"/></routes>");
-    const auto found = problems(
-        "[measured]\nroutes = [\"cars.rou.xml\"]\npersons = [\"walkers.rou.xml\"]\n"
-        "[[measured.type]]\nid = \"car\"\n");
-    std::string text;
-    for (const core::Problem& problem : found)
-        text += problem.where.substr(problem.where.rfind(": ") + 2) + " " + problem.what + "\n";
-    EXPECT_EQ(text,
-              "person \"a\" depart is \"soon\"\nperson \"b\" occurs twice\n"
-              "person \"c\" type \"x\" is not defined\nperson \"d\" has a <ride>\n"
-              "person \"e\" has a walk without edges\n"
-              "person \"f\" the network has no edge \"third\"\n"
-              "person \"g\" its walk has a gap: nobody gets from edge \"side\" to \"second\" on foot\n"
-              "person \"h\" does not walk\npersonFlow \"i\" is a <personFlow>\n");
-}
-
-TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {
-    const ScenarioConfig config = load("merge");
-    const BuiltNetwork network = build_network(config, folder() / "merge");
-    const auto found = problems_of(
-        [&] { prepare(config, network, core::StudySeed{1}, core::Replication{0}, folder() / "a,b"); });
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].what, HasSubstr("comma"));
 }
 
 /// The independent judge of what is written: SUMO itself.
