@@ -15,6 +15,7 @@
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/dataset_job.hpp"
+#include "prediction/repair_net.hpp"
 #include "samples/dataset_plan.hpp"
 #include "scenario/network.hpp"
 
@@ -79,6 +80,16 @@ void print_files(const std::vector<std::string>& lines, Printing printing) {
     fmt::print("{}\n", nlohmann::json({{"files", std::move(files)}}).dump(2));
 }
 
+/// Data for nets and trees that take the radius as an input: only such as their trainings take.
+void check_link_radius(const experiment::DatasetJob& job) {
+    if (job.dataset != experiment::DatasetKind::repair) return;
+    if (prediction::repair_radii.contains(job.link_radius_m)) return;
+    throw core::InputError({"--link-radius", fmt::format("{} m with --net graphsage", job.link_radius_m),
+                            fmt::format("{}, which `train graphsage` and `train gradient_boosting` take",
+                                        text(prediction::repair_radii)),
+                            ""});
+}
+
 core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     const bool many = arguments.job.dataset != experiment::DatasetKind::published;
     if (many && arguments.job.failures.empty()) arguments.job.failures = {"B10"};
@@ -87,6 +98,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
                                 "1, or --samples", "The published data set is a single snapshot"});
     }
     check_failures(arguments.job.failures);
+    check_link_radius(arguments.job);
     apply_policies(arguments.settings, arguments.job);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
     arguments.job.output = arguments.folder;

@@ -54,6 +54,11 @@ std::string number_text(const std::string& option, const std::string& text) {
     return core::setting_text(text);
 }
 
+bool is_predictor(const std::string& name) {
+    const std::vector<std::string> names = prediction::predictor_names();
+    return std::ranges::find(names, name) != names.end();
+}
+
 links::LinkPredictor& predictor_named(const std::string& option, const std::string& name,
                                       std::vector<links::LinkPredictor>& predictors) {
     const auto found = std::ranges::find(predictors, name, &links::LinkPredictor::name);
@@ -61,12 +66,36 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
     std::vector<std::string> names;
     for (const links::LinkPredictor& predictor : predictors)
         names.push_back(predictor.name);
+    if (is_predictor(name))
+        throw core::InputError({option, fmt::format("`{}` is not among the predictors to be judged", name),
+                                core::listed(names), "Name it after --predictor"});
     throw core::InputError(unknown_name(option, name, names));
+}
+
+bool is_trained_for(const std::string& predictor, double link_radius_m) {
+    try {
+        prediction::check_link_radius(predictor, "", link_radius_m);
+        return true;
+    } catch (const core::InputError&) {
+        return false;
+    }
+}
+
+/// All predictors but those whose models were trained for other links, which are named on standard error.
+std::vector<std::string> predictors_for(double link_radius_m) {
+    std::vector<std::string> names, left_out;
+    for (const std::string& name : prediction::predictor_names())
+        (is_trained_for(name, link_radius_m) ? names : left_out).push_back(name);
+    if (!left_out.empty())
+        fmt::print(stderr, "clearway: left out, not trained for links below {} m: {}\n", link_radius_m,
+                   fmt::join(left_out, ", "));
+    return names;
 }
 
 /// Those that are judged where the user names none.
 std::vector<std::string> usual_predictors(const Arguments& arguments, const links::LinkBenchmark& benchmark) {
-    if (arguments.benchmark.empty()) return prediction::predictor_names();
+    if (!arguments.predictors.empty()) return {};
+    if (arguments.benchmark.empty()) return predictors_for(benchmark.links.link_radius_m);
     if (!benchmark.predictors.empty()) return benchmark.predictors;
     std::vector<std::string> names = links::benchmark_predictors();
     for (const links::ComparedPair& pair : benchmark.comparisons)
@@ -91,13 +120,17 @@ std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments,
             for (links::LinkPredictor& predictor : predictors)
                 predictor.settings[target] = value;
         } else {
-            predictor_named("--set", target.substr(0, dot), predictors).settings[target.substr(dot + 1)] =
-                value;
+            core::Settings& own = predictor_named("--set", target.substr(0, dot), predictors).settings;
+            own[target.substr(dot + 1)] = value;
         }
     }
     for (const std::string& words : arguments.models) {
         const auto [name, file] = assignment("--model", words, "PREDICTOR=FILE");
-        predictor_named("--model", name, predictors).model_file = file;
+        std::string& model = predictor_named("--model", name, predictors).model_file;
+        if (!model.empty())
+            throw core::InputError(
+                {"--model " + name, fmt::format("{} and {}", model, file), "one file", ""});
+        model = file;
     }
     return predictors;
 }
@@ -107,7 +140,8 @@ fs::path benchmark_file(const std::string& name) {
     const auto found = shipped(fs::path("studies") / "links" / (name + ".toml"));
     if (found) return *found;
     throw core::InputError({"--benchmark", fmt::format("`{}` is neither a benchmark nor a file", name),
-                            "eval_v1, or a TOML file", "docs/reference/link-prediction.md describes both"});
+                            "eval_v1, eval_v2, or a TOML file",
+                            "docs/reference/link-prediction.md describes both"});
 }
 
 /// Keeps the benchmark's scenarios with these labels; all of them if `names` is empty.
@@ -141,7 +175,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
         links::problems_of(arguments.test, arguments.validation, "--seeds, --validation-seeds");
     if (arguments.scenarios.empty())
         problems.push_back(
-            {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v1"});
+            {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v2"});
     for (const std::string& name : arguments.scenarios) {
         try {
             scenario::ScenarioConfig config = scenario::load(name, arguments.options);
@@ -169,6 +203,21 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     return benchmark;
 }
 
+/// One problem for each predictor whose model was not trained for the plan's links.
+void check_link_radius(const links::LinkPlan& plan, std::vector<core::Problem>& problems) {
+    for (const links::LinkPredictor& predictor : plan.predictors) {
+        try {
+            prediction::check_link_radius(predictor.name, predictor.model_file,
+                                          plan.benchmark.links.link_radius_m);
+        } catch (const core::InputError& error) {
+            for (core::Problem problem : error.problems()) {
+                problem.where = fmt::format("--link-radius with predictor {}", predictor.name);
+                problems.push_back(std::move(problem));
+            }
+        }
+    }
+}
+
 /// Checks names and settings. Throws core::InputError with all problems.
 void check(const links::LinkPlan& plan) {
     std::vector<core::Problem> problems;
@@ -193,6 +242,7 @@ void check(const links::LinkPlan& plan) {
         }
     }
     if (!plan.against.empty()) check_name("--against", plan.against, present);
+    if (problems.empty()) check_link_radius(plan, problems);
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
@@ -320,7 +370,7 @@ void add_what(CLI::App& app, Arguments& arguments) {
                    "Names (clearway list), folders or TOML files; with --benchmark, names of its scenarios")
         ->option_text("SCENARIO ... [those of the benchmark]");
     app.add_option("--benchmark", arguments.benchmark,
-                   "Scenarios, seeds and failures of a benchmark: eval_v1 or a TOML file")
+                   "Scenarios, seeds and failures of a benchmark: eval_v1, eval_v2 or a TOML file")
         ->option_text("NAME|FILE [none]");
     app.add_option("--failure", arguments.failures, "Sensor failures (clearway list)")
         ->option_text("NAME ... [all]");
@@ -328,7 +378,7 @@ void add_what(CLI::App& app, Arguments& arguments) {
         ->check(CLI::IsMember({"known", "unknown", "both"}))
         ->option_text("known|unknown|both [both]");
     app.add_option("--predictor", arguments.predictors, "Predictors (clearway list)")
-        ->option_text("NAME ... [all]");
+        ->option_text("NAME ... [all, or the benchmark's]");
     app.add_option("--model", arguments.models, "Model file of a learned predictor")
         ->option_text("PREDICTOR=FILE ... [as shipped]");
     app.add_option("--set", arguments.settings, "A setting of all predictors, or of one")
@@ -373,7 +423,7 @@ Action configure_evaluate(CLI::App& app) {
     add_what(app, *arguments);
     app.add_option("--out", arguments->folder,
                    "Folder of runs and results; runs that it already holds are not repeated")
-        ->option_text("DIR [runs/eval_v1, or runs/links]");
+        ->option_text("DIR [runs/BENCHMARK, or runs/links]");
     add_jobs_option(app, arguments->jobs);
     add_json_option(app, arguments->printing, "all figures");
     add_seeds(app, *arguments);

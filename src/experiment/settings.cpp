@@ -101,6 +101,23 @@ void check_model(const ConditionSpec& condition, const std::string& where,
     }
 }
 
+void check_link_radius(const ConditionSpec& condition, const std::string& where,
+                       std::vector<core::Problem>& problems) {
+    const std::string name = std::string(loop_name) + ".link_radius_m";
+    const auto set = condition.settings.find(name);
+    const std::optional<double> radius_m =
+        set == condition.settings.end() ? LoopConfig{}.link_radius_m : core::number_from(set->second);
+    if (!radius_m) return;
+    try {
+        prediction::check_link_radius(condition.predictor, condition.model_file, *radius_m);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("{}{} with predictor {}", where, name, condition.predictor);
+            problems.push_back(std::move(problem));
+        }
+    }
+}
+
 /// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the
 /// period is long; a lease which somebody has set is not lengthened in silence.
 void check_leases(const ConditionSpec& condition, const std::string& where,
@@ -249,6 +266,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
     }
     if (problems.empty()) check_leases(condition, where, problems);
     check_model(condition, where, problems);
+    if (problems.empty()) check_link_radius(condition, where, problems);
     return problems;
 }
 

@@ -12,7 +12,8 @@
 namespace clearway::graph {
 namespace {
 
-constexpr double largest_radius_m = 1000.0;
+/// Of links, and 70 m beyond, where candidates for links are looked for.
+constexpr double largest_radius_m = 1070.0;
 /// Cells are this much wider than the radius, so that rounding never puts a near pair two cells apart.
 constexpr double cell_slack = 1.0 + 1e-6;
 
@@ -21,7 +22,7 @@ void check(const Places& places, double radius_m) {
         throw std::invalid_argument("columns of different lengths");
     }
     if (!(radius_m > 0.0 && radius_m <= largest_radius_m)) {
-        throw std::invalid_argument("radius outside (0, 1000] m");
+        throw std::invalid_argument("radius outside (0, 1070] m");
     }
 }
 

@@ -58,7 +58,7 @@ class ProximityBuilder {
     explicit ProximityBuilder(Kernel kernel = Kernel::fastest_here);
 
     /// Links allowed by `rules`. Throws std::invalid_argument for a position that is not finite, columns of
-    /// different lengths, or a radius outside (0, 1000].
+    /// different lengths, or a radius outside (0, 1070].
     void build(const Places& places, const LinkRules& rules, ProximityGraph& graph);
     /// All pairs within `radius_m`, whatever their class. Throws as `build` does.
     void build_all_pairs(const Places& places, double radius_m, ProximityGraph& graph);

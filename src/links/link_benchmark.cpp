@@ -140,8 +140,24 @@ void read_comparisons(core::StrictTable& root, LinkBenchmark& benchmark) {
     }
 }
 
+/// Each failure once, and those of `--quick` among them.
+void check_failures(core::StrictTable& root, const LinkBenchmark& benchmark) {
+    const std::vector<std::string>& all = benchmark.failures;
+    for (auto failure = all.begin(); failure != all.end(); ++failure) {
+        if (std::find(all.begin(), failure, *failure) != failure)
+            root.problem("failures", fmt::format("`{}` stands twice", *failure), "each failure once", "");
+    }
+    for (const std::string& failure : benchmark.quick.failures) {
+        if (!all.empty() && std::ranges::find(all, failure) == all.end())
+            root.problem("quick", fmt::format("`{}` is not among the benchmark's failures", failure),
+                         core::listed(all), "Name it in `failures`");
+    }
+}
+
 void read_predictors(core::StrictTable& root, LinkBenchmark& benchmark) {
     root.texts("predictors", benchmark.predictors);
+    if (root.has("predictors") && benchmark.predictors.empty())
+        root.problem("predictors", "is empty", "one predictor or more", "Or leave `predictors` out");
     for (const std::string& name : benchmark.predictors)
         check_name(root, "predictors", "predictor", name, prediction::predictor_names());
     if (benchmark.predictors.empty()) return;
@@ -198,6 +214,7 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
             reader->finish();
         }
     }
+    check_failures(root, benchmark);
     read_comparisons(root, benchmark);
     read_predictors(root, benchmark);
     if (auto reader = root.below("seeds")) {

@@ -65,8 +65,8 @@ class GradientBoosting final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_gradient_boosting(const PredictorContext& context) {
-    detail::require_repair_radius(context.rules, own_name);
-    return std::make_unique<GradientBoosting>(context, model_of(own_name, context.model_file));
+    return std::make_unique<GradientBoosting>(context,
+                                              model_of(own_name, context.model_file, context.rules.radius_m));
 }
 
 void check_gradient_boosting(const Weights& weights) {

@@ -62,8 +62,8 @@ class GraphSage final : public PairwisePredictor {
 }  // namespace
 
 std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context) {
-    detail::require_repair_radius(context.rules, "graphsage");
-    return std::make_unique<GraphSage>(context, model_of("graphsage", context.model_file));
+    return std::make_unique<GraphSage>(context,
+                                       model_of("graphsage", context.model_file, context.rules.radius_m));
 }
 void check_graphsage(const Weights& weights) {
     const RepairNet net(weights);

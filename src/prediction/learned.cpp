@@ -100,30 +100,34 @@ ConvolutionNet convolution_net(GraphConvolution convolution, const Weights& weig
 }  // namespace
 
 std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& context) {
-    return std::make_unique<GraphSageAsPublished>(context,
-                                                  model_of("graphsage_as_published", context.model_file));
+    return std::make_unique<GraphSageAsPublished>(
+        context, model_of("graphsage_as_published", context.model_file, context.rules.radius_m));
 }
 void check_graphsage_as_published(const Weights& weights) {
     const GraphSageNet net(weights, published_schema_of(weights));
 }
 std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context) {
     constexpr const char* name = "graphsage_corrected";
-    return corrected(context, name, GraphSageNet(model_of(name, context.model_file), corrected_schema()));
+    return corrected(
+        context, name,
+        GraphSageNet(model_of(name, context.model_file, context.rules.radius_m), corrected_schema()));
 }
 void check_graphsage_corrected(const Weights& weights) {
     const GraphSageNet net(weights, corrected_schema());
 }
 
 std::unique_ptr<Predictor> make_gcn(const PredictorContext& context) {
-    return corrected(context, "gcn",
-                     convolution_net(GraphConvolution::gcn, model_of("gcn", context.model_file)));
+    return corrected(
+        context, "gcn",
+        convolution_net(GraphConvolution::gcn, model_of("gcn", context.model_file, context.rules.radius_m)));
 }
 void check_gcn(const Weights& weights) {
     convolution_net(GraphConvolution::gcn, weights);
 }
 std::unique_ptr<Predictor> make_gat(const PredictorContext& context) {
-    return corrected(context, "gat",
-                     convolution_net(GraphConvolution::gat, model_of("gat", context.model_file)));
+    return corrected(
+        context, "gat",
+        convolution_net(GraphConvolution::gat, model_of("gat", context.model_file, context.rules.radius_m)));
 }
 void check_gat(const Weights& weights) {
     convolution_net(GraphConvolution::gat, weights);

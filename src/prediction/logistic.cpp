@@ -56,7 +56,8 @@ void check_logistic(const Weights& weights) {
 }
 
 std::unique_ptr<Predictor> make_logistic(const PredictorContext& context) {
-    return std::make_unique<Logistic>(context, model_of("logistic", context.model_file));
+    return std::make_unique<Logistic>(context,
+                                      model_of("logistic", context.model_file, context.rules.radius_m));
 }
 
 }  // namespace clearway::prediction

@@ -1,5 +1,6 @@
 #include "prediction/predictor.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "prediction/model_file.hpp"
 #include "prediction/planar.hpp"
 #include "prediction/route_rule.hpp"
+#include "prediction/shipped_models.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -76,7 +78,7 @@ constexpr Registration registry[] = {
                               "logistic regression on distances, ages and speeds of a pair", check_logistic),
     registered<make_gradient_boosting>(
         "gradient_boosting", "gradient boosting",
-        "boosted trees on what graphsage is given of a pair and of both ends, without messages",
+        "boosted trees on what graphsage is given of a pair, of both ends and, summed, of their neighbours",
         check_gradient_boosting),
     registered<make_graphsage_as_published>("graphsage_as_published", "GraphSAGE, as published",
                                             "the dissertation's net on raw coordinates",
@@ -157,6 +159,13 @@ void check_model(const std::string& name, const std::string& file) {
                                     fmt::format("{}", fmt::join(learned_predictor_names(), ", ")), ""});
         registration.check_model(read_model(name, file));
     }
+}
+
+void check_link_radius(const std::string& name, const std::string& file, double radius_m) {
+    // All shipped models were trained for the usual radius, among others.
+    if (file.empty() && radius_m == RadiusRange{}.least_m) return;
+    const auto learned = learned_predictor_names();
+    if (std::ranges::find(learned, name) != learned.end()) model_of(name, file, radius_m);
 }
 
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,

@@ -24,9 +24,8 @@ struct RepairDimensions {
 inline constexpr const char* repair_architecture = "graphsage_repair";
 
 // Constants of the net; training and inference share them.
-/// Link radii that nets and trees take, m: the range that they are trained for.
-inline constexpr double least_repair_radius_m = 25.0;
-inline constexpr double most_repair_radius_m = 300.0;
+/// Link radii that trainings of nets and trees take.
+inline constexpr RadiusRange repair_radii{25.0, 300.0};
 inline constexpr float motion_step_m = 3.0F;  ///< A vehicle is moved by (this + share x reach) x output.
 inline constexpr float motion_share = 0.2F;
 inline constexpr float least_sigma_m = 0.5F;

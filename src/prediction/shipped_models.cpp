@@ -21,8 +21,10 @@ Weights shipped_model(const std::string& predictor) {
     return parse_weights(found->text, fmt::format("shipped model {}", predictor));
 }
 
-Weights model_of(const std::string& predictor, const std::string& file) {
-    return file.empty() ? shipped_model(predictor) : read_model(predictor, file);
+Weights model_of(const std::string& predictor, const std::string& file, double link_radius_m) {
+    Weights weights = file.empty() ? shipped_model(predictor) : read_model(predictor, file);
+    weights.require_link_radius(link_radius_m);
+    return weights;
 }
 
 std::vector<std::string> shipped_model_names() {

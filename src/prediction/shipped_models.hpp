@@ -12,8 +12,8 @@ namespace clearway::prediction {
 Weights shipped_model(const std::string& predictor);
 
 /// The model in `file`, or the shipped one where it is empty. Throws core::InputError as shipped_model and
-/// read_model do.
-Weights model_of(const std::string& predictor, const std::string& file);
+/// read_model do, and when it was not trained for links of this radius.
+Weights model_of(const std::string& predictor, const std::string& file, double link_radius_m);
 
 /// Names of the predictors for which the program carries a model.
 std::vector<std::string> shipped_model_names();

@@ -141,6 +141,16 @@ void refuse_twice(const Items& items, const Reader& reader) {
     }
 }
 
+RadiusRange parse_radii(std::string_view line, const Reader& reader) {
+    RadiusRange range;
+    range.least_m = parse_value(next_word(line), reader);
+    range.most_m = parse_value(next_word(line), reader);
+    if (range.least_m <= 0.0 || range.most_m < range.least_m)
+        reader.fail(fmt::format("link radii from {} to {} m", range.least_m, range.most_m),
+                    "link_radius LEAST MOST, above 0 and ascending");
+    return range;
+}
+
 /// Parses one line after the first. False at `end`.
 bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
     const std::string_view word = next_word(line);
@@ -160,6 +170,8 @@ bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
         for (std::string_view name = next_word(line); !name.empty(); name = next_word(line))
             weights.inputs.back().inputs.emplace_back(name);
         refuse_twice(weights.inputs, reader);
+    } else if (word == "link_radius") {
+        weights.link_radius = parse_radii(line, reader);
     } else if (word == "note") {
         weights.notes.emplace_back(line.empty() ? line : line.substr(1));
     } else if (word == "tensor") {
@@ -167,7 +179,7 @@ bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
         refuse_twice(weights.tensors, reader);
     } else {
         reader.fail(fmt::format("'{}' is unknown here", word),
-                    "architecture, features, dimension, inputs, note, tensor, end");
+                    "architecture, features, dimension, inputs, link_radius, note, tensor, end");
     }
     return true;
 }
@@ -177,6 +189,11 @@ std::string schema_text(const FeatureSchema& schema) {
 }
 
 }  // namespace
+
+std::string text(const RadiusRange& range) {
+    return range.least_m == range.most_m ? fmt::format("{} m", range.least_m)
+                                         : fmt::format("{} to {} m", range.least_m, range.most_m);
+}
 
 std::uint32_t Weights::dimension(std::string_view name) const {
     const auto found = std::ranges::find(dimensions, name, &Dimension::name);
@@ -232,6 +249,14 @@ void Weights::require_inputs(std::string_view kind, std::span<const NetInput> wa
                             "train it again, or use a model file of this version"});
 }
 
+void Weights::require_link_radius(double radius_m) const {
+    if (link_radius.contains(radius_m)) return;
+    throw core::InputError({source, fmt::format("links below {} m", radius_m),
+                            fmt::format("{}, for which the model was trained", text(link_radius)),
+                            "Choose another radius, a model trained for it, or predictor car_following or "
+                            "route_rule, which need no training"});
+}
+
 void Weights::require_tensors(std::size_t wanted) const {
     if (tensors.size() == wanted) return;
     throw core::InputError({source, fmt::format("{} tensors", tensors.size()),
@@ -248,6 +273,8 @@ std::string format_weights(const Weights& weights) {
     for (const InputNames& names : weights.inputs) {
         text += fmt::format("inputs {} {}\n", names.name, fmt::join(names.inputs, " "));
     }
+    if (weights.link_radius != RadiusRange{})
+        text += fmt::format("link_radius {} {}\n", weights.link_radius.least_m, weights.link_radius.most_m);
     for (const std::string& note : weights.notes) {
         assert(note.find('\n') == std::string::npos);
         text += fmt::format("note {}\n", note);

@@ -42,6 +42,16 @@ struct InputNames {
     bool operator==(const InputNames&) const = default;
 };
 
+/// Link radii for which a model was trained, m.
+struct RadiusRange {
+    double least_m = 50.0;
+    double most_m = 50.0;
+    bool contains(double radius_m) const { return radius_m >= least_m && radius_m <= most_m; }
+    bool operator==(const RadiusRange&) const = default;
+};
+/// `50 m`, or `25 to 300 m`.
+std::string text(const RadiusRange& range);
+
 /// A trained net as a file: what it is, for which inputs, and its tensors under PyTorch Geometric's names
 /// (`graphsage.conv1.lin_l.weight` ... `nn.fc2.bias`). The text format `clearway-weights 1`, one item per
 /// line:
@@ -51,6 +61,7 @@ struct InputNames {
 ///     features corrected 1 5
 ///     dimension input 5
 ///     inputs node cos_x sin_x cos_y sin_y freshness     (may be absent)
+///     link_radius 25 300                                (m; without it 50 50)
 ///     note trained on merge, intersection and city, seeds 1 to 8
 ///     tensor graphsage.conv1.lin_l.weight 10 5
 ///     0.1 -0.25 ...            (one line for each row of a matrix, one line for a vector)
@@ -63,6 +74,7 @@ struct Weights {
     FeatureSchema features;
     std::vector<Dimension> dimensions;
     std::vector<InputNames> inputs;  ///< Files written before names were kept have none.
+    RadiusRange link_radius;
     std::vector<std::string> notes;  ///< Where the net comes from; one line each, without line breaks.
     std::vector<Tensor> tensors;
 
@@ -78,6 +90,9 @@ struct Weights {
     /// Throws core::InputError, naming the first input that differs, when the file names other inputs of this
     /// kind, or the same in another order. Passes files without names.
     void require_inputs(std::string_view kind, std::span<const NetInput> wanted) const;
+
+    /// Throws core::InputError when the model was not trained for links of this radius.
+    void require_link_radius(double radius_m) const;
 
     /// Throws core::InputError when there are more or fewer tensors: one that no layer reads means another
     /// net.

@@ -184,6 +184,7 @@ CorrectedResult train_corrected(const std::vector<GraphSampleFile>& files, const
     check_origins(files);
     CorrectedResult result;
     result.convolution = config.convolution;
+    result.link_radius_m = files.front().origin.link_radius_m;
     result.seeds =
         detail::split_files(files, {config.training.seed, config.validation_share, config.test_share});
 

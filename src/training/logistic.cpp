@@ -201,6 +201,7 @@ void measure(const Parameters& parameters, const std::vector<PairSampleFile>& fi
 LogisticResult train_logistic(const std::vector<PairSampleFile>& files, const LogisticConfig& config) {
     require_one_radius(files);
     LogisticResult result;
+    result.link_radius_m = files.front().origin.link_radius_m;
     result.seeds = detail::split_files(
         files, {.seed = config.seed, .validation = config.validation_share, .test = config.test_share});
 
@@ -246,6 +247,7 @@ void write_outputs(const std::filesystem::path& folder, const LogisticResult& re
     prediction::Weights weights;
     weights.architecture = prediction::logistic_architecture;
     weights.features = prediction::pair_feature_schema();
+    weights.link_radius = {result.link_radius_m, result.link_radius_m};
     weights.notes.push_back(fmt::format("trained by clearway train, logistic, seed {}, data {}",
                                         summary["configuration"]["seed"].get<std::uint64_t>(),
                                         summary["data_hash"].get<std::string>()));

@@ -55,6 +55,7 @@ struct LogisticResult {
     SeedSplit seeds;
     std::uint64_t train_pairs = 0;
     double threshold = 0.5;             ///< Greatest F1 on the validation seeds.
+    double link_radius_m = 50.0;        ///< Of the data.
     std::vector<LogisticGroup> groups;  ///< On the test seeds: all first, then by scenario and failure.
 };
 

@@ -37,9 +37,10 @@ std::string note_of(const Json& summary) {
 // NOLINTNEXTLINE(readability-function-size): every argument is a file or what goes into it
 void write_model(const std::filesystem::path& folder, const std::string& model, const StateDict& state,
                  const prediction::FeatureSchema& features, const TrainingConfig& config, const Json& summary,
-                 Convolution convolution = Convolution::sage) {
+                 Convolution convolution, double link_radius_m) {
     prediction::Weights weights =
         weights_from(state, features, {features.width, config.hidden, config.output}, convolution);
+    weights.link_radius = {link_radius_m, link_radius_m};
     weights.notes.push_back(note_of(summary));
     prediction::write_weights(folder / (model + ".weights"), weights);
     const std::string net = convolution == Convolution::sage ? "GraphSAGENet" : model;
@@ -170,7 +171,8 @@ void write_outputs(const std::filesystem::path& folder, const AsPublishedResult&
     if (result.state.empty()) return;
     core::write_atomically(folder / "predictions.csv", predictions_csv(result));
     write_model(folder, "graphsage_as_published", result.state,
-                as_published_schema(result.dataset.feature_count), config, summary);
+                as_published_schema(result.dataset.feature_count), config, summary, Convolution::sage,
+                prediction::RadiusRange{}.least_m);  // The data do not say which.
 }
 
 void write_outputs(const std::filesystem::path& folder, const CorrectedResult& result, const Json& summary,
@@ -180,7 +182,8 @@ void write_outputs(const std::filesystem::path& folder, const CorrectedResult& r
     core::write_atomically(folder / "metrics.csv", metrics_csv(result));
     const bool is_sage = result.convolution == Convolution::sage;
     const std::string model = is_sage ? "graphsage_corrected" : std::string(name(result.convolution));
-    write_model(folder, model, result.state, features, config, summary, result.convolution);
+    write_model(folder, model, result.state, features, config, summary, result.convolution,
+                result.link_radius_m);
 }
 
 std::string hash_of_files(const std::vector<std::filesystem::path>& files) {

@@ -103,6 +103,7 @@ void write_outputs(const std::filesystem::path& folder, const RepairTraining& re
     if (!result.groups.empty())
         core::write_atomically(folder / "metrics.csv", metrics_csv(result.groups, predictor));
     if (weights.tensors.empty()) return;
+    weights.link_radius = result.link_radius;
     weights.notes = notes_of(result, summary, round);
     prediction::write_weights(folder / (predictor + ".weights"), weights);
 }

@@ -18,12 +18,11 @@ using samples::RepairSampleFile;
 
 void check_radius(const RepairSampleFile& file, const char* model) {
     const double radius_m = file.origin.link_radius_m;
-    if (radius_m >= prediction::least_repair_radius_m && radius_m <= prediction::most_repair_radius_m) return;
+    if (prediction::repair_radii.contains(radius_m)) return;
     throw core::InputError({fmt::format("--data: {}, {}, replication {}", file.origin.scenario,
                                         file.origin.failure, file.origin.replication),
                             fmt::format("links below {} m", radius_m),
-                            fmt::format("{} to {} m, for which {} made", prediction::least_repair_radius_m,
-                                        prediction::most_repair_radius_m, model),
+                            fmt::format("{}, for which {} made", text(prediction::repair_radii), model),
                             "Record with another --link-radius"});
 }
 
@@ -96,6 +95,9 @@ void require_both_classes(const RepairSamples& samples, const char* part) {
 
 void measure(const std::vector<RepairSampleFile>& files, const ScoreFile& score, RepairTraining& result) {
     RepairScores validation, all;
+    const auto by_radius = [](const RepairSampleFile& file) { return file.origin.link_radius_m; };
+    const auto [least, most] = std::ranges::minmax_element(files, {}, by_radius);
+    result.link_radius = {by_radius(*least), by_radius(*most)};
     std::map<std::string, RepairScores> by_failure;
     std::map<std::pair<std::string, std::string>, RepairScores> by_both;
     for (const RepairSampleFile& file : files) {

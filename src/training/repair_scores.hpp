@@ -37,7 +37,8 @@ struct RepairTraining {
     std::uint64_t train_pairs = 0;
     double threshold = 0.5;  ///< Of greatest F1 on the validation seeds.
     double rule_threshold = 0.5;
-    std::vector<RepairGroup> groups;  ///< On the test seeds: all, by failure, by scenario and failure.
+    prediction::RadiusRange link_radius;  ///< Of all the data.
+    std::vector<RepairGroup> groups;      ///< On the test seeds: all, by failure, by scenario and failure.
 };
 
 /// Sums of absolute errors of displacements.

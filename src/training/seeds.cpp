@@ -15,7 +15,8 @@ SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares) {
     seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     if (seeds.size() < 3) {
         throw core::InputError(
-            {"--data", fmt::format("runs of {} seeds", seeds.size()), "3 seeds or more",
+            {"--data", fmt::format("{} seed{}", seeds.size(), seeds.size() == 1 ? "" : "s"),
+             "3 seeds or more",
              "Training, validation and test each need seeds of their own: record more replications"});
     }
     const core::KeyedRandom random(core::StudySeed{shares.seed}, core::Replication{0});

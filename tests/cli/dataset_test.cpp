@@ -97,6 +97,8 @@ TEST_F(DatasetTest, refuses_policies_and_settings_that_do_not_fit) {
     EXPECT_THAT(lossy.err, AllOf(HasSubstr("--set failure.loss_rate"), HasSubstr("--failure")));
     EXPECT_EQ(refusal({"--policy", "corridor", "--set", "loop.link_radius_m=80"}).code, 3);
     EXPECT_EQ(refusal({"--policy", "corridor", "--set", "green_wave.near_m=-1"}).code, 3);
+    EXPECT_THAT(refusal({"--net", "graphsage", "--link-radius", "10"}).err,
+                HasSubstr("--link-radius: 10 m with --net graphsage (allowed: 25 to 300 m"));
     EXPECT_EQ(refusal({"--set", "red_privilege.near_m=90"}).code, 2) << "settings of no policy";
     EXPECT_EQ(clearway({"dataset", "line", "--out", "data", "--policy", "corridor"}).code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder() / "data"));

@@ -170,6 +170,29 @@ TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refus
                 AllOf(HasSubstr("clearway links evaluate"), HasSubstr("Did you mean '--predictor'?")));
 }
 
+TEST_F(LinksTest, radii_for_which_a_model_was_not_trained_are_refused_before_anything_runs) {
+    const Ended ended =
+        clearway(evaluate({"--link-radius", "20", "--predictor", "none", "gcn", "graphsage"}));
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("--link-radius with predictor gcn: links below 20 m (allowed: 50 m"),
+                      HasSubstr("--link-radius with predictor graphsage"), HasSubstr("25 to 300 m"),
+                      HasSubstr("car_following")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    core::write_atomically(folder() / "a.weights", "no weights\n");
+    EXPECT_THAT(clearway(evaluate({"--predictor", "gcn", "--model", "gcn=a.weights", "gcn=b.weights"})).err,
+                HasSubstr("a.weights and b.weights (allowed: one file)"));
+    EXPECT_THAT(clearway(evaluate({"--predictor", "none", "--set", "gcn.link_threshold=1"})).err,
+                HasSubstr("`gcn` is not among the predictors to be judged"));
+}
+
+TEST_F(LinksTest, the_widest_radius_works_and_predictors_not_made_for_it_are_left_out_by_name) {
+    const Ended ended = clearway(evaluate({"--link-radius", "1000", "--failure", "B10", "--json"}));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("not trained for links below 1000 m: logistic, gradient_boosting"));
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("car_following"), Not(HasSubstr("graphsage"))));
+}
+
 TEST_F(LinksTest, seeds_must_suffice_and_not_overlap) {
     const auto message = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"links", "evaluate", "line", "--out", "out"};

@@ -154,6 +154,18 @@ TEST(Settings, ReachTheConfigurations) {
     EXPECT_THROW(loop_config(condition), core::InputError);
 }
 
+TEST(Settings, OfLinksMustFitTheModelOfTheirPredictor) {
+    ConditionSpec condition = corridor();
+    condition.predictor = "graphsage_corrected";
+    condition.settings["loop.link_radius_m"] = "200";
+    const std::vector<core::Problem> problems = check_settings(condition, "");
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "loop.link_radius_m with predictor graphsage_corrected");
+    EXPECT_NE(problems[0].allowed.find("50 m"), std::string::npos);
+    condition.predictor = "graphsage";
+    EXPECT_TRUE(check_settings(condition, "").empty());
+}
+
 TEST(Settings, NameAConditionAfterWhatItIs) {
     ConditionSpec condition = corridor();
     EXPECT_EQ(described_name(condition), "corridor");

@@ -79,6 +79,13 @@ TEST_F(LinkBenchmarkFile, states_candidates_and_link_rules) {
                 HasSubstr("link_radius_m"));
 }
 
+TEST_F(LinkBenchmarkFile, lists_that_are_empty_or_repeat_or_name_what_is_not_there_are_refused) {
+    EXPECT_THAT(refusal("exits = ", "predictors = []\nexits = "), HasSubstr("predictors: is empty"));
+    EXPECT_THAT(refusal("\"B10\"", "\"B10\", \"B10\""), HasSubstr("`B10` stands twice"));
+    EXPECT_THAT(refusal("[seeds]", "[quick]\nfailures = [\"S0\"]\n[seeds]"),
+                HasSubstr("`S0` is not among the benchmark's failures"));
+}
+
 /// A change makes figures that were measured on it void: then it is another benchmark.
 TEST_F(LinkBenchmarkFile, eval_v2_is_frozen_and_has_a_study_seed_of_its_own) {
     const std::filesystem::path file = CLEARWAY_SOURCE_DIR "/studies/links/eval_v2.toml";

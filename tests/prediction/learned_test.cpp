@@ -142,19 +142,34 @@ TEST(LearnedPredictors, RefuseDamagedNumbersWhenTheyOverflow) {
 
 TEST(LearnedPredictors, SayForWhichLinkRadiiTheyWereTrained) {
     const support::Scene scene(platoon);
-    for (const char* const name : {"graphsage", "gradient_boosting"}) {
-        for (const double radius_m : {25.0, 120.0, 300.0})
-            EXPECT_NO_THROW(make_predictor(name, {scene.network(), {.radius_m = radius_m}, "", {}})) << name;
-        for (const double radius_m : {24.0, 301.0}) {
+    for (const std::string& name : learned_predictor_names()) {
+        const bool has_range = name == "graphsage" || name == "gradient_boosting";
+        const std::string range = has_range ? "25 to 300 m" : "50 m";
+        for (const double radius_m : {24.0, 25.0, 50.0, 120.0, 300.0, 301.0}) {
+            const bool fits = radius_m == 50.0 || (has_range && radius_m > 24.0 && radius_m < 301.0);
             try {
+                check_link_radius(name, "", radius_m);
                 make_predictor(name, {scene.network(), {.radius_m = radius_m}, "", {}});
-                ADD_FAILURE() << name << radius_m;
+                EXPECT_TRUE(fits) << name << radius_m;
             } catch (const core::InputError& error) {
-                EXPECT_THAT(error.what(), AllOf(HasSubstr("link_radius_m"), HasSubstr("25 to 300 m"),
-                                                HasSubstr("car_following")));
+                EXPECT_FALSE(fits) << name << radius_m;
+                EXPECT_THAT(error.what(), AllOf(HasSubstr("allowed: " + range), HasSubstr("car_following")));
             }
         }
     }
+    EXPECT_NO_THROW(check_link_radius("kalman", "", 1000.0));
+}
+
+TEST(LearnedPredictors, OfOnesOwnAreHeldToTheRadiiOfTheirData) {
+    const support::TemporaryFolder folder;
+    const std::string file = (folder.path() / "own.weights").string();
+    Weights own = shipped_model("logistic");
+    own.link_radius = {80.0, 80.0};
+    write_weights(file, own);
+    EXPECT_EQ(read_weights(file).link_radius, own.link_radius);
+    EXPECT_NO_THROW(check_link_radius("logistic", file, 80.0));
+    EXPECT_THROW(check_link_radius("logistic", file, 50.0), core::InputError);
+    EXPECT_THROW(parse_weights("clearway-weights 1\nlink_radius 80 20\nend\n", "bad"), core::InputError);
 }
 
 TEST(LearnedPredictors, RefuseTensorsThatNoLayerReads) {

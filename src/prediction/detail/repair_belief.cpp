@@ -2,23 +2,11 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 #include "prediction/car_following.hpp"
 #include "prediction/kinematic.hpp"
-#include "prediction/repair_net.hpp"
 #include "prediction/route_rule.hpp"
 
 namespace clearway::prediction::detail {
-
-void require_repair_radius(const graph::LinkRules& rules, std::string_view predictor) {
-    if (rules.radius_m >= least_repair_radius_m && rules.radius_m <= most_repair_radius_m) return;
-    throw core::InputError({"link_radius_m", fmt::format("{} with predictor {}", rules.radius_m, predictor),
-                            fmt::format("{} to {} m, for which its models are trained", least_repair_radius_m,
-                                        most_repair_radius_m),
-                            "Choose predictor car_following or route_rule for other radii"});
-}
 
 bool has_left(const Scene& scene, const MotionContext& ahead) {
     if (!ahead.drives) return ahead.has_left;

@@ -1,17 +1,11 @@
 #pragma once
 
-#include <string_view>
-
-#include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
 #include "prediction/motion_context.hpp"
 
 namespace clearway::prediction::detail {
 
 // What the predictors that start from twins share.
-
-/// Throws core::InputError for a link radius that the models of `predictor` were not trained for.
-void require_repair_radius(const graph::LinkRules& rules, std::string_view predictor);
 
 /// Whether a vehicle is past the end of its route where exits are not known: its twin, or the rule where it
 /// has none. The scene has twins.

@@ -85,7 +85,7 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
                                               std::string_view what, std::string_view cure);
 
 inline constexpr const char* cure_remake =
-    "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` with "
-    "`--net graphsage`";
+    "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` and `train "
+    "gradient_boosting` with `--net graphsage`";
 
 }  // namespace clearway::samples::detail
