@@ -121,7 +121,7 @@ TEST(SplitSeeds, no_part_is_empty) {
     EXPECT_EQ(split.validation.size(), 1U);
     EXPECT_EQ(split.test.size(), 1U);
     EXPECT_THAT(message_of([] { split_seeds(seeds_upto(2), {}); }),
-                HasSubstr("runs of 2 seeds (allowed: 3 seeds or more)"));
+                HasSubstr("2 seeds (allowed: 3 seeds or more)"));
 }
 
 TEST(TrainCorrected, learns_links_of_unseen_seeds) {
