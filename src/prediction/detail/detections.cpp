@@ -39,8 +39,10 @@ void Detections::list(const Scene& scene) {
 }
 
 std::span<const Detection> Detections::of(std::uint32_t row) const {
-    const auto own = std::ranges::equal_range(all_, row, {}, &Detection::row);
-    return {own.begin(), own.end()};
+    const auto first = std::ranges::lower_bound(all_, row, {}, &Detection::row);
+    const auto last = std::ranges::find_if(
+        first, all_.end(), [row](const Detection& detection) { return detection.row != row; });
+    return {first, last};
 }
 
 float agreed_displacement_m(const MotionContext& entry, std::span<const Detection> detections,
