@@ -72,20 +72,14 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
     throw core::InputError(unknown_name(option, name, names));
 }
 
-bool is_trained_for(const std::string& predictor, double link_radius_m) {
-    try {
-        prediction::check_link_radius(predictor, "", link_radius_m);
-        return true;
-    } catch (const core::InputError&) {
-        return false;
-    }
-}
-
 /// All predictors but those whose models were trained for other links, which are named on standard error.
 std::vector<std::string> predictors_for(double link_radius_m) {
     std::vector<std::string> names, left_out;
-    for (const std::string& name : prediction::predictor_names())
-        (is_trained_for(name, link_radius_m) ? names : left_out).push_back(name);
+    for (const std::string& name : prediction::predictor_names()) {
+        std::vector<core::Problem> problems;
+        prediction::check_link_radius(name, "", link_radius_m, "", problems);
+        (problems.empty() ? names : left_out).push_back(name);
+    }
     if (!left_out.empty())
         fmt::print(stderr, "clearway: left out, not trained for links below {} m: {}\n", link_radius_m,
                    fmt::join(left_out, ", "));
@@ -120,8 +114,8 @@ std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments,
             for (links::LinkPredictor& predictor : predictors)
                 predictor.settings[target] = value;
         } else {
-            core::Settings& own = predictor_named("--set", target.substr(0, dot), predictors).settings;
-            own[target.substr(dot + 1)] = value;
+            predictor_named("--set", target.substr(0, dot), predictors).settings[target.substr(dot + 1)] =
+                value;
         }
     }
     for (const std::string& words : arguments.models) {
@@ -203,21 +197,6 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     return benchmark;
 }
 
-/// One problem for each predictor whose model was not trained for the plan's links.
-void check_link_radius(const links::LinkPlan& plan, std::vector<core::Problem>& problems) {
-    for (const links::LinkPredictor& predictor : plan.predictors) {
-        try {
-            prediction::check_link_radius(predictor.name, predictor.model_file,
-                                          plan.benchmark.links.link_radius_m);
-        } catch (const core::InputError& error) {
-            for (core::Problem problem : error.problems()) {
-                problem.where = fmt::format("--link-radius with predictor {}", predictor.name);
-                problems.push_back(std::move(problem));
-            }
-        }
-    }
-}
-
 /// Checks names and settings. Throws core::InputError with all problems.
 void check(const links::LinkPlan& plan) {
     std::vector<core::Problem> problems;
@@ -242,7 +221,12 @@ void check(const links::LinkPlan& plan) {
         }
     }
     if (!plan.against.empty()) check_name("--against", plan.against, present);
-    if (problems.empty()) check_link_radius(plan, problems);
+    const bool can_be_read = problems.empty();
+    for (const links::LinkPredictor& predictor : plan.predictors) {
+        if (can_be_read)
+            prediction::check_link_radius(predictor.name, predictor.model_file,
+                                          plan.benchmark.links.link_radius_m, "--link-radius", problems);
+    }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 

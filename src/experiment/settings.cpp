@@ -108,14 +108,8 @@ void check_link_radius(const ConditionSpec& condition, const std::string& where,
     const std::optional<double> radius_m =
         set == condition.settings.end() ? LoopConfig{}.link_radius_m : core::number_from(set->second);
     if (!radius_m) return;
-    try {
-        prediction::check_link_radius(condition.predictor, condition.model_file, *radius_m);
-    } catch (const core::InputError& error) {
-        for (core::Problem problem : error.problems()) {
-            problem.where = fmt::format("{}{} with predictor {}", where, name, condition.predictor);
-            problems.push_back(std::move(problem));
-        }
-    }
+    prediction::check_link_radius(condition.predictor, condition.model_file, *radius_m, where + name,
+                                  problems);
 }
 
 /// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the

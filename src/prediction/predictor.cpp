@@ -161,11 +161,20 @@ void check_model(const std::string& name, const std::string& file) {
     }
 }
 
-void check_link_radius(const std::string& name, const std::string& file, double radius_m) {
+void check_link_radius(const std::string& name, const std::string& file, double radius_m,
+                       const std::string& where, std::vector<core::Problem>& problems) {
     // All shipped models were trained for the usual radius, among others.
     if (file.empty() && radius_m == RadiusRange{}.least_m) return;
     const auto learned = learned_predictor_names();
-    if (std::ranges::find(learned, name) != learned.end()) model_of(name, file, radius_m);
+    if (std::ranges::find(learned, name) == learned.end()) return;
+    try {
+        model_of(name, file, radius_m);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("{} with predictor {}", where, name);
+            problems.push_back(std::move(problem));
+        }
+    }
 }
 
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,

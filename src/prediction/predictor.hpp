@@ -99,9 +99,10 @@ void check_settings(const std::string& name, const core::Settings& settings, con
 /// predictor takes none.
 void check_model(const std::string& name, const std::string& file);
 
-/// Throws core::InputError when the predictor is learned and its model, the shipped one where `file` is
-/// empty, was not trained for links of this radius.
-void check_link_radius(const std::string& name, const std::string& file, double radius_m);
+/// Appends the problems of a learned predictor whose model, the shipped one where `file` is empty, cannot be
+/// read or was not trained for links of this radius; `where` says where the radius is set.
+void check_link_radius(const std::string& name, const std::string& file, double radius_m,
+                       const std::string& where, std::vector<core::Problem>& problems);
 
 /// Throws core::InputError for an unknown name (naming the nearest), unfit settings, or an unreadable or
 /// unfit model file. `settings` win over `context.config`.
