@@ -55,7 +55,22 @@ struct Actuator::State {
     detail::Ledger ledger;
     std::map<core::VehicleKey, detail::VehicleControl> vehicles;
     std::map<core::SignalIndex, detail::SignalControl> signals;
+    std::vector<detail::LinkHistory> histories;  ///< By signal; empty where clearance is fixed.
+    std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
+
+    bool keeps_clearance() const { return config.clearance != ClearanceRule::fixed; }
+    void watch(const traffic::SignalStates& shown, core::Seconds now) {
+        if (!keeps_clearance()) return;
+        histories.resize(shown.state.size());
+        for (std::size_t row = 0; row < histories.size(); ++row)
+            histories[row].watch(shown.state[row], now);
+    }
+    std::optional<detail::SignalDuties> duties_of(core::SignalIndex index) const {
+        const auto clearance = clearances.find(index);
+        if (clearance == clearances.end() || index.value >= histories.size()) return std::nullopt;
+        return detail::SignalDuties{clearance->second, histories[index.value]};
+    }
 
     const char* check(const traffic::Lease& lease, core::Seconds now) const {
         if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return "expired_on_arrival";
@@ -99,14 +114,17 @@ struct Actuator::State {
             if (!pressed) pressed = pressed_lanes(snapshot, roster);
             return *pressed;
         };
-        const detail::SignalTiming timing{config.yellow_s,  config.all_red_s,    config.clearing_s,
-                                          config.walking_s, config.gap_wait_s,   config.hold_cap_s,
-                                          config.lockout_s, config.least_green_s};
+        const detail::SignalTiming timing{config.yellow_s,  config.all_red_s,     config.clearing_s,
+                                          config.walking_s, config.gap_wait_s,    config.hold_cap_s,
+                                          config.lockout_s, config.least_green_s, config.entry_green_s,
+                                          config.walk_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
-            signal.step({snapshot.time, shown, timing, occupied, look, self}, ledger, commands);
+            const auto duties = duties_of(index);
+            signal.step({snapshot.time, shown, timing, occupied, look, self, duties ? &*duties : nullptr},
+                        ledger, commands);
         }
     }
     void take(const traffic::Lease& lease) {
@@ -115,12 +133,14 @@ struct Actuator::State {
         } else {
             const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
             signals.try_emplace(signal, signal, network).first->second.offer(lease, ledger);
+            if (keeps_clearance())
+                clearances.try_emplace(signal, config.clearance, network.signal(signal), network);
         }
     }
 };
 
 Actuator::Actuator(const roads::Network& network, Config config)
-    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, std::nullopt})) {}
+    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, {}, {}, std::nullopt})) {}
 
 Actuator::~Actuator() = default;
 
@@ -152,6 +172,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);
+    state.watch(snapshot.signals, now);
     state.step_signals(snapshot, roster, self, commands);
     std::erase_if(state.vehicles, [&](const auto& entry) { return entry.second.is_idle(now); });
     std::erase_if(state.signals, [&](const auto& entry) { return entry.second.is_idle(now); });

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <tuple>
 
+#include "actuation/clearance_rule.hpp"
 #include "core/fields.hpp"
 #include "traffic/command.hpp"
 
@@ -18,6 +19,9 @@ struct ActuatorConfig {
     double hold_cap_s = 60.0;
     double lockout_s = 10.0;
     double least_green_s = 10.0;
+    ClearanceRule clearance = ClearanceRule::fixed;
+    double entry_green_s = 5.0;
+    double walk_s = 7.0;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
 
@@ -53,7 +57,24 @@ struct ActuatorConfig {
                   "reached the cap, also for a whole cycle (180 s at most)",
                   "assumed"},
             Field{"least_green_s", "s", &C::least_green_s, 1.0, 120.0,
-                  "No green of the background plan ends earlier while a signal recovers", "assumed"});
+                  "No green of the background plan ends earlier while a signal recovers", "assumed"},
+            Field{
+                "clearance", "", &C::clearance, 0.0, 0.0,
+                "Least yellow and red clearance of a link that loses green: `fixed` is `yellow_s` and "
+                "`all_red_s`; "
+                "with `ite` and `rilsa` they are also never shorter than in the signal's own program, or, "
+                "where "
+                "that shows none, than the formulas of the ITE or of RiLSA give for speed limit and crossing",
+                "figures of the findings are made with `fixed`"},
+            Field{
+                "entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
+                "No green ends earlier for a hold, nor before the program's own least; without effect where "
+                "`clearance` is `fixed`",
+                "NTCIP 1202 v03, preemptMinimumGreen: set by the city; 5 s assumed"},
+            Field{"walk_s", "s", &C::walk_s, 0.0, 60.0,
+                  "No green for people on foot ends earlier for a hold; without effect where `clearance` is "
+                  "`fixed`",
+                  "MUTCD 2009, 4E.06: 7 s, 4 s at the least"});
     }
 };
 

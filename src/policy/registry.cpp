@@ -2,10 +2,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "policy/check_in_out.hpp"
 #include "policy/clear_lane.hpp"
 #include "policy/corridor.hpp"
 #include "policy/dissertation.hpp"
 #include "policy/green_wave.hpp"
+#include "policy/line_of_sight.hpp"
 #include "policy/listing_5_5.hpp"
 #include "policy/policy.hpp"
 #include "policy/preempt_signals.hpp"
@@ -68,6 +70,10 @@ const std::vector<PolicyEntry>& policies() {
                               {"preempt_signals", "recover_signals", "clear_lane"}),
         entry<GreenWave, GreenWaveConfig>(
             "green_wave", "Opponent: green at every signal on the route, planned once by arrival times"),
+        entry<CheckInOut, CheckInOutConfig>(
+            "check_in_out", "Opponent: a detector before the stop line calls green, one behind it releases"),
+        entry<LineOfSight, LineOfSightConfig>(
+            "line_of_sight", "Opponent: an optical emitter calls green while the signal is in its beam"),
         entry<RedPrivilege, RedPrivilegeConfig>(
             "red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding"),
     };

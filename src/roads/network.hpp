@@ -68,6 +68,11 @@ struct Connection {
 struct Phase {
     double duration_s = 0.0;
     std::string state;
+    /// Of a program that vehicles actuate, 0 where none is given: shortest duration (`minDur`), and, with
+    /// SUMO's controller NEMA, what follows the phase without being a phase (`yellow`, `red`).
+    double least_s = 0.0;
+    double yellow_s = 0.0;
+    double red_s = 0.0;
 };
 
 /// A link of a signal: one connection that it controls.

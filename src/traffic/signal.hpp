@@ -18,4 +18,13 @@ constexpr bool is_green(char letter) {
     return letter == 'G' || letter == 'g' || letter == 'o' || letter == 'O';
 }
 
+constexpr bool is_yellow(char letter) {
+    return letter == 'y' || letter == 'Y';
+}
+
+/// Neither green nor yellow.
+constexpr bool is_red(char letter) {
+    return !is_green(letter) && !is_yellow(letter);
+}
+
 }  // namespace clearway::traffic

@@ -220,6 +220,26 @@ TEST_F(NetworkTest, ProgramsOfAdditionalFilesReplaceThoseOfTheNetwork) {
     EXPECT_EQ(moved.signals()[0].program_id, "measured");
 }
 
+TEST_F(NetworkTest, ReadsWhatAControllerOwesItsPhases) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto programs = folder_.write("tls.add.xml", R"(<additional>
+    <tlLogic id="J" type="NEMA" programID="p">
+        <phase duration="99" minDur="5" maxDur="30" yellow="3.5" red="2" state="GGrr"/>
+        <phase duration="99" state="rrGG"/>
+    </tlLogic>
+</additional>)");
+    const auto& program = Network::read(file, {programs}).signals()[0].program;
+    EXPECT_DOUBLE_EQ(program[0].least_s, 5.0);
+    EXPECT_DOUBLE_EQ(program[0].yellow_s, 3.5);
+    EXPECT_DOUBLE_EQ(program[0].red_s, 2.0);
+    EXPECT_DOUBLE_EQ(program[1].least_s, 0.0);
+    const auto fixed = folder_.write("fixed.add.xml", R"(<additional>
+    <tlLogic id="J" type="static" programID="p"><phase duration="9" minDur="5" state="GGrr"/></tlLogic>
+</additional>)");
+    EXPECT_DOUBLE_EQ(Network::read(file, {fixed}).signals()[0].program[0].least_s, 0.0)
+        << "SUMO looks at minDur only where vehicles actuate the program";
+}
+
 TEST_F(NetworkTest, TakesAProgramWithIdleLettersAsSumoDoes) {
     const auto file = folder_.write("test.net.xml", crossing_network());
     const auto programs = folder_.write("tls.add.xml", R"(<additional>

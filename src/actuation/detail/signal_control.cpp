@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "actuation/detail/ways.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::actuation::detail {
@@ -34,12 +35,9 @@ SignalControl::SignalControl(core::SignalIndex index, const roads::Network& netw
       own_(signal_, keeps_step(index, network)) {
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
         for (const roads::SignalLink& way : signal_.links[link]) {
-            core::LaneIndex lane = way.via;
-            while (lane.exists()) {
-                inner_lanes_[link].push_back(lane);
-                const auto onward = network.connections_from(lane);
-                lane = onward.empty() ? core::LaneIndex::none() : onward.front().via;
-            }
+            if (!way.via.exists()) continue;  // a crossing for people on foot
+            const std::vector<core::LaneIndex> lanes = lanes_of_way(network, way);
+            inner_lanes_[link].insert(inner_lanes_[link].end(), lanes.begin(), lanes.end());
         }
     }
 }
@@ -117,7 +115,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
     if (in_program || links != way_.links) {
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
-        if (in_green && waits_for_gap(way.target, around)) return;
+        if (in_green && (owes_green(way.target, around) || waits_for_gap(way.target, around))) return;
         // A lease that joins or leaves does not restart the hold of one that is stuck.
         if (in_program || (!overlap(links, last_held_) && conflict(signal_, links, last_held_)))
             taken_since_ = around.now;
@@ -139,6 +137,44 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalContext
     asked_for_gap_ =
         is_pressed && (around.now - *gap_awaited_).value < around.timing.gap_wait_s - time_tolerance_s;
     return asked_for_gap_;
+}
+
+/// Whether a link that would lose green has not had the least that it is owed.
+bool SignalControl::owes_green(const std::string& target, const SignalContext& around) const {
+    if (around.duties == nullptr) return false;
+    const auto phase = green_phase(signal_, around.state);
+    const double program_s = phase ? signal_.program[*phase].least_s : 0.0;
+    return std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
+        if (link >= signal_.links.size()) return false;
+        const double least_s =
+            signal_.crossings[link] ? around.timing.walk_s : std::max(around.timing.entry_green_s, program_s);
+        return around.duties->history.green_s(link, around.now) < least_s - time_tolerance_s;
+    });
+}
+
+/// Of the present transition, s.
+double SignalControl::yellow_s(const SignalContext& around) const {
+    double longest_s = around.timing.yellow_s;
+    if (around.duties == nullptr) return longest_s;
+    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+        if (traffic::is_yellow(shown_[link]))
+            longest_s = std::max(longest_s, around.duties->clearance.yellow_s(link));
+    }
+    return longest_s;
+}
+
+/// Whether a link that will be red has not been red for long enough before one that gets green.
+bool SignalControl::owes_red(const SignalContext& around) const {
+    if (around.duties == nullptr) return false;
+    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+        if (traffic::is_green(way_.target[link])) continue;
+        const double red_s = around.duties->history.red_s(link, around.now) + time_tolerance_s;
+        const bool owes = std::ranges::any_of(way_.gaining, [&](std::uint16_t other) {
+            return other < inner_lanes_.size() && red_s < around.duties->clearance.red_s(link, other);
+        });
+        if (owes) return true;
+    }
+    return false;
 }
 
 /// Another program may have been switched on, or one that is in no file that was read.
@@ -250,7 +286,7 @@ bool SignalControl::is_left_by_pedestrians(const SignalContext& around) const {
 /// wait longer for vehicles than vehicles do.
 bool SignalControl::may_open(const SignalContext& around) const {
     const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
-    if (red_s < 0.0) return false;
+    if (red_s < 0.0 || owes_red(around)) return false;
     Links walking;
     std::ranges::copy_if(way_.gaining, std::back_inserter(walking), [&](std::uint16_t link) {
         return link < signal_.crossings.size() && signal_.crossings[link];
@@ -264,7 +300,7 @@ void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Co
     const auto is_over = [&](double duration_s) {
         return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
     };
-    if (stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
+    if (stage_ == Stage::yellow && is_over(yellow_s(around))) {
         const std::string red = all_red_state(shown_, way_.target);
         const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target) ||
                             !is_left_by_pedestrians(around);

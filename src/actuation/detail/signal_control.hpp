@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "actuation/detail/background_plan.hpp"
+#include "actuation/detail/clearance.hpp"
 #include "actuation/detail/lease_queue.hpp"
+#include "actuation/detail/link_history.hpp"
 #include "actuation/detail/signal_states.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
@@ -25,6 +27,14 @@ struct SignalTiming {
     double hold_cap_s;
     double lockout_s;
     double least_green_s;
+    double entry_green_s;
+    double walk_s;
+};
+
+/// What a signal owes its links beyond SignalTiming, when clearance follows its own program.
+struct SignalDuties {
+    const Clearance& clearance;
+    const LinkHistory& history;
 };
 
 /// Lanes, ascending.
@@ -41,6 +51,7 @@ struct SignalContext {
     const std::function<const Lanes&()>& pressed;
     /// Tells whether pedestrians are on crossings, and which program runs.
     const truth::SelfKnowledge& self;
+    const SignalDuties* duties = nullptr;  ///< None: `timing` is all.
 };
 
 /// The leases of one signal, and its transitions between the background plan and their holds.
@@ -53,6 +64,10 @@ struct SignalContext {
 /// then is unknown. If the request changes during a transition, the transition starts again from what is
 /// shown now. A stage ends at a simulated step, so it is never shorter than configured. A green ends when no
 /// vehicle on it could only just stop, or after a short wait.
+///
+/// Where there are duties, no green ends before its least time, a yellow lasts as long as the slowest of the
+/// links that lose green needs, and a link opens only when every link that conflicts with it has been red for
+/// as long as both together need.
 ///
 /// While the background plan runs, an AdjustGreen lease ends a green that serves none of its links once that
 /// has lasted its least time: the program goes on to its next phase, through its own yellow. Afterwards a
@@ -98,6 +113,9 @@ class SignalControl {
     bool is_left_by_pedestrians(const SignalContext& around) const;
     bool may_open(const SignalContext& around) const;
     bool waits_for_gap(const std::string& target, const SignalContext& around);
+    bool owes_green(const std::string& target, const SignalContext& around) const;
+    double yellow_s(const SignalContext& around) const;
+    bool owes_red(const SignalContext& around) const;
     bool knows_program(const SignalContext& around) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);

@@ -7,10 +7,6 @@
 namespace clearway::actuation::detail {
 namespace {
 
-bool is_yellow(char letter) {
-    return letter == 'y' || letter == 'Y';
-}
-
 bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
     return signal.foes[left][right] || signal.foes[right][left];
 }
@@ -67,7 +63,7 @@ std::string yellow_state(const roads::Signal& signal, const std::string& shown, 
     for (std::size_t link = 0; link < shown.size(); ++link) {
         if (link < signal.crossings.size() && signal.crossings[link]) continue;
         const bool loses = traffic::is_green(shown[link]) && !traffic::is_green(target[link]);
-        if (loses || is_yellow(shown[link])) state[link] = 'y';
+        if (loses || traffic::is_yellow(shown[link])) state[link] = 'y';
     }
     return state;
 }
@@ -82,7 +78,7 @@ std::string all_red_state(const std::string& shown, const std::string& target) {
 
 bool needs_yellow(const std::string& shown, const std::string& target) {
     for (std::size_t link = 0; link < shown.size(); ++link) {
-        if (is_yellow(shown[link])) return true;
+        if (traffic::is_yellow(shown[link])) return true;
         if (traffic::is_green(shown[link]) && !traffic::is_green(target[link])) return true;
     }
     return false;
@@ -117,7 +113,7 @@ bool serves_any(const std::string& state, const Links& links) {
 
 std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state) {
     const bool is_green_phase =
-        std::ranges::any_of(state, traffic::is_green) && std::ranges::none_of(state, is_yellow);
+        std::ranges::any_of(state, traffic::is_green) && std::ranges::none_of(state, traffic::is_yellow);
     if (!is_green_phase || std::ranges::count(signal.program, state, &roads::Phase::state) != 1)
         return std::nullopt;
     const auto shown = std::ranges::find(signal.program, state, &roads::Phase::state);

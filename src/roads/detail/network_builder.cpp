@@ -225,7 +225,13 @@ void NetworkBuilder::read_program(const core::XmlAttributes& attributes) {
 }
 
 void NetworkBuilder::read_phase(const core::XmlAttributes& attributes) {
-    phases_.push_back({number(attributes, "duration", 0, any), text(attributes, "state")});
+    Phase read{.duration_s = number(attributes, "duration", 0, any), .state = text(attributes, "state")};
+    if (!is_fixed_time_) {
+        read.least_s = number_or(attributes, "minDur", 0, any, 0.0);
+        read.yellow_s = number_or(attributes, "yellow", 0, any, 0.0);
+        read.red_s = number_or(attributes, "red", 0, any, 0.0);
+    }
+    phases_.push_back(std::move(read));
     const Phase& phase = phases_.back();
     if (phase.state.size() != phases_.front().state.size()) {
         add_problem(fmt::format("state=\"{}\"", phase.state),

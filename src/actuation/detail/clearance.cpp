@@ -1,0 +1,165 @@
+#include "actuation/detail/clearance.hpp"
+
+#include <algorithm>
+
+#include "actuation/detail/ways.hpp"
+#include "traffic/signal.hpp"
+
+namespace clearway::actuation::detail {
+namespace {
+
+constexpr double kmh_per_mps = 3.6;
+
+bool is_green_in(const roads::Phase& phase, std::size_t link) {
+    return link < phase.state.size() && traffic::is_green(phase.state[link]);
+}
+
+bool is_yellow_in(const roads::Phase& phase, std::size_t link) {
+    return link < phase.state.size() && traffic::is_yellow(phase.state[link]);
+}
+
+/// A program, read round and round from one of its phases.
+class Cycle {
+  public:
+    Cycle(const std::vector<roads::Phase>& program, std::size_t start) : program_(program), at_(start) {}
+    const roads::Phase& phase() const { return program_[at_ % program_.size()]; }
+    double advance() { return program_[at_++ % program_.size()].duration_s; }
+
+  private:
+    const std::vector<roads::Phase>& program_;
+    std::size_t at_;
+};
+
+/// Whether a link that conflicts with `link` is green in `later` and was not in `before`.
+bool foe_opens(const roads::Signal& signal, std::size_t link, const roads::Phase& before,
+               const roads::Phase& later) {
+    for (std::size_t other = 0; other < signal.links.size(); ++other) {
+        if (signal.foes[link][other] && is_green_in(later, other) && !is_green_in(before, other)) return true;
+    }
+    return false;
+}
+
+/// What follows the green of `link` in phase `row`.
+OwnClearance after_green(const roads::Signal& signal, std::size_t link, std::size_t row) {
+    const roads::Phase& green = signal.program[row];
+    Cycle cycle(signal.program, row + 1);
+    OwnClearance own{green.yellow_s, green.red_s};
+    std::size_t left = signal.program.size();
+    for (; left > 0 && is_yellow_in(cycle.phase(), link); --left)
+        own.yellow_s += cycle.advance();
+    for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
+        if (foe_opens(signal, link, green, cycle.phase())) return own;
+        own.red_s += cycle.advance();
+    }
+    own.red_s = green.red_s;  // nobody gets green before the link has it again
+    return own;
+}
+
+double overrun_s(const LeavingTraffic& leaving) {
+    return leaving.turns ? 2.0 : 3.0;
+}
+
+double turning_speed_mps(const LeavingTraffic& leaving) {
+    return leaving.turns ? 7.0 : 10.0;
+}
+
+double speed_limit_mps(const std::vector<roads::SignalLink>& ways, const roads::Network& network) {
+    double limit_mps = 0.0;
+    for (const roads::SignalLink& way : ways)
+        limit_mps = std::max<double>(limit_mps, network.lane(way.from).speed_limit_mps);
+    return limit_mps;
+}
+
+/// A link that loses green.
+struct Leaving {
+    const roads::Network& network;
+    const std::vector<roads::SignalLink>& ways;
+    bool on_foot;
+    double yellow_s;
+};
+
+/// Of the rule, for the slowest of all ways of both links.
+double least_red_s(ClearanceRule rule, const Leaving& leaving,
+                   const std::vector<roads::SignalLink>& entering) {
+    double longest_s = 0.0;
+    for (const roads::SignalLink& first : leaving.ways) {
+        const roads::Lane& inside = leaving.network.lane(lanes_of_way(leaving.network, first).front());
+        const bool is_turn = !leaving.on_foot && turns(leaving.network, first);
+        const LeavingTraffic traffic{inside.speed_limit_mps, is_turn, leaving.on_foot};
+        for (const roads::SignalLink& second : entering) {
+            const SharedArea area = shared_area(leaving.network, first, second);
+            // Whoever walks must reach the other side, not only leave the lane that is opened.
+            const double left_m =
+                leaving.on_foot ? length_of_way(leaving.network, first) : area.last_on_first_m;
+            const Crossing crossing{left_m, area.first_on_second_m};
+            longest_s = std::max(longest_s, red_of_rule_s(rule, crossing, traffic, leaving.yellow_s));
+        }
+    }
+    return longest_s;
+}
+
+}  // namespace
+
+std::vector<OwnClearance> own_clearances(const roads::Signal& signal) {
+    std::vector<OwnClearance> all(signal.links.size());
+    const std::size_t rows = signal.program.size();
+    for (std::size_t link = 0; link < signal.links.size(); ++link) {
+        bool has_red = false;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const bool ends = is_green_in(signal.program[row], link) &&
+                              !is_green_in(signal.program[(row + 1) % rows], link);
+            if (!ends) continue;
+            const OwnClearance own = after_green(signal, link, row);
+            all[link].yellow_s = std::max(all[link].yellow_s, own.yellow_s);
+            all[link].red_s = has_red ? std::min(all[link].red_s, own.red_s) : own.red_s;
+            has_red = true;
+        }
+    }
+    return all;
+}
+
+double yellow_of_rule_s(ClearanceRule rule, double speed_limit_mps) {
+    const double speed_kmh = speed_limit_mps * kmh_per_mps;
+    if (rule == ClearanceRule::rilsa) {
+        constexpr double rounding_kmh = 0.1;
+        return speed_kmh <= 50.0 + rounding_kmh ? 3.0 : speed_kmh <= 60.0 + rounding_kmh ? 4.0 : 5.0;
+    }
+    constexpr double reaction_s = 1.0;
+    constexpr double deceleration_mps2 = 3.05;
+    return std::clamp(reaction_s + speed_limit_mps / (2.0 * deceleration_mps2), 3.0, 7.0);
+}
+
+double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const LeavingTraffic& leaving,
+                     double yellow_s) {
+    if (leaving.on_foot) return crossing.leaving_m / (rule == ClearanceRule::ite ? 1.07 : 1.2);
+    if (rule == ClearanceRule::ite) {
+        constexpr double vehicle_m = 6.1;
+        return (crossing.leaving_m + vehicle_m) / std::max(leaving.speed_mps, 1.0);
+    }
+    constexpr double vehicle_m = 6.0;
+    constexpr double entering_mps = 40.0 / kmh_per_mps;
+    const double intergreen_s = overrun_s(leaving) +
+                                (crossing.leaving_m + vehicle_m) / turning_speed_mps(leaving) -
+                                crossing.entering_m / entering_mps;
+    return std::max(0.0, intergreen_s - yellow_s);
+}
+
+Clearance::Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network) {
+    const std::vector<OwnClearance> own = own_clearances(signal);
+    const std::size_t count = signal.links.size();
+    red_s_.assign(count, std::vector<double>(count, 0.0));
+    for (std::size_t link = 0; link < count; ++link) {
+        const bool on_foot = signal.crossings[link];
+        const double shown_s = own[link].yellow_s;
+        const double limit_mps = speed_limit_mps(signal.links[link], network);
+        yellow_s_.push_back(on_foot ? 0.0 : shown_s > 0.0 ? shown_s : yellow_of_rule_s(rule, limit_mps));
+        for (std::size_t other = 0; other < count; ++other) {
+            if (!signal.foes[link][other]) continue;
+            const Leaving leaving{network, signal.links[link], on_foot, yellow_s_[link]};
+            red_s_[link][other] =
+                own[link].red_s > 0.0 ? own[link].red_s : least_red_s(rule, leaving, signal.links[other]);
+        }
+    }
+}
+
+}  // namespace clearway::actuation::detail

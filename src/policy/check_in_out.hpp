@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/fields.hpp"
+#include "policy/detail/approach.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of CheckInOut.
+struct CheckInOutConfig {
+    double check_in_m = 150.0;
+    double check_out_m = 15.0;
+
+    static constexpr auto fields() {
+        using C = CheckInOutConfig;
+        using core::Field;
+        return std::make_tuple(Field{"check_in_m", "m", &C::check_in_m, 1.0, 2000.0,
+                                     "The detector that calls the signal lies this far before its stop line",
+                                     "assumed: 9 s at 60 km/h, as preempt_signals without a queue"},
+                               Field{"check_out_m", "m", &C::check_out_m, 0.0, 200.0,
+                                     "The detector that releases it lies this far behind its stop line",
+                                     "assumed: inside the junction, so that the way is still held"});
+    }
+};
+
+/// An opponent that cities own: a detector before the stop line calls the signal when an emergency vehicle
+/// passes it, and one behind releases it. Neither knows of queues or of speed. A vehicle that enters between
+/// the two calls at once.
+class CheckInOut : public Policy {
+  public:
+    explicit CheckInOut(const PolicyContext& context, CheckInOutConfig config = {});
+
+    std::string_view name() const override { return "check_in_out"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    struct Call {
+        detail::Approach approach;
+        double released_m;  ///< The vehicle's distance to the end of its route at the second detector.
+    };
+
+    PolicyContext context_;
+    CheckInOutConfig config_;
+    std::map<std::pair<core::VehicleKey, core::SignalIndex>, Call> calls_;
+};
+
+}  // namespace clearway::policy

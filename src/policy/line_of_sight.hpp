@@ -1,0 +1,45 @@
+#pragma once
+
+#include <tuple>
+
+#include "core/fields.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of LineOfSight.
+struct LineOfSightConfig {
+    double range_m = 300.0;
+    double half_angle_deg = 20.0;
+
+    static constexpr auto fields() {
+        using C = LineOfSightConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"range_m", "m", &C::range_m, 1.0, 2000.0,
+                  "The receiver at the signal sees the emitter from this distance of its stop line, as the "
+                  "crow "
+                  "flies",
+                  "assumed: receivers of infrared emitters reach 760 m at most and are set to less in towns"},
+            Field{"half_angle_deg", "deg", &C::half_angle_deg, 1.0, 90.0,
+                  "And while the stop line lies within this angle of the vehicle's heading",
+                  "assumed: the emitter's beam"});
+    }
+};
+
+/// An opponent that cities own: an optical emitter on the emergency vehicle calls a signal on its route while
+/// that lies in its beam. It knows neither speed nor queues; vehicles and buildings do not block it, and a
+/// signal beside the route does not answer.
+class LineOfSight : public Policy {
+  public:
+    explicit LineOfSight(const PolicyContext& context, LineOfSightConfig config = {});
+
+    std::string_view name() const override { return "line_of_sight"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    PolicyContext context_;
+    LineOfSightConfig config_;
+};
+
+}  // namespace clearway::policy

@@ -1,0 +1,198 @@
+#include "actuation/detail/clearance.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "actuation/detail/link_history.hpp"
+#include "actuation/detail/ways.hpp"
+#include "actuation/signal_watch.hpp"
+#include "traffic/signal.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using actuation::ClearanceRule;
+using actuation::detail::Clearance;
+
+/// Two links that conflict; the second has no yellow of its own.
+roads::Signal two_links() {
+    roads::Signal signal;
+    signal.links.resize(2);
+    signal.crossings.assign(2, false);
+    signal.foes = {{false, true}, {true, false}};
+    signal.program = {{30.0, "Gr"}, {3.0, "yr"}, {1.0, "yr"}, {2.0, "rr"}, {36.0, "rG"}, {4.0, "rr"}};
+    return signal;
+}
+
+TEST(OwnClearance, is_read_from_the_program_of_a_signal) {
+    const auto own = actuation::detail::own_clearances(two_links());
+    EXPECT_DOUBLE_EQ(own[0].yellow_s, 4.0) << "two phases of yellow";
+    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0);
+    EXPECT_DOUBLE_EQ(own[1].yellow_s, 0.0);
+    EXPECT_DOUBLE_EQ(own[1].red_s, 4.0) << "until the cycle begins again";
+}
+
+TEST(OwnClearance, of_several_greens_is_the_longest_yellow_and_the_shortest_red) {
+    roads::Signal signal = two_links();
+    signal.program = {{30.0, "Gr"}, {5.0, "yr"}, {3.0, "rr"}, {9.0, "rG"},
+                      {9.0, "Gr"},  {3.0, "yr"}, {1.0, "rr"}, {9.0, "rG"}};
+    const auto own = actuation::detail::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].yellow_s, 5.0);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 1.0);
+}
+
+TEST(OwnClearance, is_nothing_where_no_link_that_conflicts_gets_green_in_between) {
+    roads::Signal signal = two_links();
+    signal.program = {{30.0, "Gg"}, {3.0, "yg"}, {9.0, "rg"}};
+    const auto own = actuation::detail::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].yellow_s, 3.0);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 0.0);
+}
+
+TEST(ClearanceOfRule, has_the_yellow_that_the_formulas_give_for_a_speed_limit) {
+    using actuation::detail::yellow_of_rule_s;
+    EXPECT_NEAR(yellow_of_rule_s(ClearanceRule::ite, 50.0 / 3.6), 3.28, 0.005);
+    EXPECT_NEAR(yellow_of_rule_s(ClearanceRule::ite, 70.0 / 3.6), 4.19, 0.005);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::ite, 5.0), 3.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::ite, 60.0), 7.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 50.0 / 3.6), 3.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 60.0 / 3.6), 4.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 70.0 / 3.6), 5.0);
+}
+
+TEST(ClearanceOfRule, has_the_red_that_the_formulas_give_for_a_crossing) {
+    using actuation::detail::red_of_rule_s;
+    const actuation::detail::Crossing crossing{20.0, 11.0};
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::ite, crossing, {13.05, false, false}, 3.0), 2.0, 0.001);
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::rilsa, crossing, {13.9, false, false}, 3.0), 1.61, 0.001)
+        << "3 + 26 / 10 - 11 / 11.1 - 3";
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::rilsa, crossing, {13.9, true, false}, 3.0), 1.724, 0.001)
+        << "2 + 26 / 7 - 11 / 11.1 - 3";
+    EXPECT_DOUBLE_EQ(red_of_rule_s(ClearanceRule::rilsa, {0.0, 40.0}, {13.9, false, false}, 3.0), 0.0);
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::rilsa, {12.0, 0.0}, {1.0, false, true}, 0.0), 10.0, 0.001);
+}
+
+TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
+    actuation::detail::LinkHistory history;
+    history.watch("Gr", core::Seconds(0.0));
+    EXPECT_GT(history.green_s(0, core::Seconds(1.0)), 1e6) << "nobody saw it begin";
+    EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(1.0)), 0.0);
+    history.watch("yr", core::Seconds(2.0));
+    EXPECT_DOUBLE_EQ(history.green_s(0, core::Seconds(3.0)), 0.0);
+    EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(3.0)), 0.0);
+    history.watch("rG", core::Seconds(5.0));
+    history.watch("rg", core::Seconds(6.0));
+    EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(7.0)), 2.0);
+    EXPECT_DOUBLE_EQ(history.green_s(1, core::Seconds(7.0)), 2.0);
+    EXPECT_DOUBLE_EQ(history.green_s(9, core::Seconds(7.0)), 0.0) << "no such link";
+}
+
+TEST(SharedArea, of_two_ways_that_cross_begins_and_ends_where_vehicles_would_touch) {
+    const roads::Signal& signal = two_crossings().signal(signal_a);
+    const auto area = actuation::detail::shared_area(two_crossings(), signal.links[west[1]].front(),
+                                                     signal.links[north[1]].front());
+    const double whole_m = actuation::detail::length_of_way(two_crossings(), signal.links[west[1]].front());
+    EXPECT_GT(area.last_on_first_m, 3.0);
+    EXPECT_LT(area.last_on_first_m, whole_m);
+    EXPECT_GT(area.first_on_second_m, 3.0);
+    EXPECT_TRUE(actuation::detail::turns(two_crossings(), signal.links[west[3]].front()));
+    EXPECT_FALSE(actuation::detail::turns(two_crossings(), signal.links[west[1]].front()));
+}
+
+TEST(OwnClearance, of_a_controller_that_times_its_yellow_itself_is_what_its_phases_say) {
+    roads::Signal signal = two_links();
+    signal.program = {{.duration_s = 30.0, .state = "Gr", .least_s = 5.0, .yellow_s = 4.0, .red_s = 2.0},
+                      {.duration_s = 36.0, .state = "rG", .least_s = 5.0, .yellow_s = 3.0, .red_s = 1.0}};
+    const auto own = actuation::detail::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].yellow_s, 4.0);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0);
+    EXPECT_DOUBLE_EQ(own[1].yellow_s, 3.0);
+    EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
+}
+
+/// Offers holds of either side in turn, some short and some long.
+std::vector<Shown> seesaw(actuation::ActuatorConfig config) {
+    config.lockout_s = 0.0;
+    ActuationBench bench(0.25, config);
+    return watch(bench, 400.0, [](ActuationBench& b) {
+        const auto round = static_cast<int>(b.now.value / 7.0);
+        if (round % 3 == 0) b.offer(signal_a, traffic::HoldGreen{west}, 1.0);
+        if (round % 4 == 1) b.offer(signal_a, traffic::HoldGreen{north}, 1.0, 1);
+        if (round % 11 == 5) b.offer(signal_a, traffic::HoldGreen{south_straight}, 9.0, 2);
+    });
+}
+
+/// Letters of one link, run by run, with how long each lasted.
+struct Stretch {
+    char letter;
+    double from_s;
+    double to_s;
+};
+
+std::vector<Stretch> stretches_of(const std::vector<Shown>& history, std::size_t link) {
+    std::vector<Stretch> stretches;
+    for (const Shown& shown : history) {
+        const char letter = shown.state[link];
+        const char kind = traffic::is_green(letter) ? 'G' : traffic::is_yellow(letter) ? 'y' : 'r';
+        if (!stretches.empty()) stretches.back().to_s = shown.from_s;
+        if (stretches.empty() || stretches.back().letter != kind)
+            stretches.push_back({kind, shown.from_s, shown.from_s});
+    }
+    return stretches;
+}
+
+class ConformingHold : public ::testing::TestWithParam<ClearanceRule> {};
+
+TEST_P(ConformingHold, is_never_entered_or_left_faster_than_program_and_rule_allow) {
+    actuation::ActuatorConfig config;
+    config.clearance = GetParam();
+    config.yellow_s = 0.0;
+    config.all_red_s = 0.0;
+    const std::vector<Shown> history = seesaw(config);
+    const roads::Signal& signal = two_crossings().signal(signal_a);
+    const Clearance clearance(GetParam(), signal, two_crossings());
+    int yellows = 0;
+    int openings = 0;
+    for (std::uint16_t link = 0; link < signal.links.size(); ++link) {
+        for (const Stretch& run : stretches_of(history, link)) {
+            if (run.from_s == 0.0 || run.to_s == history.back().from_s) continue;
+            if (run.letter == 'y') {
+                ++yellows;
+                EXPECT_GE(run.to_s - run.from_s, 4.0 - 1e-9) << "the program's own; link " << link;
+            }
+            if (run.letter != 'G') continue;
+            EXPECT_GE(run.to_s - run.from_s, 5.0 - 1e-9) << "least green; link " << link;
+            for (std::uint16_t other = 0; other < signal.links.size(); ++other) {
+                if (!signal.foes[link][other]) continue;
+                for (const Stretch& before : stretches_of(history, other)) {
+                    if (before.letter != 'r' || before.from_s == 0.0) continue;
+                    if (before.from_s > run.from_s || before.to_s <= run.from_s) continue;
+                    ++openings;
+                    EXPECT_GE(run.from_s - before.from_s, clearance.red_s(other, link) - 1e-9)
+                        << "link " << link << " after " << other << " at " << run.from_s << " s";
+                }
+            }
+        }
+    }
+    EXPECT_GT(yellows, 20);
+    EXPECT_GT(openings, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, ConformingHold, ::testing::Values(ClearanceRule::ite, ClearanceRule::rilsa),
+                         [](const auto& rule) { return std::string(core::name(rule.param)); });
+
+TEST(ConformingHold, with_a_fixed_rule_shows_what_the_settings_say) {
+    actuation::ActuatorConfig config;
+    config.yellow_s = 2.0;
+    double shortest_s = 100.0;
+    for (const Stretch& run : stretches_of(seesaw(config), north[1])) {
+        if (run.letter == 'y') shortest_s = std::min(shortest_s, run.to_s - run.from_s);
+    }
+    EXPECT_NEAR(shortest_s, 2.0, 0.3) << "the program itself shows 4 s";
+}
+
+}  // namespace
+}  // namespace clearway::testing
