@@ -154,9 +154,10 @@ TEST_P(ConformingHold, is_never_entered_or_left_faster_than_program_and_rule_all
     const std::vector<Shown> history = seesaw(config);
     const roads::Signal& signal = two_crossings().signal(signal_a);
     const Clearance clearance(GetParam(), signal, two_crossings());
+    const auto link_count = static_cast<std::uint16_t>(signal.links.size());
     int yellows = 0;
     int openings = 0;
-    for (std::uint16_t link = 0; link < signal.links.size(); ++link) {
+    for (std::uint16_t link = 0; link < link_count; ++link) {
         for (const Stretch& run : stretches_of(history, link)) {
             if (run.from_s == 0.0 || run.to_s == history.back().from_s) continue;
             if (run.letter == 'y') {
@@ -165,7 +166,7 @@ TEST_P(ConformingHold, is_never_entered_or_left_faster_than_program_and_rule_all
             }
             if (run.letter != 'G') continue;
             EXPECT_GE(run.to_s - run.from_s, 5.0 - 1e-9) << "least green; link " << link;
-            for (std::uint16_t other = 0; other < signal.links.size(); ++other) {
+            for (std::uint16_t other = 0; other < link_count; ++other) {
                 if (!signal.foes[link][other]) continue;
                 for (const Stretch& before : stretches_of(history, other)) {
                     if (before.letter != 'r' || before.from_s == 0.0) continue;

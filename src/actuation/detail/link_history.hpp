@@ -21,7 +21,7 @@ class LinkHistory {
 
   private:
     struct Link {
-        char letter;
+        char letter = 'r';
         core::Seconds green_since;
         core::Seconds red_since;
     };

@@ -156,7 +156,7 @@ bool SignalControl::owes_green(const std::string& target, const SignalContext& a
 double SignalControl::yellow_s(const SignalContext& around) const {
     double longest_s = around.timing.yellow_s;
     if (around.duties == nullptr) return longest_s;
-    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+    for (std::uint16_t link = 0; link < link_count(); ++link) {
         if (traffic::is_yellow(shown_[link]))
             longest_s = std::max(longest_s, around.duties->clearance.yellow_s(link));
     }
@@ -166,11 +166,11 @@ double SignalControl::yellow_s(const SignalContext& around) const {
 /// Whether a link that will be red has not been red for long enough before one that gets green.
 bool SignalControl::owes_red(const SignalContext& around) const {
     if (around.duties == nullptr) return false;
-    for (std::uint16_t link = 0; link < inner_lanes_.size(); ++link) {
+    for (std::uint16_t link = 0; link < link_count(); ++link) {
         if (traffic::is_green(way_.target[link])) continue;
         const double red_s = around.duties->history.red_s(link, around.now) + time_tolerance_s;
         const bool owes = std::ranges::any_of(way_.gaining, [&](std::uint16_t other) {
-            return other < inner_lanes_.size() && red_s < around.duties->clearance.red_s(link, other);
+            return other < link_count() && red_s < around.duties->clearance.red_s(link, other);
         });
         if (owes) return true;
     }
@@ -255,8 +255,7 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
 /// them.
 template <class IsBusy>
 bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
-    const auto link_count = static_cast<std::uint16_t>(inner_lanes_.size());
-    for (std::uint16_t link = 0; link < link_count; ++link) {
+    for (std::uint16_t link = 0; link < link_count(); ++link) {
         const bool yields = shown_[link] == 'G' && way_.target[link] == 'g';
         const bool keeps = !yields && traffic::is_green(way_.target[link]);
         if (keeps || !conflict(signal_, {link}, gaining)) continue;

@@ -99,6 +99,7 @@ class SignalControl {
         std::optional<std::uint32_t> return_phase;
     };
 
+    std::uint16_t link_count() const { return static_cast<std::uint16_t>(inner_lanes_.size()); }
     Links requested(Ledger& ledger);
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
     Way plan_hold(const Links& links) const;
