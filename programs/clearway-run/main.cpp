@@ -1,9 +1,11 @@
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "loop/episodes.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
 
@@ -13,6 +15,8 @@ constexpr const char* usage =
     "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
     "  clearway-run JOB.json    do the job in a file: runs, a data set, links to evaluate, or a simulation\n"
     "                           that runs elsewhere\n"
+    "  clearway-run --episodes JOB.json MEMORY READ WRITE\n"
+    "                           serve episodes to an environment in Python, over these descriptors\n"
     "  clearway-run --version\n";
 
 int fail_usage() {
@@ -30,6 +34,9 @@ int main(int argument_count, char** arguments) {
             fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, clearway::sumo::version());
             return 0;
         }
+        if (argument_count == 6 && std::string_view(arguments[1]) == "--episodes")
+            return static_cast<int>(clearway::loop::serve_episodes(
+                arguments[2], {std::atoi(arguments[3]), std::atoi(arguments[4]), std::atoi(arguments[5])}));
         if (word.empty() || word.starts_with('-')) return fail_usage();
         return static_cast<int>(clearway::loop::work_on(word));
     } catch (const core::Error& error) {

@@ -62,6 +62,10 @@ constexpr std::array all_verbs = {
          configure_attach},
     Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
          "clearway trajectories runs/city-1a2b3c/city/corridor/0", configure_trajectories},
+    Verb{"environment", "Serve episodes to clearway.env of the Python package, which starts it",
+         "clearway environment intersection --out /tmp/env --channel 3 4 5", configure_environment},
+    Verb{"python", "Install the Python package: `import clearway`", "clearway python --venv ./venv",
+         configure_python},
     Verb{"doctor", "Check that this machine has what Clearway needs", "clearway doctor", configure_doctor},
 };
 

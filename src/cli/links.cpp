@@ -14,10 +14,10 @@
 #include "cli/detail/names.hpp"
 #include "cli/detail/programs.hpp"
 #include "cli/detail/scenario_options.hpp"
-#include "cli/detail/shipped_files.hpp"
 #include "cli/detail/worker_jobs.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
+#include "core/shipped_files.hpp"
 #include "experiment/link_job.hpp"
 #include "links/link_plan.hpp"
 #include "prediction/predictor.hpp"
@@ -131,7 +131,7 @@ std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments,
 
 fs::path benchmark_file(const std::string& name) {
     if (fs::is_regular_file(name)) return name;
-    const auto found = shipped(fs::path("studies") / "links" / (name + ".toml"));
+    const auto found = core::shipped(fs::path("studies") / "links" / (name + ".toml"));
     if (found) return *found;
     throw core::InputError({"--benchmark", fmt::format("`{}` is neither a benchmark nor a file", name),
                             "eval_v1, eval_v2, or a TOML file",

@@ -18,6 +18,7 @@
 #include "cli/detail/recorded_network.hpp"
 #include "cli/detail/replay_page.hpp"
 #include "cli/verb.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "results/run_name.hpp"
 #include "trace/failure_log.hpp"
@@ -102,6 +103,7 @@ experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const A
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
     if (arguments.policies) condition.policies = *arguments.policies;
+    experiment::resolve_parts(condition, {}, "--");
     drop_what_is_gone(info.condition, condition);
     refuse_idle_settings(arguments, condition);
     apply_settings(arguments.settings, arguments.model, condition);

@@ -53,6 +53,8 @@ Action configure_import(CLI::App& app);
 Action configure_check(CLI::App& app);
 Action configure_attach(CLI::App& app);
 Action configure_trajectories(CLI::App& app);
+Action configure_environment(CLI::App& app);
+Action configure_python(CLI::App& app);
 Action configure_doctor(CLI::App& app);
 
 }  // namespace clearway::cli

@@ -13,6 +13,7 @@
 #include "experiment/conditions.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
+#include "python/part_name.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::experiment {
@@ -275,11 +276,13 @@ std::string settings_text(const ConditionSpec& condition) {
 
 std::string described_name(const ConditionSpec& condition) {
     const ConditionSpec usual;
-    std::vector<std::string> words = condition.policies;
+    std::vector<std::string> words;
+    for (const std::string& policy : condition.policies)
+        words.push_back(python::short_name(policy));
     if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
     if (words.empty()) words.emplace_back("no_policy");
     if (condition.failure != usual.failure) words.push_back(condition.failure);
-    if (condition.predictor != usual.predictor) words.push_back(condition.predictor);
+    if (condition.predictor != usual.predictor) words.push_back(python::short_name(condition.predictor));
     if (!condition.model_file.empty())
         words.push_back(std::filesystem::path(condition.model_file).stem().string());
     if (condition.traffic_model != usual.traffic_model) words.emplace_back(name(condition.traffic_model));

@@ -24,7 +24,8 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
         condition, pipeline::ChainContext{.network = context.network,
                                           .random = context.random,
                                           .policy_period_s = context.loop.policy_period_s,
-                                          .rules = context.loop.rules()});
+                                          .rules = context.loop.rules(),
+                                          .guest = context.guest});
     actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
     actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
     if (!context.has_pedestrians) actuation.walking_s = 0.0;

@@ -13,8 +13,9 @@ struct ControllerContext {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
     drivers::SirenConfig siren;
-    double friction = 1.0;        ///< See scenario::RoadCondition.
-    bool has_pedestrians = true;  ///< Whether there may be pedestrians.
+    double friction = 1.0;          ///< See scenario::RoadCondition.
+    bool has_pedestrians = true;    ///< Whether there may be pedestrians.
+    policy::GuestMaker guest = {};  ///< See pipeline::ChainContext.
 };
 
 /// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for unknown names and

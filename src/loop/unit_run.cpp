@@ -151,7 +151,8 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
         .loop = experiment::loop_config(condition),
         .siren = config_.siren,
         .friction = config_.road.friction,
-        .has_pedestrians = config_.has_pedestrians()};
+        .has_pedestrians = config_.has_pedestrians(),
+        .guest = guest_};
     return run_condition(loop_, recorder_, condition,
                          {.context = context,
                           .layout = layout(),

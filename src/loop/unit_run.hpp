@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "experiment/run_job.hpp"
 #include "loop/condition_run.hpp"
@@ -41,10 +42,15 @@ class UnitRun {
     /// The same with a listener but without results, for recording data.
     void record(const experiment::ConditionSpec& condition, trace::StepListener& listener);
 
+    /// Lets `guest` act after the policies of the condition that runs next.
+    void invite(policy::GuestMaker guest) { guest_ = std::move(guest); }
+
     const roads::Network& network() const { return network_.network; }
     sumo::Session& session() { return *session_; }
     /// When the first emergency vehicle departs; without one, the end of the warm-up.
     core::Seconds first_emergency() const;
+    core::Seconds horizon() const { return core::Seconds(prepared_.time.horizon_s); }
+    std::size_t emergency_count() const { return prepared_.emergency.size(); }
     const std::string& scenario_hash() const { return scenario_hash_; }
     const scenario::ScenarioConfig& scenario() const { return config_; }
 
@@ -71,6 +77,7 @@ class UnitRun {
     std::unique_ptr<sumo::Session> session_;
     metrics::Recorder recorder_;
     ClosedLoop loop_;
+    policy::GuestMaker guest_;
 };
 
 }  // namespace clearway::loop

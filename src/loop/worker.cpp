@@ -22,6 +22,7 @@
 #include "loop/shown_run.hpp"
 #include "loop/unit_run.hpp"
 #include "loop/watch.hpp"
+#include "python/channel.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -57,8 +58,10 @@ results::RunError error_of(const Unit& unit, const experiment::RunKey& key,
 void store_error(const Unit& unit, const experiment::RunKey& key, const core::Error& cause,
                  const std::filesystem::path& folder) {
     results::RunError error = error_of(unit, key, folder);
-    error.cause = cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
-                                                                 : results::ErrorCause::simulator;
+    const bool is_python = dynamic_cast<const python::PartError*>(&cause) != nullptr;
+    error.cause = is_python                                        ? results::ErrorCause::other
+                  : cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
+                                                                   : results::ErrorCause::simulator;
     error.message = cause.what();
     error.exit_code = static_cast<int>(cause.exit_code());
     unit.store.write(error);

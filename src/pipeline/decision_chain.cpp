@@ -17,9 +17,10 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
                                              .rules = context.rules,
                                              .model_file = experiment::checked_model(condition)},
                                             core::settings_of(condition.settings, condition.predictor));
+    const policy::PolicyContext place{.network = context.network, .period = core::Seconds(period_s_)};
     for (const std::string& name : condition.policies)
-        policies_.push_back(policy::make_policy(
-            name, {.network = context.network, .period = core::Seconds(period_s_)}, condition.settings));
+        policies_.push_back(policy::make_policy(name, place, condition.settings));
+    if (context.guest) policies_.push_back(context.guest(place));
 }
 
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {

@@ -7,6 +7,7 @@
 
 #include "core/random.hpp"
 #include "experiment/condition.hpp"
+#include "policy/agent.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "roads/network.hpp"
@@ -24,6 +25,7 @@ struct ChainContext {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};  ///< For the sensor failures.
     double policy_period_s = 0.5;                                      ///< Time between two decisions.
     graph::LinkRules rules = {};
+    policy::GuestMaker guest = {};  ///< A policy that acts after those of the condition; may be empty.
 };
 
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its

@@ -11,6 +11,7 @@
 #include "policy/listing_5_5.hpp"
 #include "policy/policy.hpp"
 #include "policy/preempt_signals.hpp"
+#include "policy/python_policy.hpp"
 #include "policy/recover_signals.hpp"
 #include "policy/red_privilege.hpp"
 
@@ -82,6 +83,7 @@ const std::vector<PolicyEntry>& policies() {
 
 std::unique_ptr<Policy> make_policy(const std::string& name, const PolicyContext& context,
                                     const core::Settings& settings) {
+    if (python::part_name_from(name)) return std::make_unique<PythonPolicy>(context, name);
     std::vector<std::string> names;
     for (const PolicyEntry& known : policies()) {
         if (known.name == name) return known.make(context, settings);

@@ -15,8 +15,10 @@
 #include "prediction/logistic.hpp"
 #include "prediction/model_file.hpp"
 #include "prediction/planar.hpp"
+#include "prediction/python_predictor.hpp"
 #include "prediction/route_rule.hpp"
 #include "prediction/shipped_models.hpp"
+#include "python/part_name.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -127,6 +129,7 @@ std::vector<std::string> predictor_names() {
 }
 
 std::string title_of(const std::string& name) {
+    if (python::part_name_from(name)) return python::short_name(name) + " (Python)";
     return registration_of(name).title;
 }
 
@@ -179,6 +182,7 @@ void check_link_radius(const std::string& name, const std::string& file, double 
 
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
                                           const core::Settings& settings) {
+    if (python::part_name_from(name)) return make_python_predictor(context, name);
     return registration_of(name).make(context, settings);
 }
 

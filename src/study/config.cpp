@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/strict_table.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "metrics/run_metrics.hpp"
@@ -283,6 +284,19 @@ void vary_conditions(const detail::Factors& factors, Problems& problems, StudyCo
     config.conditions = std::move(varied);
 }
 
+/// Files in Python are relative to the study file.
+void resolve_parts(TomlReading& reading, StudyConfig& config) {
+    const std::filesystem::path file(reading.file);
+    for (experiment::ConditionSpec& condition : config.conditions) {
+        try {
+            experiment::resolve_parts(condition, file.parent_path(),
+                                      fmt::format("{}: condition {}: ", reading.file, condition.name));
+        } catch (const core::InputError& error) {
+            append(reading.problems, error);
+        }
+    }
+}
+
 std::vector<std::string> metric_names() {
     std::vector<std::string> names;
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) { names.emplace_back(field.name); });
@@ -396,6 +410,7 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     read_conditions(root, reading, config);
     read_quick(root, extent, config);
     vary_conditions(factors, reading.problems, config);
+    resolve_parts(reading, config);
     root.finish();
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;

@@ -1,6 +1,8 @@
-// What every registered policy must do, whatever it is for.
+// What every registered policy must do, whatever it is for, and one in Python as well.
 
 #include "policy/conformance.hpp"
+
+#include "python/part_name.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -15,7 +17,7 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(EveryPolicy, knows_its_name) {
-    EXPECT_EQ(make()->name(), GetParam());
+    EXPECT_EQ(make()->name(), python::short_name(GetParam()));
 }
 
 TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
@@ -136,11 +138,12 @@ std::vector<std::string> policy_names() {
     std::vector<std::string> names;
     for (const policy::PolicyEntry& entry : policy::policies())
         names.push_back(entry.name);
+    names.emplace_back(CLEARWAY_SOURCE_DIR "/examples/python/yield_policy.py:Yield");
     return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, EveryPolicy, ::testing::ValuesIn(policy_names()),
-                         [](const auto& policy) { return policy.param; });
+                         [](const auto& policy) { return python::short_name(policy.param); });
 
 }  // namespace
 }  // namespace clearway::testing

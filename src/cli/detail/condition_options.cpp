@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
 
@@ -159,6 +160,7 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
 experiment::ConditionSpec condition_of(const DescribedCondition& described) {
     experiment::ConditionSpec condition = described.condition;
     if (condition.policies == std::vector<std::string>{"none"}) condition.policies.clear();
+    experiment::resolve_parts(condition, {}, "--");
     apply_settings(described.settings, described.model, condition);
     return condition;
 }

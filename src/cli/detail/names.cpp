@@ -1,6 +1,8 @@
 #include "cli/detail/names.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
+#include "python/part_process.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::cli {
@@ -53,11 +56,30 @@ std::vector<std::string> policy_names() {
     return names;
 }
 
+namespace {
+
+/// Loads each part in Python once, so that what its file cannot do is told before anything runs.
+void check_parts(const std::vector<experiment::ConditionSpec>& conditions) {
+    std::set<std::pair<std::string, python::PartKind>> seen;
+    const auto check = [&](const std::string& where, const std::string& word, python::PartKind kind) {
+        const auto name = python::part_name_from(word);
+        if (name && seen.emplace(word, kind).second) python::check_part(*name, kind, where);
+    };
+    for (const experiment::ConditionSpec& condition : conditions) {
+        const std::string where = fmt::format("condition {}: ", condition.name);
+        check(where + "predictor", condition.predictor, python::PartKind::predictor);
+        for (const std::string& policy : condition.policies)
+            check(where + "policy", policy, python::PartKind::policy);
+    }
+}
+
+}  // namespace
+
 void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     std::vector<core::Problem> problems;
     const auto check = [&](const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
-        if (std::ranges::find(known, name) == known.end()) {
+        if (!python::part_name_from(name) && std::ranges::find(known, name) == known.end()) {
             problems.push_back(unknown_name(where, name, known));
         }
     };
@@ -77,6 +99,7 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
         problems.insert(problems.end(), unfit.begin(), unfit.end());
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
+    check_parts(conditions);
 }
 
 }  // namespace clearway::cli

@@ -1,6 +1,8 @@
 #include "cli/detail/programs.hpp"
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -45,6 +47,18 @@ std::optional<std::string> output_of(const std::string& program, const std::vect
 
 std::string sister_program(const std::string& name) {
     return core::program_folder() / name;
+}
+
+void become(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+        pointers.push_back(word.data());
+    }
+    pointers.push_back(nullptr);
+    ::execv(program.c_str(), pointers.data());
+    throw core::EnvironmentError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
 }
 
 study::Versions installed_versions() {

@@ -11,9 +11,9 @@
 #include "analysis/summary.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/programs.hpp"
-#include "cli/detail/shipped_files.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
+#include "core/shipped_files.hpp"
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
@@ -128,7 +128,7 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions&
         if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
             fmt::print(stderr, "clearway: {}: extended from {} to {} replications\n", options.folder.string(),
                        before, store.manifest().replications);
-        if (const auto trainings = shipped(std::filesystem::path("models") / "training"))
+        if (const auto trainings = core::shipped(std::filesystem::path("models") / "training"))
             study::copy_trainings(*trainings, store);
         return store;
     } catch (const core::InputError&) {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-namespace clearway::cli {
+namespace clearway::core {
 
 /// Finds a file or folder of Clearway's source tree by its relative path: below CLEARWAY_HOME if that is set,
 /// else in the nearest parent folder of the program that has it. Nothing when there is none.
 std::optional<std::filesystem::path> shipped(const std::filesystem::path& name);
 
-}  // namespace clearway::cli
+}  // namespace clearway::core

@@ -1,0 +1,85 @@
+"""Clearway from Python: how much time does an emergency vehicle gain, from which measure, at what cost to the others?
+
+Run and read:
+
+    import clearway
+
+    results = clearway.run("intersection", ["corridor"], seeds=10)    # baseline and corridor, ten paired seeds
+    print(results.paired_difference("emergency_travel_time_s", "corridor"))
+    results.runs["emergency_travel_time_s"]                           # a numpy array; results.runs.to_pandas()
+
+    results = clearway.study("my-study.toml")                         # a whole study file
+    results = clearway.open("runs/mine")                              # what is there already
+    for step in clearway.trace("runs/mine/recordings/city/corridor/00000.h5"):
+        print(step.time_s, step.x_m.mean())
+    samples = clearway.dataset("data/many")                           # edge lists and features, as PyTorch Geometric takes them
+
+Write a part:
+
+    class Yield(clearway.Policy):             # clearway run city --policy my_policy.py:Yield
+        def act(self, belief):
+            ...
+    class Mine(clearway.Predictor):           # clearway run city --failure B10 --predictor my_net.py:Mine
+        def predict(self, observation):
+            ...
+
+Learn one:
+
+    env = clearway.env("intersection")        # Gymnasium's API; clearway.parallel_env: PettingZoo's; clearway.vector_env: many
+
+Only numpy is imported here. pandas, h5py, torch and gymnasium are imported where something needs them.
+"""
+from __future__ import annotations
+
+import importlib
+import sys
+from typing import TYPE_CHECKING, Any
+
+if sys.version_info < (3, 11):
+    raise ImportError(f"clearway needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]} (Debian 12: /usr/bin/python3)")
+try:
+    import numpy as _numpy  # noqa: F401
+except ImportError as error:
+    raise ImportError(f"clearway needs numpy, which {sys.executable} does not have. Install it there (Debian: apt-get install "
+                      "python3-numpy), or use /usr/bin/python3") from error
+
+__version__ = "0.1.0"
+
+#: Where each public name lives. Modules are loaded at the first use of one of their names.
+_HOMES = {
+    "_program": ["ClearwayError", "InputError", "EnvironmentFault"],
+    "results": ["Results", "Table", "Difference", "open"],
+    "running": ["Condition", "run", "study"],
+    "recording": ["Recording", "Step", "trace"],
+    "datasets": ["Sample", "dataset"],
+    "environment": ["Env", "env"],
+    "parallel": ["ParallelEnv", "parallel_env"],
+    "vector": ["VectorEnv", "vector_env"],
+    "parts": ["Policy", "Predictor", "Belief", "Observation", "Vehicles", "Links", "EmergencyVehicle", "Approach", "Lease", "Network"],
+
+}
+_MODULE_OF = {name: module for module, names in _HOMES.items() for name in names}
+__all__ = sorted(_MODULE_OF) + ["__version__"]
+
+if TYPE_CHECKING:
+    from ._program import ClearwayError, EnvironmentFault, InputError
+    from .datasets import Sample, dataset
+    from .environment import Env, env
+    from .parallel import ParallelEnv, parallel_env
+    from .vector import VectorEnv, vector_env
+    from .parts import Approach, Belief, EmergencyVehicle, Lease, Links, Network, Observation, Policy, Predictor, Vehicles
+    from .recording import Recording, Step, trace
+    from .results import Difference, Results, Table, open
+    from .running import Condition, run, study
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"clearway has no {name!r}; it has {', '.join(__all__)}")
+    value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

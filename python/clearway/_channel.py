@@ -1,0 +1,77 @@
+"""The Python end of the protocol of src/python: memory that two processes share, and a pipe in each direction as a bell.
+
+Decision 7 (docs/decisions) says why it is this and not pybind11.
+"""
+from __future__ import annotations
+
+import mmap
+import os
+import struct
+from typing import Any
+
+import numpy as np
+
+#: Bytes in each direction; as python::Channel::capacity.
+CAPACITY = 1 << 26
+
+HELLO, DECIDE, ANSWER, FAILED, RESET, ENDED = b"H", b"D", b"A", b"F", b"R", b"E"
+
+
+class Channel:
+    """Joins the memory and the pipes whose descriptors it is given, and owns them."""
+
+    def __init__(self, memory: int, read: int, write: int) -> None:
+        self._descriptors = [memory, read, write]
+        self._read, self._write = read, write
+        #: What the other process writes; arrays on it cannot be written.
+        self.incoming = mmap.mmap(memory, CAPACITY, prot=mmap.PROT_READ)
+        self.outgoing = mmap.mmap(memory, CAPACITY, prot=mmap.PROT_READ | mmap.PROT_WRITE, offset=CAPACITY)
+
+    def wait(self) -> bytes:
+        """The next bell; b"" when the other process has gone."""
+        return os.read(self._read, 1)
+
+    def ring(self, bell: bytes) -> bool:
+        """Hands the memory over; False when nobody is there to hear it."""
+        try:
+            return os.write(self._write, bell) == 1
+        except BrokenPipeError:
+            return False
+
+    def read_text(self) -> str:
+        (length,) = struct.unpack_from("<Q", self.incoming)
+        return self.incoming[8:8 + length].decode("utf-8", "replace")
+
+    def write_text(self, text: str) -> None:
+        content = text.encode("utf-8", "replace")[:CAPACITY - 8]
+        struct.pack_into("<Q", self.outgoing, 0, len(content))
+        self.outgoing[8:8 + len(content)] = content
+
+    def close(self) -> None:
+        """Closes the pipes, which the other process hears. The memory goes when the last array on it does."""
+        for descriptor in self._descriptors:
+            os.close(descriptor)
+        self._descriptors = []
+
+
+class Sheet:
+    """Arrays in shared memory by name: views, not copies, valid until the bell is rung again."""
+
+    def __init__(self, memory: mmap.mmap, columns: list[list[str]]) -> None:
+        self._memory = memory
+        self._directory = np.frombuffer(memory, np.uint64, 2 * len(columns)).reshape(-1, 2)
+        #: numpy type, unit and meaning of each array.
+        self.columns = {name: (np.dtype(kind), unit, doc) for name, kind, unit, doc in columns}
+        self._number = {name: number for number, name in enumerate(self.columns)}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        offset, count = self._directory[self._number[name]].tolist()
+        return np.frombuffer(self._memory, self.columns[name][0], count, offset)
+
+    def write(self, name: str, values: np.ndarray) -> None:
+        """Writes the one array of a sheet of answers behind its directory."""
+        kind = self.columns[name][0]
+        offset = (16 * len(self.columns) + 63) // 64 * 64
+        target: Any = np.frombuffer(self._memory, kind, len(values), offset)
+        target[:] = values
+        self._directory[self._number[name]] = offset, len(values)

@@ -1,0 +1,100 @@
+"""The process of one part in Python: `python3 -m clearway._host MEMORY READ WRITE`, started by Clearway's worker, not by hand.
+
+It loads the file, makes the part and answers questions until its pipe ends. Whatever user code prints goes to the worker's log.
+"""
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+
+from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
+from .parts import Belief, Network, Observation, checked_leases, checked_probabilities
+
+METHODS = {"policy": "act", "predictor": "predict"}
+
+
+def load(file: Path, name: str) -> Any:
+    """Makes the object that a part is named by."""
+    if not name:
+        from .torchscript import TorchScript
+        return TorchScript(str(file))
+    sys.path.insert(0, str(file.parent))  # so that it can import its neighbours
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[file.stem] = module
+    spec.loader.exec_module(module)
+    kind = getattr(module, name, None)
+    if not isinstance(kind, type):
+        classes = [word for word, value in vars(module).items() if isinstance(value, type) and value.__module__ == file.stem]
+        raise AttributeError(f"{file} has no class {name!r}; it has {', '.join(classes) or 'none'}")
+    return kind()
+
+
+def make_part(greeting: dict[str, Any]) -> Any:
+    part = load(Path(greeting["file"]), greeting["object"])
+    method = METHODS[greeting["kind"]]
+    if not callable(getattr(part, method, None)):
+        raise TypeError(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs")
+    return part
+
+
+def answer_policy(part: Any, network: Network, channel: Channel, greeting: dict[str, Any]) -> Callable[[], None]:
+    sheet = Sheet(channel.incoming, greeting["question"])
+    part.network, part.period_s = network, greeting["period_s"]
+
+    def answer() -> None:
+        channel.write_text(json.dumps(checked_leases(part.act(Belief(sheet, network))), allow_nan=False))
+    return answer
+
+
+def answer_predictor(part: Any, network: Network, channel: Channel, greeting: dict[str, Any]) -> Callable[[], None]:
+    question, answers = Sheet(channel.incoming, greeting["question"]), Sheet(channel.outgoing, greeting["answer"])
+    part.network = network
+
+    def answer() -> None:
+        observation = Observation(question, network, greeting["link_radius_m"])
+        answers.write("probability", checked_probabilities(part.predict(observation), len(question["pair_left"])))
+    return answer
+
+
+def serve(channel: Channel) -> None:
+    if channel.wait() == b"":
+        return
+    greeting = json.loads(channel.read_text())
+    part = make_part(greeting)
+    answer: Callable[[], None] = lambda: None  # noqa: E731: only checked, never asked
+    if greeting["network"] is not None:
+        make = answer_policy if greeting["kind"] == "policy" else answer_predictor
+        answer = make(part, Network(greeting["network"]), channel, greeting)
+    channel.ring(ANSWER)
+    while channel.wait() == DECIDE:
+        answer()
+        channel.ring(ANSWER)
+
+
+def main() -> None:
+    memory, read, write = (int(word) for word in sys.argv[1:4])
+    for descriptor in (memory, read, write):
+        os.set_inheritable(descriptor, False)  # what user code starts must not hold the pipes open
+    os.dup2(2, 1)  # standard output belongs to the program that started this process
+    channel = Channel(memory, read, write)
+    try:
+        serve(channel)
+    except KeyboardInterrupt:
+        pass
+    except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure
+        channel.write_text(traceback.format_exc().strip())
+        channel.ring(FAILED)
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

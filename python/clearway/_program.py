@@ -1,0 +1,103 @@
+"""Finds Clearway's programs and calls them; turns their exit codes into exceptions."""
+from __future__ import annotations
+
+import collections
+import json
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import IO, Any, Sequence
+
+
+class ClearwayError(Exception):
+    """Whatever Clearway could not do. ``exit_code`` is that of the program (docs/reference/command-line.md)."""
+
+    def __init__(self, message: str, exit_code: int | None = None) -> None:
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+class InputError(ClearwayError, ValueError):
+    """Something that was given is wrong: the message says what, where, its value and what is allowed."""
+
+
+class EnvironmentFault(ClearwayError, OSError):
+    """Something is wrong with the machine: programs that are not built, no SUMO, a full disk, another Python."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+_ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}
+#: The study went on, and what failed is in its tables (1: runs failed, 5: incomplete).
+RUNS_FAILED, INCOMPLETE = 1, 5
+
+
+def error_of(exit_code: int, message: str) -> ClearwayError:
+    return _ERROR_OF.get(exit_code, ClearwayError)(message, exit_code)
+
+
+def programs() -> Path:
+    """The folder with ``clearway`` and ``clearway-run``: CLEARWAY_PROGRAMS, or that of the installation, or of this tree."""
+    here = Path(__file__).resolve().parent
+    places = []
+    if os.environ.get("CLEARWAY_PROGRAMS"):
+        places.append(Path(os.environ["CLEARWAY_PROGRAMS"]))
+    else:
+        installed = here / "_installed.json"
+        if installed.exists():
+            places.append(Path(json.loads(installed.read_text())["programs"]))
+        places.append(here.parent.parent / "build" / "release" / "bin")
+    for place in places:
+        if os.access(place / "clearway", os.X_OK) and os.access(place / "clearway-run", os.X_OK):
+            return place
+    raise EnvironmentFault(
+        f"Clearway's programs are not in {' or '.join(str(place) for place in places)}. Build and install them with "
+        "`./clearway python` in Clearway's tree, or set CLEARWAY_PROGRAMS to their folder")
+
+
+def environment() -> dict[str, str]:
+    """The environment for Clearway's programs: parts in Python run in this very Python."""
+    values = dict(os.environ)
+    values.setdefault("SUMO_HOME", "/usr/share/sumo")
+    values.setdefault("CLEARWAY_PYTHON", sys.executable)
+    return values
+
+
+def _listen(stream: IO[str], said: collections.deque[str], progress: bool) -> None:
+    for line in stream:
+        said.append(line)
+        if progress:
+            sys.stderr.write(line)
+
+
+def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[int] = ()) -> tuple[int, str]:
+    """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
+
+    ``progress`` passes its progress on to this process's standard error. Exit codes other than 0 that are not accepted are
+    raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and can continue.
+    """
+    said: collections.deque[str] = collections.deque(maxlen=60)
+    with subprocess.Popen([str(programs() / "clearway"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          stdin=subprocess.DEVNULL, env=environment(), text=True, errors="replace") as process:
+        assert process.stdout is not None and process.stderr is not None
+        listener = threading.Thread(target=_listen, args=(process.stderr, said, progress), daemon=True)
+        listener.start()
+        try:
+            output = process.stdout.read()
+        except BaseException:
+            process.terminate()
+            raise
+        listener.join()
+        code = process.wait()
+    if code != 0 and code not in accept:
+        message = "".join(said).strip().removeprefix("clearway: ")
+        raise error_of(code, message or f"clearway {arguments[0]} ended with {code}")
+    return code, output
+
+
+def call_json(arguments: Sequence[str]) -> Any:
+    """The same for a verb that prints JSON."""
+    return json.loads(call([*arguments, "--json"])[1])

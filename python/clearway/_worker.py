@@ -1,0 +1,124 @@
+"""The process that simulates for an environment: one replication, warmed up, which forks an episode at every reset."""
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import tempfile
+import weakref
+from pathlib import Path
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import _program
+from ._channel import ANSWER, CAPACITY, DECIDE, ENDED, FAILED, HELLO, RESET, Channel, Sheet
+
+_workers: "weakref.WeakSet[Worker]" = weakref.WeakSet()
+
+
+def _forget_in_child() -> None:
+    """A forked child holds no pipe of its parent's environments, so that their workers hear the parent end."""
+    for worker in list(_workers):
+        worker.abandon()
+
+
+os.register_at_fork(after_in_child=_forget_in_child)
+
+
+class Worker:
+    """Starts the process and waits until it is warm. Ends with it: its pipe closes, whatever becomes of this process."""
+
+    def __init__(self, arguments: Sequence[str], folder: Path) -> None:
+        memory = os.memfd_create("clearway", os.MFD_CLOEXEC)
+        os.ftruncate(memory, 2 * CAPACITY)
+        their_read, our_write = os.pipe()
+        our_read, their_write = os.pipe()
+        theirs = (memory, their_read, their_write)
+        folder.mkdir(parents=True, exist_ok=True)
+        self._log = tempfile.TemporaryFile(dir=folder)
+        try:
+            self._process = subprocess.Popen(
+                [str(_program.programs() / "clearway"), "environment", *arguments, "--out", str(folder), "--channel",
+                 *map(str, theirs)],
+                stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log, pass_fds=theirs, env=_program.environment())
+        except BaseException:
+            for descriptor in (*theirs, our_read, our_write):
+                os.close(descriptor)
+            self._log.close()
+            raise
+        # What this side writes is the second half of what it would be for a part: the worker writes the first.
+        self._channel: Channel | None = Channel(os.dup(memory), our_read, our_write)
+        for descriptor in theirs:
+            os.close(descriptor)
+        _workers.add(self)
+        self._hear(HELLO)
+        self.greeting: dict[str, Any] = json.loads(self._channel.read_text())
+        self._question = Sheet(self._channel.incoming, self.greeting["question"])
+        self._answer = Sheet(self._channel.outgoing, self.greeting["answer"])
+        self._views: dict[str, np.ndarray] = {}
+        self._actions: np.ndarray | None = None
+
+    def _hear(self, *expected: bytes) -> bytes:
+        assert self._channel is not None
+        bell = self._channel.wait()
+        if bell in expected:
+            return bell
+        message = self._channel.read_text() if bell == FAILED else self._last_words()
+        self.close()
+        raise _program.error_of(self._process.returncode or 1, message)
+
+    def _last_words(self) -> str:
+        self._process.wait()
+        self._log.seek(0)
+        said = self._log.read().decode("utf-8", "replace").strip().removeprefix("clearway: ")
+        return said or f"the simulating process ended with {self._process.returncode}"
+
+    def reset(self) -> bytes:
+        """Begins an episode, ending a running one; returns DECIDE, or ENDED when no emergency vehicle ever came."""
+        assert self._channel is not None
+        self._channel.ring(RESET)
+        return self._hear(DECIDE, ENDED)
+
+    def send(self, actions: np.ndarray) -> None:
+        """Hands actions over; ``receive`` waits for what came of them."""
+        assert self._channel is not None
+        if self._actions is None:
+            self._answer.write("actions", actions)
+            self._actions = np.frombuffer(self._channel.outgoing, np.int32, len(actions), 64)
+        else:
+            self._actions[:] = actions
+        self._channel.ring(ANSWER)
+
+    def receive(self) -> bytes:
+        return self._hear(DECIDE, ENDED)
+
+    def view(self, name: str) -> np.ndarray:
+        """An array of the present decision. Arrays stay in their places, because their sizes do."""
+        if name not in self._views:
+            self._views[name] = self._question[name]
+        return self._views[name]
+
+    def end(self) -> dict[str, Any]:
+        """What the worker says at the end of a run."""
+        assert self._channel is not None
+        return json.loads(self._channel.read_text())
+
+    def abandon(self) -> None:
+        """Closes the pipes of a worker that belongs to another process."""
+        if self._channel is not None:
+            self._channel.close()
+            self._channel = None
+
+    def close(self) -> None:
+        """Ends the process; does nothing the second time."""
+        if self._channel is None:
+            return
+        self._channel.close()
+        self._channel = None
+        try:
+            self._process.wait(timeout=5.0)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._log.close()

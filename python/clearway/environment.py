@@ -1,0 +1,270 @@
+"""Environments: Gymnasium's API for one agent. ``clearway.env(...)`` makes one; ``parallel`` and ``vector`` build on it."""
+from __future__ import annotations
+
+import collections
+import math
+import os
+import shutil
+import tempfile
+import weakref
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _program, _spaces
+from ._channel import ENDED
+from ._worker import Worker
+from .running import Part, part_name
+
+if _spaces.installed("gymnasium"):
+    import gymnasium
+
+    _Base: Any = gymnasium.Env
+else:
+    _Base = object
+
+#: Warm replications that an environment keeps; each is a process of about 80 MB.
+KEPT_WARM = 4
+
+
+class Env(_Base):
+    """One scenario in which an agent drives signals and automated vehicles for the first emergency vehicle (EV) on the road.
+
+    An episode is a run of ``clearway run`` from the moment at which the first EV enters; between two steps passes one policy
+    period (0.5 s). Action: ``MultiDiscrete``: first, for each signal, 0 (leave it alone) or 1 + p (hold the p-th green phase of its
+    program); then, for each of 8 automated vehicles ahead of the EV, nearest first, ``lane + 4 * speed``: lane 0 none, 1 hold,
+    2 outward, 3 inward; speed 0 none, 1 to 3 half, 0.8 and all of the allowed speed. ``action_mask`` of the observation says which
+    are legal; others do nothing and are counted in ``info["illegal_actions"]``. Whether a legal one is carried out is judged as for
+    every policy.
+
+    Observation: what is *believed* around the EV under the chosen faults and predictor, as arrays of fixed size with masks
+    (``docs/guides/python.md`` lists their columns). Rows of ``vehicles`` are the 32 nearest; ``edges`` are their believed links.
+
+    Reward: minus the seconds that EVs lost since the last step against the speed that road and vehicle allow, minus
+    ``others_weight`` times the same of all other vehicles. It comes from the truth and is not what a study scores.
+
+    Terminated when every EV has come and gone (``until="end"``: when nobody is left), truncated at the scenario's horizon.
+    """
+
+    metadata = {"render_modes": ["ansi"], "render_fps": 2}
+    spec = None
+
+    def __init__(self, scenario: str | Path, *, seeds: Sequence[int] = range(4), study_seed: int = 1, policy: Part | Sequence[Part] = (),
+                 failure: str = "perfect", predictor: Part = "none", set: Mapping[str, Any] | None = None, others_weight: float = 0.01,
+                 until: str = "emergency", render_mode: str | None = None, **options: Any) -> None:
+        if until not in ("emergency", "end"):
+            raise _program.InputError(f"until is {until!r} (allowed: emergency, end)")
+        if render_mode not in (None, "ansi"):
+            raise _program.InputError(f"render_mode is {render_mode!r} (allowed: None, ansi); `clearway run --gui` shows a run")
+        if not (isinstance(others_weight, (int, float)) and math.isfinite(others_weight) and others_weight >= 0.0):
+            raise _program.InputError(f"others_weight is {others_weight!r} (allowed: a number of at least 0)")
+        if len(seeds) == 0:
+            raise _program.InputError("seeds are empty (allowed: at least one whole number from 0 to 4294967295)")
+        self.render_mode, self.others_weight, self.until = render_mode, float(others_weight), until
+        self._seeds = [_checked_seed(seed) for seed in seeds]
+        self._arguments = _arguments(scenario, study_seed, policy, failure, predictor, set or {}, options)
+        self._owner = os.getpid()
+        self._folder = Path(tempfile.mkdtemp(prefix="clearway-env-"))
+        self._finalizer = weakref.finalize(self, _remove, str(self._folder), self._owner)
+        self._workers: collections.OrderedDict[int, Worker] = collections.OrderedDict()
+        self._episode, self._worker, self._state = 0, None, "new"
+        self._np_random: np.random.Generator | None = None
+        self._np_random_seed: int | None = None
+        try:
+            self._describe(self._warm(self._seeds[0]).greeting)
+        except BaseException:
+            self._finalizer()
+            raise
+
+    def _describe(self, sizes: dict[str, Any]) -> None:
+        signals, links, automated = len(sizes["signals"]), sizes["links"], sizes["automated"]
+        #: SUMO's names of the signals, in the order of actions.
+        self.signal_ids: list[str] = [signal[0] for signal in sizes["signals"]]
+        self._choices = [1 + sizes["phases"]] * signals + [sizes["automated_choices"]] * automated
+        self._nvec = np.array(self._choices, dtype=np.int64)
+        self.action_space = _spaces.MultiDiscrete(self._choices)
+        box = _spaces.Box
+        far = 1e5
+        shapes = {"emergency": ((6,), far), "vehicles": ((sizes["vehicles"], 12), far), "vehicle_mask": ((sizes["vehicles"],), 1),
+                  "edges": ((2, links), sizes["vehicles"]), "edge_features": ((links, 2), far), "edge_mask": ((links,), 1),
+                  "signals": ((signals, 3), far), "signal_states": ((signals, sizes["signal_links"]), 3),
+                  "action_mask": ((int(self._nvec.sum()),), 1)}
+        kinds = {name: np.dtype(kind) for name, kind, _, _ in sizes["question"]}
+        self._shapes = {name: shape for name, (shape, _) in shapes.items() if 0 not in shape}
+        self.observation_space = _spaces.Dict({
+            name: box(-shapes[name][1] if kinds[name].kind == "f" else 0, shapes[name][1], shape=shape, dtype=kinds[name].type)
+            for name, shape in self._shapes.items()})
+
+    def _warm(self, seed: int) -> Worker:
+        worker = self._workers.pop(seed, None)
+        if worker is None:
+            while len(self._workers) >= KEPT_WARM:
+                self._workers.popitem(last=False)[1].close()
+            worker = Worker([*self._arguments, "--replication", str(seed)], self._folder / str(seed))
+        self._workers[seed] = worker
+        return worker
+
+    def _require_owner(self) -> None:
+        if os.getpid() != self._owner:
+            raise _program.ClearwayError(f"this environment belongs to process {self._owner}; make one in this process ({os.getpid()})")
+        if self._state == "closed":
+            raise _program.ClearwayError("this environment is closed; make another one")
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+        """Begins an episode: the replication ``seed``, or, without one, the next of ``seeds`` in turn.
+
+        The same seed gives the same episode, to the bit. The first episode of a seed loads and warms up its simulation; later ones
+        fork from there. ``options`` are not used.
+        """
+        self._require_owner()
+        if seed is None:
+            seed = self._seeds[self._episode % len(self._seeds)]
+            self._episode += 1
+        else:
+            seed = _checked_seed(seed)
+            self._seed_generator(seed)
+        if self._np_random is None:
+            self._seed_generator(self._seeds[0])
+        self._state = "over"
+        try:
+            self._worker = self._warm(seed)
+            if self._worker.reset() == ENDED:
+                raise _program.InputError(f"no emergency vehicle entered in replication {seed}: there is nothing to decide")
+        except _program.ClearwayError:
+            self._workers.pop(seed, None)
+            raise
+        self._state, self._seed = "running", seed
+        self._last = self._observation()
+        return self._last, self._info()
+
+    def _seed_generator(self, seed: int) -> None:
+        self._np_random, self._np_random_seed = np.random.Generator(np.random.PCG64(seed)), seed
+
+    def step(self, action: Any) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
+        """Carries out an action until the next decision."""
+        self.send(action)
+        return self.receive()
+
+    def send(self, action: Any) -> None:
+        """The first half of ``step``: vector environments let all simulate at the same time."""
+        self._require_owner()
+        if self._state != "running":
+            raise _program.ClearwayError("call reset() first" if self._state == "new" else
+                                         "the episode is over: call reset() before the next step()")
+        self._worker.send(self._checked(action))
+
+    def _checked(self, action: Any) -> np.ndarray:
+        actions = np.asarray(action)
+        if actions.shape != self._nvec.shape or actions.dtype.kind not in "iu":
+            raise _program.InputError(f"an action of shape {actions.shape} and type {actions.dtype} (allowed: {len(self._nvec)} whole "
+                                      "numbers, one for each signal, then one for each automated vehicle)")
+        if ((actions < 0) | (actions >= self._nvec)).any():
+            wrong = int(np.argmax((actions < 0) | (actions >= self._nvec)))
+            raise _program.InputError(f"action {wrong} is {actions[wrong]} (allowed: 0 to {self._nvec[wrong] - 1})")
+        return actions
+
+    def receive(self) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
+        """The second half of ``step``."""
+        try:
+            bell = self._worker.receive()
+        except _program.ClearwayError:
+            self._state = "over"
+            self._workers.pop(self._seed, None)
+            raise
+        if bell == ENDED:
+            return self._last_step(self._worker.end())
+        emergency_s, others_s = self._worker.view("score_s").tolist()
+        self._last = self._observation()
+        terminated = self.until == "emergency" and bool(self._worker.view("flags")[0])
+        if terminated:
+            self._state = "over"
+        return self._last, self._reward(emergency_s, others_s), terminated, False, self._info()
+
+    def _last_step(self, end: dict[str, Any]) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
+        self._state = "over"
+        info = {"seed": self._seed, "time_s": end["metrics"]["simulated_s"], "emergency_delay_s": end["emergency_delay_s"],
+                "others_delay_s": end["others_delay_s"], "illegal_actions": 0, "metrics": end["metrics"],
+                "trace_hash": end["trace_hash"]}
+        reward = self._reward(end["emergency_delay_s"], end["others_delay_s"])
+        return self._last, reward, not end["truncated"], end["truncated"], info
+
+    def _reward(self, emergency_s: float, others_s: float) -> float:
+        return -(emergency_s + self.others_weight * others_s)
+
+    def _observation(self) -> dict[str, np.ndarray]:
+        view = self._worker.view
+        return {name: view(name).reshape(shape).copy() for name, shape in self._shapes.items()}
+
+    def _info(self) -> dict[str, Any]:
+        view = self._worker.view
+        emergency_s, others_s = view("score_s").tolist()
+        return {"seed": self._seed, "time_s": view("time_s").item(), "emergency_delay_s": emergency_s, "others_delay_s": others_s,
+                "illegal_actions": view("flags")[1].item()}
+
+    def action_masks(self) -> list[np.ndarray]:
+        """Legal choices of each part of the present action, as ``action_space.sample(mask)`` of newer Gymnasium takes it."""
+        return np.split(self._last["action_mask"].astype(np.int8), np.cumsum(self._choices)[:-1])
+
+    def render(self) -> str | None:
+        """One line about the EV, with ``render_mode="ansi"``."""
+        if self.render_mode is None or self._state in ("new", "closed"):
+            return None
+        present, speed, allowed, lane, _, line = self._last["emergency"].tolist()
+        place = f"EV at {speed:.1f} of {allowed:.1f} m/s on lane {lane:.0f}, next stop line in {line:.0f} m" if present else "no EV"
+        return f"{self._info()['time_s']:.2f} s: {place}, {int(self._last['vehicle_mask'].sum())} vehicles near"
+
+    def close(self) -> None:
+        """Ends the processes. May be called again."""
+        if os.getpid() == self._owner and self._state != "closed":
+            self._state = "closed"
+            for worker in self._workers.values():
+                worker.close()
+            self._workers.clear()
+            self._finalizer()
+
+    def __enter__(self) -> "Env":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_state", "closed") != "closed":
+            self.close()
+
+
+if _Base is object:
+    Env.unwrapped = property(lambda self: self)
+    Env.np_random = property(lambda self: self._np_random)
+
+
+def _remove(folder: str, owner: int) -> None:
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _checked_seed(seed: Any) -> int:
+    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed <= 4294967295:
+        raise _program.InputError(f"seed is {seed!r} (allowed: a whole number from 0 to 4294967295, the replication)")
+    return int(seed)
+
+
+def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Part], failure: str, predictor: Part,
+               settings: Mapping[str, Any], options: Mapping[str, Any]) -> list[str]:
+    policies = [policy] if isinstance(policy, (str, type)) else list(policy)
+    words = [str(scenario), "--seed", str(study_seed), "--failure", failure, "--predictor", part_name(predictor)]
+    words += ["--policy", *map(part_name, policies)] if policies else []
+    for name, value in settings.items():
+        words += ["--set", f"{name}={value}"]
+    for name, value in options.items():
+        if value is not False and value is not None:
+            words += ["--" + name.replace("_", "-")] + ([] if value is True else [str(value)])
+    return words
+
+
+def env(scenario: str | Path, **arguments: Any) -> Env:
+    """An environment with Gymnasium's API; see ``Env`` for arguments, spaces and reward. Other keywords are options of the
+    scenario as on the command line: ``dense=True``, ``step_length=0.1``."""
+    return Env(scenario, **arguments)

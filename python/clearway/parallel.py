@@ -1,0 +1,105 @@
+"""PettingZoo's parallel API: an agent for each signal, and for each automated vehicle ahead of the emergency vehicle."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _program, _spaces
+from .environment import Env
+
+if _spaces.installed("pettingzoo"):
+    import pettingzoo
+
+    _Base: Any = pettingzoo.ParallelEnv
+else:
+    _Base = object
+
+
+class ParallelEnv(_Base):
+    """The environment of ``clearway.env`` with an agent for each part of its action.
+
+    Agents are ``signal:ID`` and ``automated:0`` ... ``automated:7``, the places ahead of the emergency vehicle, nearest first: a place
+    without a vehicle has one legal action, 0. All live until the episode ends. Every agent sees what the single agent sees
+    (``observation``) with its own ``action_mask``, and gets the same reward.
+    """
+
+    metadata = {"render_modes": ["ansi"], "name": "clearway_v0", "is_parallelizable": True, "render_fps": 2}
+
+    def __init__(self, scenario: str | Path, **arguments: Any) -> None:
+        self._env = Env(scenario, **arguments)
+        self.render_mode = self._env.render_mode
+        choices = self._env._choices
+        automated = len(choices) - len(self._env.signal_ids)
+        self.possible_agents: list[str] = [f"signal:{name}" for name in self._env.signal_ids] + [
+            f"automated:{place}" for place in range(automated)]
+        self.agents: list[str] = []
+        ends = np.cumsum(choices)
+        self._parts = {agent: slice(int(end - count), int(end)) for agent, end, count in zip(self.possible_agents, ends, choices)}
+        shared = {name: space for name, space in self._env.observation_space.spaces.items() if name != "action_mask"}
+        self.action_spaces = {agent: _spaces.Discrete(count) for agent, count in zip(self.possible_agents, choices)}
+        self.observation_spaces = {
+            agent: _spaces.Dict({"observation": _spaces.Dict(shared),
+                                 "action_mask": _spaces.Box(0, 1, shape=(count,), dtype=np.int8)})
+            for agent, count in zip(self.possible_agents, choices)}
+
+    def observation_space(self, agent: str) -> Any:
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Any:
+        return self.action_spaces[agent]
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Begins an episode; see ``Env.reset``."""
+        observation, info = self._env.reset(seed=seed, options=options)
+        self.agents = list(self.possible_agents)
+        return self._each(observation), {agent: dict(info) for agent in self.agents}
+
+    def step(self, actions: dict[str, Any]) -> tuple[dict[str, Any], ...]:
+        """Carries out an action for each agent; one that is left out does nothing."""
+        if not self.agents:
+            raise _program.ClearwayError("the episode is over or has not begun: call reset()")
+        unknown = [agent for agent in actions if agent not in self._parts]
+        if unknown:
+            raise _program.InputError(f"there is no agent {unknown[0]!r}; there are {', '.join(self.possible_agents)}")
+        all_actions = np.array([int(actions.get(agent, 0)) for agent in self.possible_agents], dtype=np.int64)
+        observation, reward, terminated, truncated, info = self._env.step(all_actions)
+        live = self.agents
+        if terminated or truncated:
+            self.agents = []
+        return (self._each(observation), dict.fromkeys(live, reward), dict.fromkeys(live, terminated), dict.fromkeys(live, truncated),
+                {agent: dict(info) for agent in live})
+
+    def _each(self, observation: dict[str, np.ndarray]) -> dict[str, Any]:
+        shared = {name: array for name, array in observation.items() if name != "action_mask"}
+        mask = observation["action_mask"].astype(np.int8)
+        return {agent: {"observation": shared, "action_mask": mask[part]} for agent, part in self._parts.items()}
+
+    def state(self) -> np.ndarray:
+        """Everything that is observed, flat."""
+        return np.concatenate([array.reshape(-1).astype(np.float32) for array in self._env._last.values()])
+
+    def render(self) -> str | None:
+        return self._env.render()
+
+    def close(self) -> None:
+        self.agents = []
+        self._env.close()
+
+    @property
+    def unwrapped(self) -> "ParallelEnv":
+        return self
+
+    @property
+    def num_agents(self) -> int:
+        return len(self.agents)
+
+    @property
+    def max_num_agents(self) -> int:
+        return len(self.possible_agents)
+
+
+def parallel_env(scenario: str | Path, **arguments: Any) -> ParallelEnv:
+    """An environment with PettingZoo's parallel API; arguments are those of ``clearway.env``."""
+    return ParallelEnv(scenario, **arguments)

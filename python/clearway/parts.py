@@ -1,0 +1,362 @@
+"""Policies and predictors in Python: what they get, and what they answer."""
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import numbers
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ._channel import Sheet
+
+#: Lane of a vehicle whose lane is not known.
+NO_LANE = 4294967295
+HUMAN, AUTOMATED, EMERGENCY = 0, 1, 2
+
+
+class Network:
+    """The map, as everybody knows it. Lanes, edges and signals are numbers here; ``lane_ids``, ... have SUMO's names."""
+
+    def __init__(self, description: dict[str, Any]) -> None:
+        self.lane_ids: list[str] = description["lane_ids"]
+        self.edge_ids: list[str] = [edge[0] for edge in description["edges"]]
+        #: Number of lanes of each edge.
+        self.edge_lane_count = np.array([edge[1] for edge in description["edges"]], dtype=np.uint32)
+        #: Whether an edge is inside a junction.
+        self.edge_is_internal = np.array([edge[2] for edge in description["edges"]], dtype=bool)
+        lanes = description["lanes"]
+        #: Edge of each lane.
+        self.lane_edge = np.array(lanes["edge"], dtype=np.uint32)
+        #: Number of each lane on its edge, 0 the outermost.
+        self.lane_number = np.array(lanes["number"], dtype=np.uint32)
+        self.lane_length_m = np.array(lanes["length_m"], dtype=np.float32)
+        self.lane_speed_limit_mps = np.array(lanes["speed_limit_mps"], dtype=np.float32)
+        self.signal_ids: list[str] = [signal[0] for signal in description["signals"]]
+        #: Phases of each signal's own program: a letter for each link, SUMO's.
+        self.signal_phases: list[list[str]] = [signal[1] for signal in description["signals"]]
+
+
+class _Rows:
+    """Arrays by name, each made when it is first asked for."""
+
+    _prefix = ""
+    _names: tuple[str, ...] = ()
+
+    def __init__(self, sheet: Sheet) -> None:
+        self._sheet = sheet
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name not in self._names:
+            raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {', '.join(self._names)}")
+        array = self._sheet[self._prefix + name]
+        self.__dict__[name] = array
+        return array
+
+    def __dir__(self) -> list[str]:
+        return [*self._names, *super().__dir__()]
+
+
+class Vehicles(_Rows):
+    """Believed vehicles, an element each, ordered by ``key``; the arrays cannot be written.
+
+    ``key`` (identity during the run), ``vehicle_class`` (0 human, 1 automated, 2 emergency), ``x_m``, ``y_m``, ``heading_rad``,
+    ``speed_mps``, ``lane``, ``lane_position_m``, ``route_edge``, ``sigma_m`` (of the position), ``age_s`` (of the report).
+    """
+
+    _names = ("key", "vehicle_class", "x_m", "y_m", "heading_rad", "speed_mps", "lane", "lane_position_m", "route_edge", "sigma_m",
+              "age_s")
+
+    def __len__(self) -> int:
+        return len(self.key)
+
+    @property
+    def is_automated(self) -> np.ndarray:
+        """Whether each vehicle takes leases."""
+        return self.vehicle_class == AUTOMATED
+
+
+class Links(_Rows):
+    """Believed links, each from both ends: ``index`` as an edge list, ``distance_m``, ``probability``."""
+
+    _prefix = "link_"
+    _names = ("first", "neighbour", "distance_m", "probability")
+
+    def __len__(self) -> int:
+        return len(self.neighbour)
+
+    @functools.cached_property
+    def index(self) -> np.ndarray:
+        """``int64[2, n]``: rows of ``vehicles``, as PyTorch Geometric takes it."""
+        first = self.first.astype(np.int64)
+        return np.stack([np.repeat(np.arange(len(first) - 1), np.diff(first)), self.neighbour.astype(np.int64)])
+
+    def of(self, row: int) -> np.ndarray:
+        """Rows of the vehicles linked with that of ``row``."""
+        return self.neighbour[self.first[row]:self.first[row + 1]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Approach:
+    """A signal that an emergency vehicle will pass."""
+
+    #: Number of the signal in the network.
+    signal: int
+    #: To the stop line, m.
+    distance_m: float
+    #: Links of the signal that the emergency vehicle itself may take.
+    own_links: list[int]
+    #: These and all other links of its approaches that do not conflict with them: what to hold green.
+    links: list[int]
+
+
+class EmergencyVehicle:
+    """An emergency vehicle on the road, as it knows itself, or else as it is believed to be."""
+
+    def __init__(self, belief: "Belief", number: int) -> None:
+        self._sheet, self._number, self._belief = belief._sheet, number, belief
+        self.key = int(self._sheet["emergency_key"][number])
+
+    def _one(self, name: str) -> Any:
+        return self._sheet["emergency_" + name][self._number].item()
+
+    x_m = property(lambda self: self._one("x_m"), doc="Front bumper, m.")
+    y_m = property(lambda self: self._one("y_m"), doc="Front bumper, m.")
+    heading_rad = property(lambda self: self._one("heading_rad"), doc="Counter-clockwise from the x axis.")
+    speed_mps = property(lambda self: self._one("speed_mps"), doc="Present speed.")
+    allowed_speed_mps = property(lambda self: self._one("allowed_speed_mps"), doc="Highest that road and vehicle allow.")
+    lane = property(lambda self: self._one("lane"), doc="Lane of the network.")
+    lane_position_m = property(lambda self: self._one("lane_position_m"), doc="From the start of the lane.")
+
+    def _bounds(self, name: str) -> slice:
+        first = self._sheet[name]
+        return slice(int(first[self._number]), int(first[self._number + 1]))
+
+    def ahead(self, within_m: float = 300.0) -> np.ndarray:
+        """Rows of the vehicles on its way, nearest first, up to 300 m ahead."""
+        part = self._bounds("ahead_first")
+        return self._sheet["ahead_row"][part][self._sheet["ahead_distance_m"][part] <= within_m]
+
+    @property
+    def ahead_distance_m(self) -> np.ndarray:
+        """Distance of each of ``ahead()``, front to front along the route, m."""
+        return self._sheet["ahead_distance_m"][self._bounds("ahead_first")]
+
+    @property
+    def ahead_lanes(self) -> np.ndarray:
+        """``uint8[n, 2]`` for ``ahead()``: whether the next lane outward and inward is open to the automated vehicle and goes on."""
+        part = self._bounds("ahead_first")
+        return np.stack([self._sheet["ahead_usable_lower"][part], self._sheet["ahead_usable_higher"][part]], axis=1)
+
+    @property
+    def approaches(self) -> list[Approach]:
+        """Signals that it will pass within 600 m, nearest first."""
+        part = self._bounds("approach_first")
+        own, served = self._sheet["own_link_first"], self._sheet["served_link_first"]
+        return [Approach(int(self._sheet["approach_signal"][at]), float(self._sheet["approach_distance_m"][at]),
+                         self._sheet["own_link"][own[at]:own[at + 1]].tolist(),
+                         self._sheet["served_link"][served[at]:served[at + 1]].tolist())
+                for at in range(part.start, part.stop)]
+
+
+class Belief:
+    """What is believed now: all that a policy sees. Arrays are views of shared memory, valid until ``act`` returns."""
+
+    def __init__(self, sheet: Sheet, network: Network) -> None:
+        self._sheet = sheet
+        self.network = network
+        #: Simulation time, s.
+        self.time_s = float(sheet["time_s"][0])
+        self.vehicles = Vehicles(sheet)
+        self.links = Links(sheet)
+
+    @property
+    def emergency_vehicles(self) -> list[EmergencyVehicle]:
+        """Those on the road, ordered by key."""
+        return [EmergencyVehicle(self, number) for number in range(len(self._sheet["emergency_key"]))]
+
+    def signal_state(self, signal: int) -> str:
+        """What a signal shows now, SUMO's letter for each link; empty where that is not known."""
+        first = self._sheet["signal_first"]
+        if signal + 1 >= len(first):
+            return ""
+        return self._sheet["signal_letters"][first[signal]:first[signal + 1]].tobytes().decode("ascii")
+
+
+def _number(what: str, value: Any, least: float, most: float) -> float:
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise TypeError(f"{what} is {value!r}, not a number")
+    if not math.isfinite(value) or not least <= value <= most:
+        raise ValueError(f"{what} is {value} (allowed: {least:g} to {most:g})")
+    return float(value)
+
+
+def _whole(what: str, value: Any, most: int) -> int:
+    number = _number(what, value, 0, most)
+    if number != int(number):
+        raise ValueError(f"{what} is {value}, not a whole number")
+    return int(value)
+
+
+def _links(what: str, links: Iterable[int]) -> list[int]:
+    return sorted(_whole(f"a link of {what}", link, 65535) for link in links)
+
+
+def _key(what: str, vehicle: Any) -> int:
+    return _whole(what, getattr(vehicle, "key", vehicle), 2**64 - 1)
+
+
+@dataclasses.dataclass(frozen=True)
+class Lease:
+    """One action for one vehicle or signal. It ends by itself after ``lasting_s`` unless the next decision renews it.
+
+    Make one with the class methods; ``vehicle`` is a key (``belief.vehicles.key[row]``) or an ``EmergencyVehicle``, ``serves`` the
+    emergency vehicle for which it is, ``reason`` a few words for tables. Whether it can be carried out is judged as for every
+    policy: what cannot is counted under its reason in ``results.leases`` (a vehicle that is gone: ``vehicle_gone``). What no lease
+    can ever be, as a speed of NaN, raises here.
+    """
+
+    fields: dict[str, Any]
+
+    @staticmethod
+    def _make(action: str, target: dict[str, int], serves: Any, lasting_s: float, priority: int, reason: str,
+              **parameters: Any) -> "Lease":
+        if not isinstance(priority, int):
+            raise TypeError(f"priority is {priority!r}, not a whole number")
+        return Lease({"action": action, **target, **parameters, "beneficiary": 0 if serves is None else _key("serves", serves),
+                      "lasting_s": _number("lasting_s", lasting_s, 1e-3, 3600.0), "priority": priority, "reason": str(reason) or "not said"})
+
+    @staticmethod
+    def drive_at(vehicle: Any, speed_mps: float, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
+                 reason: str = "") -> "Lease":
+        """Drive at this speed as far as safety allows."""
+        return Lease._make("drive_at", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason,
+                           speed_mps=_number("speed_mps", speed_mps, 0.0, 200.0))
+
+    @staticmethod
+    def change_lane(vehicle: Any, lane_number: int, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
+                    reason: str = "") -> "Lease":
+        """Move to the lane with this number on the present edge, 0 the outermost, and stay there while the lease lasts."""
+        return Lease._make("change_lane", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason,
+                           lane_number=_whole("lane_number", lane_number, 255))
+
+    @staticmethod
+    def hold_lane(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
+        """Do not change lanes except where the route demands it."""
+        return Lease._make("hold_lane", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
+
+    @staticmethod
+    def pull_aside(vehicle: Any, side: str = "right", *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
+                   reason: str = "") -> "Lease":
+        """Keep to one edge of the lane, ``right`` or ``left`` (sublane model only)."""
+        if side not in ("right", "left"):
+            raise ValueError(f"side is {side!r} (allowed: right, left)")
+        return Lease._make("pull_aside", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, side=side)
+
+    @staticmethod
+    def stop_at_line(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
+        """Give way at the stop line of the present lane."""
+        return Lease._make("stop_at_line", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
+
+    @staticmethod
+    def pass_red(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
+        """Pass red slowly and yielding; emergency vehicles only."""
+        return Lease._make("pass_red", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
+
+    @staticmethod
+    def hold_green(signal: int, links: Sequence[int], own_links: Sequence[int] = (), *, serves: Any = None, lasting_s: float = 2.0,
+                   priority: int = 0, reason: str = "") -> "Lease":
+        """Show green for these links and red for those that conflict; ``own_links`` are those of the one it serves."""
+        return Lease._make("hold_green", {"signal": _whole("signal", signal, NO_LANE - 1)}, serves, lasting_s, priority, reason,
+                           links=_links("links", links), own_links=_links("own_links", own_links))
+
+    @staticmethod
+    def adjust_green(signal: int, links: Sequence[int], *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
+                     reason: str = "") -> "Lease":
+        """Lead the signal's own plan to these links sooner."""
+        return Lease._make("adjust_green", {"signal": _whole("signal", signal, NO_LANE - 1)}, serves, lasting_s, priority, reason,
+                           links=_links("links", links))
+
+
+class Policy:
+    """Base of policies in Python: ``--policy my_policy.py:Mine``. Deriving from it is not required; ``act`` is.
+
+    One object serves one run, in a process of its own: it may keep what it likes between calls, and shares nothing with other runs.
+    The same belief must give the same leases (draw random numbers from a generator with a fixed seed).
+    """
+
+    #: Time between two decisions, s, and the map; set before the first call of ``act``.
+    period_s: float
+    network: Network
+
+    def act(self, belief: Belief) -> Iterable[Lease]:
+        """Called at every decision; returns leases (a list, or any iterable)."""
+        raise NotImplementedError
+
+
+class Observation(_Rows):
+    """What was reported, for a predictor. Rows of vehicles are ordered by ``key``; arrays are views, valid until ``predict`` returns.
+
+    Of vehicles: ``key``, ``vehicle_class``, ``age_s``, ``known`` (1: nothing to predict), ``sensor_sigma_m``; dead-reckoned to now:
+    ``x_m``, ``y_m``, ``heading_rad``, ``speed_mps``, ``lane``, ``lane_position_m``; as reported: ``last_x_m``, ``last_y_m``.
+    Of candidates: ``pair_left``, ``pair_right`` (rows), ``pair_last_seen_m``, ``pair_dead_reckoned_m``.
+    """
+
+    _names = ("key", "vehicle_class", "age_s", "known", "sensor_sigma_m", "x_m", "y_m", "heading_rad", "speed_mps", "lane",
+              "lane_position_m", "last_x_m", "last_y_m", "link_left", "link_right", "pair_left", "pair_right", "pair_last_seen_m",
+              "pair_dead_reckoned_m")
+
+    def __init__(self, sheet: Sheet, network: Network, link_radius_m: float) -> None:
+        super().__init__(sheet)
+        self.network = network
+        #: Vehicles nearer than this are linked, m.
+        self.link_radius_m = link_radius_m
+        #: Simulation time, s.
+        self.time_s = float(sheet["time_s"][0])
+
+    @functools.cached_property
+    def edge_index(self) -> np.ndarray:
+        """Observed links both ways, ``int64[2, n]``: along them messages may go."""
+        one_way = np.stack([self.link_left, self.link_right]).astype(np.int64)
+        return np.concatenate([one_way, one_way[::-1]], axis=1)
+
+    @functools.cached_property
+    def pairs(self) -> np.ndarray:
+        """Candidates, ``int64[2, n]``: for each of them a probability is wanted."""
+        return np.stack([self.pair_left, self.pair_right]).astype(np.int64)
+
+
+class Predictor:
+    """Base of predictors in Python: ``--predictor my_net.py:Mine``. Deriving from it is not required; ``predict`` is."""
+
+    network: Network
+
+    def predict(self, observation: Observation) -> np.ndarray:
+        """Returns, for each of ``observation.pairs``, the probability that the two are nearer than the link radius."""
+        raise NotImplementedError
+
+
+def checked_leases(answer: Any) -> list[dict[str, Any]]:
+    """The fields of leases that ``act`` returned."""
+    if answer is None:
+        raise TypeError("act returned None: return a list of leases, empty if there is nothing to ask for")
+    leases = list(answer)
+    for lease in leases:
+        if not isinstance(lease, Lease):
+            raise TypeError(f"act returned {lease!r} in its list, which is not a clearway.Lease")
+    return [lease.fields for lease in leases]
+
+
+def checked_probabilities(answer: Any, count: int) -> np.ndarray:
+    """The array that ``predict`` returned."""
+    values = np.asarray(answer)
+    if values.shape != (count,) or values.dtype.kind not in "fiub":
+        raise ValueError(f"predict returned an array of shape {values.shape} and type {values.dtype}; one number for each of the "
+                         f"{count} pairs is wanted, shape ({count},)")
+    values = values.astype(np.float32)
+    wrong = ~((values >= 0.0) & (values <= 1.0))
+    if wrong.any():
+        raise ValueError(f"predict returned the probability {values[wrong][0]} for pair {int(np.argmax(wrong))} (allowed: 0 to 1)")
+    return values

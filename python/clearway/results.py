@@ -1,0 +1,216 @@
+"""What stands in a run folder: tables, paired differences, recordings."""
+from __future__ import annotations
+
+import dataclasses
+import sqlite3
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _program
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .recording import Recording
+
+
+class Table(Mapping[str, np.ndarray]):
+    """A table as numpy arrays by column. Read-only; columns carry their units in their names (``emergency_travel_time_s``).
+
+    Numbers are ``float64`` or, where all are whole and none is missing, ``int64``; a missing number is NaN. Texts are arrays of
+    ``str``, a missing text is ``""``.
+    """
+
+    def __init__(self, columns: Mapping[str, np.ndarray]) -> None:
+        self._columns = dict(columns)
+        self.row_count = len(next(iter(self._columns.values()))) if self._columns else 0
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        try:
+            return self._columns[column]
+        except KeyError:
+            raise _program.InputError(f"there is no column {column!r}; columns are {', '.join(self._columns)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def where(self, **values: Any) -> "Table":
+        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``."""
+        chosen = np.ones(self.row_count, dtype=bool)
+        for column, value in values.items():
+            chosen &= self[column] == value
+        return Table({name: array[chosen] for name, array in self._columns.items()})
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The same as a DataFrame. Needs pandas (Debian: python3-pandas)."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise _program.EnvironmentFault("pandas is not installed (Debian: python3-pandas); tables are numpy arrays without it"
+                                            ) from error
+        return pandas.DataFrame(self._columns)
+
+    def __repr__(self) -> str:
+        return f"<Table of {self.row_count} rows: {', '.join(self._columns)}>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Difference:
+    """A condition minus its baseline, paired by replication, as the console and ``clearway compare`` print it."""
+
+    scenario: str
+    condition: str
+    compared_with: str
+    metric: str
+    #: Mean of the paired differences, in the metric's unit; None without a complete pair.
+    difference: float | None
+    #: 95 % interval by Student's t; None with too few seeds.
+    interval_95: tuple[float, float] | None
+    #: Difference divided by the baseline's mean.
+    relative_1: float | None
+    #: 95 % interval by the bias-corrected and accelerated bootstrap.
+    bca_95: tuple[float, float] | None
+    median: float | None
+    median_95: tuple[float, float] | None
+    effect_size_dz: float | None
+    t_p: float | None
+    #: p of the t test, corrected for all comparisons of the scenario (Holm).
+    holm_p: float | None
+    wilcoxon_p: float | None
+    complete_pairs: int
+    incomplete_pairs: int
+    vehicles_left_out: int
+    #: Why the mean must not be believed as it stands (vehicles that did not arrive); empty where nothing is wrong.
+    objections: str
+
+    def __str__(self) -> str:
+        if self.difference is None:
+            return f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: no complete pair"
+        interval = "too few seeds" if self.interval_95 is None else "[{:+.2f}, {:+.2f}]".format(*self.interval_95)
+        text = (f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: {self.difference:+.2f} {interval} "
+                f"({self.complete_pairs} pairs)")
+        return text + (f"; {self.objections}" if self.objections else "")
+
+
+def _pair(bounds: list[float] | None) -> tuple[float, float] | None:
+    return None if bounds is None else (bounds[0], bounds[1])
+
+
+class Results:
+    """A run folder (``clearway.open``). Its tables are read once, when they are first asked for."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        #: Names of the tables.
+        self.tables: list[str] = _program.call(["results", str(folder), "--list"])[1].split()
+        self._read: dict[str, Table] = {}
+
+    def table(self, name: str) -> Table:
+        """A table by name; ``tables`` lists them, docs/reference/columns.md says what the columns mean."""
+        if name not in self.tables:
+            raise _program.InputError(f"{self.folder} has no table {name!r}; it has {', '.join(self.tables)}")
+        if name not in self._read:
+            self._read[name] = _read_table(self.folder / "results.sqlite", name)
+        return self._read[name]
+
+    @property
+    def runs(self) -> Table:
+        """One row for each run."""
+        return self.table("runs")
+
+    @property
+    def vehicles(self) -> Table:
+        """One row for each vehicle of each run."""
+        return self.table("vehicles")
+
+    @property
+    def leases(self) -> Table:
+        """What became of the leases, by policy, action and outcome."""
+        return self.table("leases")
+
+    @property
+    def errors(self) -> Table:
+        """Runs without a result, with their cause and message; for code in Python the message holds its traceback."""
+        return self.table("errors")
+
+    @property
+    def events(self) -> Table:
+        """Departures, arrivals, teleports, collisions, ... of every recorded run. Needs ``--record`` (``record=True``)."""
+        found = sorted(self.folder.glob("recordings/*/*/*.h5"))
+        if not found:
+            raise _program.InputError(f"{self.folder} holds no recordings, where events stand; run it with record=True (--record)")
+        from .recording import Recording
+        tables = []
+        for file in found:
+            with Recording(file) as recording:
+                events = recording.events
+                of = {"scenario": recording.scenario, "condition": recording.condition, "replication": recording.replication}
+            tables.append({**{name: np.full(events.row_count, value) for name, value in of.items()}, **events})
+        return Table({name: np.concatenate([table[name] for table in tables]) for name in tables[0]})
+
+    def recording(self, scenario: str, condition: str, replication: int = 0) -> "Recording":
+        """The recording of a run; see ``clearway.trace``."""
+        from .recording import Recording
+        return Recording(self.folder / "recordings" / scenario / condition / f"{replication:05d}.h5")
+
+    def paired_difference(self, metric: str, condition: str, scenario: str | None = None) -> Difference:
+        """The paired difference of a condition and its baseline, with the console's intervals (the program works it out).
+
+        ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one. Raises InputError for names that the
+        folder does not have.
+        """
+        found = [one for one in self.paired_differences(metric) if one.condition == condition]
+        if scenario is not None:
+            found = [one for one in found if one.scenario == scenario]
+        if len(found) == 1:
+            return found[0]
+        compared = ", ".join(f"{one.scenario}/{one.condition}" for one in self.paired_differences(metric))
+        what = "several scenarios have it: name one" if found else "is not compared with a baseline here"
+        raise _program.InputError(f"condition {condition!r}: {what}; there are {compared}")
+
+    def paired_differences(self, metric: str) -> list[Difference]:
+        """All conditions of the folder against their baselines."""
+        rows = _program.call_json(["compare", str(self.folder), "--metric", metric])["comparisons"]
+        differences = []
+        for row in rows:
+            numbers = row["metrics"][metric]
+            pairs = {key: _pair(numbers.pop(key)) for key in ("interval_95", "bca_95", "median_95")}
+            differences.append(Difference(scenario=row["scenario"], condition=row["condition"], compared_with=row["compared_with"],
+                                          metric=metric, objections=row["objections"], **pairs, **numbers))
+        return differences
+
+    def __repr__(self) -> str:
+        return f"<Results in {self.folder}: {', '.join(self.tables)}>"
+
+
+def open(folder: str | Path) -> Results:
+    """Opens a run folder, complete or not: ``clearway.open("runs/mine").runs``."""
+    return Results(folder)
+
+
+def _read_table(database: Path, name: str) -> Table:
+    connection = sqlite3.connect(f"file:{database.resolve()}?mode=ro", uri=True)
+    try:
+        cursor = connection.execute(f'SELECT * FROM "{name}"')
+        names = [column[0] for column in cursor.description]
+        types = {row[1]: row[2] for row in connection.execute(f'PRAGMA table_info("{name}")')}
+        rows = cursor.fetchall()
+    finally:
+        connection.close()
+    columns = list(zip(*rows)) if rows else [()] * len(names)
+    return Table({name: _column(values, types.get(name, "")) for name, values in zip(names, columns)})
+
+
+def _column(values: tuple[Any, ...], declared: str) -> np.ndarray:
+    if declared == "TEXT":
+        return np.array(["" if value is None else str(value) for value in values], dtype=str)
+    array = np.array([np.nan if value is None else value for value in values], dtype=object)
+    if len(array) > 0 and all(isinstance(value, int) for value in values):
+        return array.astype(np.int64)
+    return array.astype(np.float64)

@@ -1,0 +1,141 @@
+"""Runs and studies."""
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import inspect
+import json
+import re
+import tempfile
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+from . import _program
+from .results import Results
+
+#: A name of ``clearway list``, ``FILE.py:Class``, or a class that is written in a file.
+Part = Union[str, type]
+
+
+@dataclasses.dataclass
+class Condition:
+    """A condition of one's own. Names are those of ``clearway list``; parts in Python are classes or ``FILE.py:Class``."""
+
+    name: str
+    policy: Part | Sequence[Part] = ()
+    failure: str = "perfect"
+    predictor: Part = "none"
+    #: Settings that differ from their defaults: ``{"preempt_signals.lead_s": 12}`` (``clearway list settings``).
+    set: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    #: A model file for a learned predictor: of ``clearway train``, or a ``.pth`` of the dissertation's net.
+    model: str | Path | None = None
+
+
+def part_name(part: Part) -> str:
+    """``FILE.py:Class`` of a class, absolute; names stay as they are, files become absolute."""
+    if isinstance(part, type):
+        try:
+            file = inspect.getsourcefile(part)
+        except TypeError:
+            file = None
+        if file is None or not Path(file).exists() or "." in part.__qualname__:
+            raise _program.InputError(f"{part.__qualname__} is not at the top of a file: a run starts it in a process of its own, so "
+                                      "write it into a file (in a notebook: %%writefile my_policy.py)")
+        return f"{Path(file).resolve()}:{part.__qualname__}"
+    file, colon, name = str(part).rpartition(":")
+    if file.endswith(".py") or str(part).endswith((".pt", ".pth")):
+        return f"{Path(file).resolve()}{colon}{name}" if colon else str(Path(part).resolve())
+    return str(part)
+
+
+def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int = 10, *, seed: int = 1,
+        out: str | Path | None = None, jobs: int = 0, record: bool = False, baseline: bool = True, progress: bool = False,
+        **overrides: Any) -> Results:
+    """Runs a scenario under conditions over paired seeds and opens the results.
+
+    ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with.
+    ``overrides`` are those of a study file: ``variant="dense"``, ``step_length_s=0.1``, ... ``out`` is the run folder; without it,
+    one below ``runs/`` that follows from what is run. Runs that are there already are not repeated. Runs that failed are a
+    warning, and rows of ``results.errors``.
+    """
+    if isinstance(conditions, (str, Condition)):
+        conditions = [conditions]
+    names = [condition for condition in conditions if isinstance(condition, str)]
+    if baseline and "baseline" not in names:
+        names.insert(0, "baseline")
+    own = [condition for condition in conditions if not isinstance(condition, str)]
+    wrong = [condition for condition in own if not isinstance(condition, Condition)]
+    if wrong:
+        raise _program.InputError(f"conditions: {wrong[0]!r} is neither a name nor a clearway.Condition")
+    place = Path(scenario)
+    scenario_word = str(place.resolve()) if place.exists() else str(scenario)
+    text = _study_text(scenario_word, place.stem, names, own, seeds, seed, overrides)
+    if out is None:
+        name = re.sub(r"[^A-Za-z0-9_-]+", "-", place.stem)
+        out = Path("runs") / f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:6]}"
+    with tempfile.TemporaryDirectory(prefix="clearway-") as folder:
+        file = Path(folder) / "study.toml"
+        file.write_text(text)
+        return study(file, out=out, jobs=jobs, record=record, progress=progress)
+
+
+def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
+          progress: bool = False) -> Results:
+    """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
+    words = ["study", str(file), "--json"]
+    if out is None:
+        out = Path("runs") / (_study_name(Path(file)) + ("-quick" if quick else ""))
+    words += ["--out", str(out)]
+    words += ["--jobs", str(jobs)] if jobs else []
+    words += ["--record"] if record else []
+    words += ["--quick"] if quick else []
+    code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
+    results = Results(out)
+    if code == _program.RUNS_FAILED:
+        warnings.warn(f"{results.errors.row_count} runs failed; see `errors` of these results", RuntimeWarning, stacklevel=2)
+    return results
+
+
+def _study_name(file: Path) -> str:
+    try:
+        text = file.read_text()
+    except OSError as error:
+        raise _program.InputError(f"{file}: cannot be read: {error.strerror}. A study file is TOML, docs/reference/study-file.md"
+                                  ) from None
+    import tomllib
+    try:
+        return str(tomllib.loads(text).get("name", file.stem))
+    except tomllib.TOMLDecodeError:
+        return file.stem  # the program says what is wrong, with line and column
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, (str, Path)):
+        return json.dumps(str(value), ensure_ascii=False)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(one) for one in value) + "]"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(one)}" for key, one in value.items()) + " }"
+    return repr(value)
+
+
+def _study_text(scenario: str, name: str, names: list[str], own: list[Condition], seeds: int, seed: int,
+                overrides: Mapping[str, Any]) -> str:
+    lines = [f"name = {_toml(name)}", f"seed = {_toml(seed)}", f"replications = {_toml(seeds)}",
+             f"scenarios = [{_toml(scenario)}]", f"conditions = {_toml(names)}"]
+    if overrides:
+        lines += ["[overrides]", *(f"{key} = {_toml(value)}" for key, value in overrides.items())]
+    for condition in own:
+        policies = [condition.policy] if isinstance(condition.policy, (str, type)) else list(condition.policy)
+        lines += ["[[condition]]", f"name = {_toml(condition.name)}", f"failure = {_toml(condition.failure)}",
+                  f"predictor = {_toml(part_name(condition.predictor))}",
+                  f"policy = {_toml([part_name(policy) for policy in policies])}"]
+        if condition.set:
+            lines.append(f"set = {_toml(dict(condition.set))}")
+        if condition.model is not None:
+            lines.append(f"model = {_toml(Path(condition.model).resolve())}")
+    return "\n".join(lines) + "\n"

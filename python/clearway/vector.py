@@ -1,0 +1,110 @@
+"""Several environments at a time: each simulates in a process of its own."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import _program, _spaces
+from .environment import Env
+
+if _spaces.installed("gymnasium"):
+    import gymnasium
+
+    _Base: Any = gymnasium.vector.VectorEnv
+else:
+    _Base = object
+
+
+class VectorEnv(_Base):
+    """``count`` environments of one scenario that simulate at the same time, with Gymnasium's vector API.
+
+    Environment i takes every count-th of ``seeds`` from the i-th on. An environment whose episode has ended is reset by the next
+    ``step``, which ignores its action and gives it reward 0 (Gymnasium's ``NEXT_STEP``).
+    """
+
+    metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
+    render_mode = None
+
+    def __init__(self, scenario: str | Path, count: int, *, seeds: Sequence[int] = range(8), **arguments: Any) -> None:
+        if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(seeds):
+            raise _program.InputError(f"count is {count!r} (allowed: 1 to {len(seeds)}, the number of seeds)")
+        if _Base is not object:
+            self.metadata = {**self.metadata, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+        self.num_envs = count
+        self.envs: list[Env] = []
+        try:
+            for number in range(count):
+                self.envs.append(Env(scenario, seeds=list(seeds)[number::count], **arguments))
+        except BaseException:
+            self.close()
+            raise
+        self.single_observation_space = self.envs[0].observation_space
+        self.single_action_space = self.envs[0].action_space
+        self.observation_space = _batched(self.single_observation_space, count)
+        self.action_space = _spaces.MultiDiscrete(np.tile(self.envs[0]._nvec, (count, 1)))
+        self._over = np.zeros(count, dtype=bool)
+
+    def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+              ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+        """Resets all; a single seed s gives environment i the seed s + i."""
+        seeds = [seed + number for number in range(self.num_envs)] if isinstance(seed, int) else seed
+        pairs = [one.reset(seed=None if seeds is None else seeds[number]) for number, one in enumerate(self.envs)]
+        self._over[:] = False
+        return _stacked([observation for observation, _ in pairs]), _infos([info for _, info in pairs])
+
+    def step(self, actions: Any) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
+        """Steps all: first every environment gets its action, then each is waited for."""
+        if len(actions) != self.num_envs:
+            raise _program.InputError(f"{len(actions)} actions for {self.num_envs} environments")
+        over = self._over.copy()
+        for one, action, is_over in zip(self.envs, actions, over):
+            if not is_over:
+                one.send(action)
+        results = []
+        for one, is_over in zip(self.envs, over):
+            if is_over:
+                observation, info = one.reset()
+                results.append((observation, 0.0, False, False, info))
+            else:
+                results.append(one.receive())
+        observations, rewards, terminated, truncated, infos = zip(*results)
+        self._over = np.logical_or(terminated, truncated)
+        return _stacked(observations), np.array(rewards), np.array(terminated), np.array(truncated), _infos(infos)
+
+    def close(self, **_: Any) -> None:
+        for one in self.envs:
+            one.close()
+
+    def __enter__(self) -> "VectorEnv":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+
+def _stacked(observations: Sequence[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    return {name: np.stack([one[name] for one in observations]) for name in observations[0]}
+
+
+def _infos(infos: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """As Gymnasium does: an array for each key, and `_key` for who has it."""
+    batch: dict[str, Any] = {}
+    for key in {key: None for info in infos for key in info}:
+        has = np.array([key in info for info in infos])
+        values = [info.get(key) for info in infos]
+        is_number = all(isinstance(value, (int, float)) for value, there in zip(values, has) if there)
+        batch[key] = np.array([value if there else 0 for value, there in zip(values, has)], dtype=None if is_number else object)
+        batch["_" + key] = has
+    return batch
+
+
+def _batched(space: Any, count: int) -> Any:
+    return _spaces.Dict({name: _spaces.Box(np.min(one.low), np.max(one.high), shape=(count, *one.shape), dtype=one.dtype.type)
+                         for name, one in space.spaces.items()})
+
+
+def vector_env(scenario: str | Path, count: int, **arguments: Any) -> VectorEnv:
+    """``count`` environments at a time, with Gymnasium's vector API; arguments are those of ``clearway.env``."""
+    return VectorEnv(scenario, count, **arguments)

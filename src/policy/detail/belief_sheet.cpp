@@ -1,0 +1,180 @@
+#include "policy/detail/belief_sheet.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace clearway::policy::detail {
+namespace {
+
+using python::Sheet;
+namespace column = belief_column;
+
+constexpr std::array<python::Column, column::count> columns = {{
+    {"time_s", "f8", "s", "Simulation time of the belief"},
+    {"key", "u8", "", "Identity of each believed vehicle during the run; rows are ordered by it"},
+    {"vehicle_class", "u1", "", "0 human, 1 automated, 2 emergency"},
+    {"x_m", "f4", "m", "Front bumper, in the plane of the network"},
+    {"y_m", "f4", "m", "Likewise"},
+    {"heading_rad", "f4", "rad", "Counter-clockwise from the x axis"},
+    {"speed_mps", "f4", "m/s", "Believed speed"},
+    {"lane", "u4", "", "Lane of the network, internal ones included; 4294967295: none"},
+    {"lane_position_m", "f4", "m", "Front bumper from the start of the lane"},
+    {"route_edge", "u4", "1", "Position in the route of the edge entered last"},
+    {"sigma_m", "f4", "m", "Standard deviation of the position along the route"},
+    {"age_s", "f4", "s", "Age of the report that the belief rests on"},
+    {"link_first", "u4", "1", "Where the links of each vehicle begin"},
+    {"link_neighbour", "u4", "", "Row of the vehicle at the other end"},
+    {"link_distance_m", "f4", "m", "Believed distance"},
+    {"link_probability", "f4", "1", "That the true distance is below the link radius"},
+    {"emergency_key", "u8", "",
+     "Emergency vehicles on the road, as they know themselves, or else as believed"},
+    {"emergency_x_m", "f4", "m", "Front bumper"},
+    {"emergency_y_m", "f4", "m", "Front bumper"},
+    {"emergency_heading_rad", "f4", "rad", "Counter-clockwise from the x axis"},
+    {"emergency_speed_mps", "f4", "m/s", ""},
+    {"emergency_lane", "u4", "", "Lane of the network"},
+    {"emergency_lane_position_m", "f4", "m", "Front bumper from the start of the lane"},
+    {"emergency_allowed_speed_mps", "f4", "m/s", "Highest speed that the road and the vehicle allow"},
+    {"ahead_first", "u4", "1", "Where the vehicles ahead of each emergency vehicle begin"},
+    {"ahead_row", "u4", "", "Row of a vehicle on its way, nearest first, up to 300 m ahead"},
+    {"ahead_distance_m", "f4", "m", "Front to front, along the route of the emergency vehicle"},
+    {"ahead_usable_lower", "u1", "1",
+     "Of automated vehicles: the next lane outward is open to it and goes on"},
+    {"ahead_usable_higher", "u1", "1", "The same for the next lane inward"},
+    {"approach_first", "u4", "1", "Where the signals ahead of each emergency vehicle begin"},
+    {"approach_signal", "u4", "", "Signal of the network, nearest first, up to 600 m ahead"},
+    {"approach_distance_m", "f4", "m", "To its stop line"},
+    {"own_link_first", "u4", "1", "Where the own links of each approach begin"},
+    {"own_link", "u2", "", "Link of the signal that the emergency vehicle itself may take"},
+    {"served_link_first", "u4", "1", "Where the links of each approach begin"},
+    {"served_link", "u2", "", "Own links, and those of its approaches that do not conflict with them"},
+    {"signal_first", "u4", "1", "Where the letters of each signal begin"},
+    {"signal_letters", "u1", "", "SUMO's letter of each link; none where it is not known"},
+}};
+
+template <class Value, class Rows, class Member>
+void fill(Sheet& sheet, std::size_t number, const Rows& rows, const Member& member) {
+    const std::span<Value> target = sheet.room<Value>(number, rows.size());
+    std::ranges::transform(rows, target.begin(), member);
+}
+
+void write_vehicles(const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
+    using Row = traffic::BelievedVehicle;
+    fill<std::uint64_t>(sheet, column::key, rows, [](const Row& row) { return row.key.value; });
+    fill<std::uint8_t>(sheet, column::vehicle_class, rows,
+                       [](const Row& row) { return static_cast<std::uint8_t>(row.vehicle_class); });
+    fill<float>(sheet, column::x, rows, [](const Row& row) { return row.state.x_m; });
+    fill<float>(sheet, column::y, rows, [](const Row& row) { return row.state.y_m; });
+    fill<float>(sheet, column::heading, rows, [](const Row& row) { return row.state.heading_rad; });
+    fill<float>(sheet, column::speed, rows, [](const Row& row) { return row.state.speed_mps; });
+    fill<std::uint32_t>(sheet, column::lane, rows, [](const Row& row) { return row.state.lane.value; });
+    fill<float>(sheet, column::lane_position, rows, [](const Row& row) { return row.state.lane_position_m; });
+    fill<std::uint32_t>(sheet, column::route_edge, rows, [](const Row& row) { return row.state.route_edge; });
+    fill<float>(sheet, column::sigma, rows, [](const Row& row) { return row.sigma_m; });
+    fill<float>(sheet, column::age, rows, [](const Row& row) { return row.age_s; });
+}
+
+void write_links(const traffic::BelievedGraph& belief, Sheet& sheet) {
+    using Link = traffic::BelievedLink;
+    sheet.put(column::link_first, belief.first_link);
+    fill<std::uint32_t>(sheet, column::link_neighbour, belief.links,
+                        [](const Link& link) { return link.neighbour; });
+    fill<float>(sheet, column::link_distance, belief.links, [](const Link& link) { return link.distance_m; });
+    fill<float>(sheet, column::link_probability, belief.links,
+                [](const Link& link) { return link.probability; });
+}
+
+void write_emergency(const View& view, const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
+    using Row = traffic::BelievedVehicle;
+    fill<std::uint64_t>(sheet, column::emergency_key, rows, [](const Row& row) { return row.key.value; });
+    fill<float>(sheet, column::emergency_x, rows, [](const Row& row) { return row.state.x_m; });
+    fill<float>(sheet, column::emergency_y, rows, [](const Row& row) { return row.state.y_m; });
+    fill<float>(sheet, column::emergency_heading, rows, [](const Row& row) { return row.state.heading_rad; });
+    fill<float>(sheet, column::emergency_speed, rows, [](const Row& row) { return row.state.speed_mps; });
+    fill<std::uint32_t>(sheet, column::emergency_lane, rows,
+                        [](const Row& row) { return row.state.lane.value; });
+    fill<float>(sheet, column::emergency_lane_position, rows,
+                [](const Row& row) { return row.state.lane_position_m; });
+    fill<float>(sheet, column::emergency_allowed_speed, rows,
+                [&](const Row& row) { return static_cast<float>(view.allowed_speed(row).value); });
+}
+
+void write_ahead(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
+    std::vector<std::uint32_t> first = {0}, row;
+    std::vector<float> distance_m;
+    std::vector<std::uint8_t> lower, higher;
+    const traffic::BelievedVehicle* const begin = view.belief().vehicles.data();
+    for (const traffic::BelievedVehicle& vehicle : emergency) {
+        for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, sheet_horizon)) {
+            const traffic::BelievedVehicle& other = *ahead.vehicle;
+            row.push_back(static_cast<std::uint32_t>(ahead.vehicle - begin));
+            distance_m.push_back(static_cast<float>(ahead.distance_m));
+            const bool takes_leases = other.vehicle_class == traffic::VehicleClass::automated;
+            const std::uint32_t number = view.lane_number(other);
+            lower.push_back(takes_leases && number > 0 && view.may_use_lane(other, number - 1) ? 1 : 0);
+            higher.push_back(takes_leases && view.may_use_lane(other, number + 1) ? 1 : 0);
+        }
+        first.push_back(static_cast<std::uint32_t>(row.size()));
+    }
+    sheet.put(column::ahead_first, first);
+    sheet.put(column::ahead_row, row);
+    sheet.put(column::ahead_distance, distance_m);
+    sheet.put(column::ahead_usable_lower, lower);
+    sheet.put(column::ahead_usable_higher, higher);
+}
+
+void write_approaches(const View& view, const std::vector<traffic::BelievedVehicle>& emergency,
+                      Sheet& sheet) {
+    std::vector<std::uint32_t> first = {0}, signal, own_first = {0}, served_first = {0};
+    std::vector<float> distance_m;
+    std::vector<std::uint16_t> own, served;
+    for (const traffic::BelievedVehicle& vehicle : emergency) {
+        for (const Approach& approach : approaches(view, vehicle, approach_horizon)) {
+            signal.push_back(approach.signal.value);
+            distance_m.push_back(static_cast<float>(approach.distance_m));
+            own.insert(own.end(), approach.own_links.begin(), approach.own_links.end());
+            own_first.push_back(static_cast<std::uint32_t>(own.size()));
+            served.insert(served.end(), approach.links.begin(), approach.links.end());
+            served_first.push_back(static_cast<std::uint32_t>(served.size()));
+        }
+        first.push_back(static_cast<std::uint32_t>(signal.size()));
+    }
+    sheet.put(column::approach_first, first);
+    sheet.put(column::approach_signal, signal);
+    sheet.put(column::approach_distance, distance_m);
+    sheet.put(column::own_link_first, own_first);
+    sheet.put(column::own_link, own);
+    sheet.put(column::served_link_first, served_first);
+    sheet.put(column::served_link, served);
+}
+
+void write_signals(const traffic::SignalStates& signals, Sheet& sheet) {
+    std::vector<std::uint32_t> first = {0};
+    std::vector<std::uint8_t> letters;
+    for (const std::string& state : signals.state) {
+        letters.insert(letters.end(), state.begin(), state.end());
+        first.push_back(static_cast<std::uint32_t>(letters.size()));
+    }
+    sheet.put(column::signal_first, first);
+    sheet.put(column::signal_letters, letters);
+}
+
+}  // namespace
+
+std::span<const python::Column> belief_columns() {
+    return columns;
+}
+
+void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
+    const traffic::BelievedGraph& belief = view.belief();
+    sheet.clear();
+    sheet.room<double>(column::time, 1)[0] = belief.time.value;
+    write_vehicles(belief.vehicles, sheet);
+    write_links(belief, sheet);
+    write_emergency(view, emergency, sheet);
+    write_ahead(view, emergency, sheet);
+    write_approaches(view, emergency, sheet);
+    write_signals(belief.signals, sheet);
+}
+
+}  // namespace clearway::policy::detail

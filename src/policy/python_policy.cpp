@@ -1,0 +1,32 @@
+#include "policy/python_policy.hpp"
+
+#include "policy/detail/belief_sheet.hpp"
+#include "policy/detail/lease_reader.hpp"
+#include "python/part_process.hpp"
+
+namespace clearway::policy {
+
+struct PythonPolicy::State {
+    const roads::Network& network;
+    python::PartProcess process;
+};
+
+PythonPolicy::PythonPolicy(const PolicyContext& context, const std::string& word)
+    : name_(&detail::kept_text(python::short_name(word))),
+      state_(std::unique_ptr<State>(new State{context.network,
+                                              {*python::part_name_from(python::resolved(word, {}, "policy")),
+                                               {.kind = python::PartKind::policy,
+                                                .question = detail::belief_columns(),
+                                                .network = &context.network,
+                                                .period_s = context.period.value}}})) {}
+
+PythonPolicy::~PythonPolicy() = default;
+
+void PythonPolicy::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
+    const detail::View view(state_->network, belief);
+    detail::write_belief(view, view.emergency_vehicles(), state_->process.question());
+    state_->process.ask();
+    detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
+}
+
+}  // namespace clearway::policy

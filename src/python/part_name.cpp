@@ -1,0 +1,78 @@
+#include "python/part_name.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace clearway::python {
+namespace {
+
+constexpr std::size_t hash_digits = 32;
+
+/// Splits `@` and a hash off the end of a word.
+std::string take_hash(std::string_view& word) {
+    const std::size_t at = word.rfind('@');
+    if (at == std::string_view::npos || word.size() - at - 1 != hash_digits) return {};
+    const std::string_view digits = word.substr(at + 1);
+    if (digits.find_first_not_of("0123456789abcdef") != std::string_view::npos) return {};
+    word = word.substr(0, at);
+    return std::string(digits);
+}
+
+bool is_torch_script(std::string_view file) {
+    return file.ends_with(".pt") || file.ends_with(".pth");
+}
+
+}  // namespace
+
+std::optional<PartName> part_name_from(std::string_view word) {
+    PartName name;
+    name.hash = take_hash(word);
+    if (is_torch_script(word)) {
+        name.file = word;
+        return name;
+    }
+    const std::size_t colon = word.rfind(':');
+    const std::string_view file = word.substr(0, colon);
+    if (!file.ends_with(".py")) return std::nullopt;
+    name.file = file;
+    if (colon != std::string_view::npos) name.object = word.substr(colon + 1);
+    return name;
+}
+
+std::string to_text(const PartName& name) {
+    std::string text = name.file.string();
+    if (!name.object.empty()) text += ":" + name.object;
+    if (!name.hash.empty()) text += "@" + name.hash;
+    return text;
+}
+
+std::string resolved(const std::string& word, const std::filesystem::path& folder, const std::string& where) {
+    std::optional<PartName> name = part_name_from(word);
+    if (!name) return word;
+    if (name->object.empty() && !is_torch_script(name->file.string()))
+        throw core::InputError({where, fmt::format("`{}` does not name a class", word), "FILE.py:CLASS",
+                                "Add a colon and the class"});
+    if (name->file.is_relative()) name->file = folder / name->file;
+    name->file = std::filesystem::absolute(name->file).lexically_normal();
+    if (!std::filesystem::is_regular_file(name->file))
+        throw core::InputError(
+            {where, fmt::format("{} is not a file", name->file.string()), "FILE.py:CLASS or FILE.pt",
+             "A file is looked for below the present folder, or below that of the study file"});
+    const std::string hash = core::content_hash(core::read_file(name->file));
+    if (!name->hash.empty() && name->hash != hash)
+        throw core::InputError({where,
+                                fmt::format("{} has changed since the study began", name->file.string()),
+                                "content hash " + name->hash, "Restore that file, or begin a new study"});
+    name->hash = hash;
+    return to_text(*name);
+}
+
+std::string short_name(std::string_view word) {
+    const std::optional<PartName> name = part_name_from(word);
+    if (!name) return std::string(word);
+    return name->object.empty() ? name->file.stem().string() : name->object;
+}
+
+}  // namespace clearway::python

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clearway::python {
+
+/// A part of a condition that is code of the user: `my_policy.py:Yield`, a class of a file in Python, or
+/// `net.pt`, a TorchScript module. Once resolved, it is absolute and ends in the hash of the file's content,
+/// `/home/me/my_policy.py:Yield@3f...`, so that a changed file makes another condition.
+struct PartName {
+    std::filesystem::path file;
+    std::string object;  ///< The class; empty for TorchScript.
+    std::string hash;    ///< Of the file's content; empty before it is resolved.
+
+    bool operator==(const PartName&) const = default;
+};
+
+/// Nothing when the word names no code of the user.
+std::optional<PartName> part_name_from(std::string_view word);
+std::string to_text(const PartName& name);
+
+/// The word with an absolute file and its hash; other words as they are. A relative file is below `folder`.
+/// Throws core::InputError, saying `where`, for a file that is not there, and for one whose content does not
+/// have the hash that the word states.
+std::string resolved(const std::string& word, const std::filesystem::path& folder, const std::string& where);
+
+/// What leases, folders and tables call the part: the class, or the file's stem; other words as they are.
+std::string short_name(std::string_view word);
+
+}  // namespace clearway::python

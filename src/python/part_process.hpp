@@ -1,0 +1,76 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <sys/types.h>
+
+#include "python/channel.hpp"
+#include "python/part_name.hpp"
+#include "python/sheet.hpp"
+#include "roads/network.hpp"
+
+namespace clearway::python {
+
+enum class PartKind : std::uint8_t { policy, predictor };
+
+/// What a part is told once, before its first question.
+struct Greeting {
+    PartKind kind = PartKind::policy;
+    std::span<const Column> question = {};  ///< Columns of the sheets that it will get.
+    std::span<const Column> answer = {};    ///< Columns of its answers; none: it answers with text (JSON).
+    const roads::Network* network = nullptr;
+    double period_s = 0.0;
+    double link_radius_m = 0.0;
+};
+
+/// The greeting as JSON: sheets, the network's lanes, edges and signals (numbers as in sheets).
+std::string to_json(const PartName& name, const Greeting& greeting);
+
+/// A child process that ends with its owner: SIGTERM, a second of patience, SIGKILL.
+class OwnedChild {
+  public:
+    explicit OwnedChild(pid_t pid = -1) : pid_(pid) {}
+    ~OwnedChild();
+    OwnedChild(const OwnedChild&) = delete;
+    OwnedChild& operator=(const OwnedChild&) = delete;
+    /// Waits for its end and says how it ended.
+    std::string wait();
+
+  private:
+    pid_t pid_;
+};
+
+/// A Python process with one part of a condition. It is started by the process of a run, runs CLEARWAY_PYTHON
+/// (/usr/bin/python3) and ends with its owner: its pipe ends, and SIGTERM comes when the owner was killed.
+class PartProcess {
+  public:
+    /// Starts Python, loads the file and makes the part. Throws PartError with the traceback when that fails,
+    /// core::EnvironmentError when Python or the package is not there.
+    PartProcess(const PartName& name, const Greeting& greeting);
+
+    /// The sheet to fill before `ask`.
+    Sheet& question() { return question_; }
+    /// Asks and waits for the answer. Throws PartError with the traceback of an exception, or what became of
+    /// the process.
+    void ask();
+    /// Valid until the next `ask`.
+    const Sheet& answer() const { return answer_; }
+    std::string answer_text() const { return channel_.read_text(); }
+
+  private:
+    void wait_for_answer();
+    [[noreturn]] void report_end();
+
+    std::string label_;
+    Channel channel_;
+    Sheet question_;
+    Sheet answer_;
+    OwnedChild child_;
+};
+
+/// Loads a part and lets it go: what the user is told before a study begins. Throws core::InputError with the
+/// traceback, saying `where`.
+void check_part(const PartName& name, PartKind kind, const std::string& where);
+
+}  // namespace clearway::python

@@ -1,0 +1,320 @@
+"""Environments: the interface, seeds, equality with runs, and ends. Where gymnasium and pettingzoo are installed, their own checks too."""
+import gc
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+import clearway
+import numpy as np
+from clearway import _spaces
+from support import FolderCase
+
+
+def no_action(env: clearway.Env) -> np.ndarray:
+    return np.zeros(env.action_space.shape, dtype=np.int64)
+
+
+def finish(env: clearway.Env) -> dict:
+    done = False
+    while not done:
+        _, _, terminated, truncated, info = env.step(no_action(env))
+        done = terminated or truncated
+    return info
+
+
+def children(of: int) -> list[int]:
+    """All living processes below a process."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if words[0] != "Z" and int(words[1]) == of:
+            found += [int(process.name), *children(int(process.name))]
+    return found
+
+
+def wait_until(holds, seconds: float = 20.0) -> bool:  # noqa: ANN001
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if holds():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+class InterfaceTest(FolderCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.env = clearway.env("intersection", seeds=[0], render_mode="ansi")
+        cls.addClassCleanup(cls.env.close)
+
+    def test_reset_and_step_return_what_the_spaces_say(self) -> None:
+        observation, info = self.env.reset(seed=0)
+        self.assertIn(observation, self.env.observation_space)
+        self.assertIsInstance(info, dict)
+        for _ in range(5):
+            action = np.array([space_choice(mask) for mask in self.env.action_masks()])
+            self.assertIn(action, self.env.action_space)
+            observation, reward, terminated, truncated, info = self.env.step(action)
+            self.assertIn(observation, self.env.observation_space)
+            self.assertEqual([type(value) for value in (reward, terminated, truncated, info)], [float, bool, bool, dict])
+            self.assertTrue(np.isfinite(reward))
+            self.assertLessEqual(reward, 0.0)
+            self.assertEqual(info["illegal_actions"], 0)
+            self.assertAlmostEqual(reward, -info["emergency_delay_s"] - 0.01 * info["others_delay_s"])
+
+    def test_a_step_is_a_policy_period_and_costs_at_most_that_much_delay(self) -> None:
+        _, before = self.env.reset(seed=0)
+        _, _, _, _, after = self.env.step(no_action(self.env))
+        self.assertEqual(after["time_s"] - before["time_s"], 0.5)
+        self.assertLessEqual(after["emergency_delay_s"], 0.5 * 2)
+
+    def test_the_observation_has_the_vehicle_and_its_neighbours(self) -> None:
+        observation, _ = self.env.reset(seed=0)
+        self.assertEqual(observation["emergency"][0], 1.0)
+        count = int(observation["vehicle_mask"].sum())
+        self.assertGreater(count, 0)
+        self.assertTrue((observation["vehicles"][count:] == 0).all())
+        distances = np.hypot(*observation["vehicles"][:count, :2].T)
+        self.assertTrue((np.diff(distances) >= -1e-3).all())
+        links = int(observation["edge_mask"].sum())
+        self.assertTrue((observation["edges"][:, :links] < count).all())
+        ends = observation["vehicles"][observation["edges"][:, :links], :2]
+        np.testing.assert_allclose(np.hypot(*(ends[0] - ends[1]).T), observation["edge_features"][:links, 0], atol=0.01)
+
+    def test_the_same_seed_is_the_same_episode_to_the_bit(self) -> None:
+        rng = np.random.default_rng(3)
+        actions, first = [], [self.env.reset(seed=7)[0]]
+        for _ in range(20):
+            actions.append(np.array([rng.choice(np.flatnonzero(mask)) for mask in self.env.action_masks()]))
+            first.append(self.env.step(actions[-1])[0])
+        second = [self.env.reset(seed=7)[0], *(self.env.step(action)[0] for action in actions)]
+        for left, right in zip(first, second):
+            for name in left:
+                np.testing.assert_array_equal(left[name], right[name])
+        other = self.env.reset(seed=8)[0]
+        self.assertFalse(np.array_equal(other["vehicles"], first[0]["vehicles"]))
+
+    def test_generators_follow_the_seed(self) -> None:
+        self.env.reset(seed=123)
+        state = self.env._np_random.bit_generator.state
+        self.env.reset(seed=123)
+        self.assertEqual(self.env._np_random.bit_generator.state, state)
+        self.env.reset(seed=456)
+        self.assertNotEqual(self.env._np_random.bit_generator.state, state)
+
+    def test_a_held_phase_shows_at_the_signal(self) -> None:
+        shares = []
+        for phase in (1, 2):
+            observation, _ = self.env.reset(seed=0)
+            while observation["signals"][0, 0] == 0.0:
+                self.assertFalse(self.env.action_masks()[0][1:].any(), "nothing to hold for an EV that is far away")
+                observation = self.env.step(no_action(self.env))[0]
+            self.assertTrue(self.env.action_masks()[0].all())
+            for _ in range(14):  # 7 s: yellow, all red, green
+                observation, _, terminated, _, info = self.env.step(np.array([phase] + [0] * 8))
+                self.assertEqual((terminated, info["illegal_actions"]), (False, 0))
+            shares.append(observation["signals"][0, 2] if observation["signals"][0, 0] else 1.0)
+        self.assertEqual(sorted(shares), [0.0, 1.0])
+
+    def test_illegal_actions_are_counted_and_wrong_ones_refused(self) -> None:
+        self.env.reset(seed=0)
+        masks = self.env.action_masks()
+        illegal = next((place, int(np.argmin(mask))) for place, mask in enumerate(masks) if not mask.all())
+        action = no_action(self.env)
+        action[illegal[0]] = illegal[1]
+        self.assertEqual(self.env.step(action)[4]["illegal_actions"], 1)
+        for wrong, says in ((np.zeros(3, int), "shape (3,)"), (np.full(9, 0.5), "float64"), (np.full(9, np.nan), "float64"),
+                            (np.full(9, 99), "action 0 is 99"), (np.full(9, -1), "action 0 is -1")):
+            self.assertIn(says, self.message_of(clearway.InputError, lambda wrong=wrong: self.env.step(wrong)))
+        self.env.step(no_action(self.env))  # it goes on
+
+    def test_renders_a_line(self) -> None:
+        self.env.reset(seed=0)
+        self.assertRegex(self.env.render(), r"\d+\.\d\d s: EV at .* m/s")
+
+    def test_after_the_end_a_step_is_refused(self) -> None:
+        self.env.reset(seed=0)
+        finish(self.env)
+        self.assertIn("call reset()", self.message_of(clearway.ClearwayError, lambda: self.env.step(no_action(self.env))))
+        self.env.reset(seed=0)
+        self.env.step(no_action(self.env))
+
+    def test_wrong_arguments_are_told(self) -> None:
+        for arguments, says in (({"until": "noon"}, "emergency, end"), ({"render_mode": "human"}, "ansi"), ({"seeds": []}, "at least one"),
+                                ({"seeds": [-1]}, "-1"), ({"others_weight": float("nan")}, "nan"), ({"failure": "B99"}, "B99"),
+                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "--sparse")):
+            self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
+        self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
+        self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
+
+    def test_gymnasium_accepts_it(self) -> None:
+        if not _spaces.installed("gymnasium"):
+            self.skipTest("gymnasium is not installed (it is in no Debian package)")
+        from gymnasium.utils.env_checker import check_env
+        check_env(self.env, skip_render_check=False)
+
+
+def space_choice(mask: np.ndarray) -> int:
+    return int(np.flatnonzero(mask)[-1])
+
+
+class EqualRunTest(FolderCase):
+    def test_an_episode_under_a_policy_is_the_run_of_that_condition(self) -> None:
+        results = clearway.run("intersection", [clearway.Condition("faulty", policy="corridor", failure="B10",
+                                                                   predictor="dead_reckoning"), "corridor"], seeds=2, out="runs")
+        for name, part in (("corridor", {}), ("faulty", {"failure": "B10", "predictor": "dead_reckoning"})):
+            run = results.runs.where(condition=name, replication=1)
+            with clearway.env("intersection", policy="corridor", seeds=[1], until="end", **part) as env:
+                env.reset()
+                info = finish(env)
+                self.assertEqual(info["trace_hash"], run["trace_hash"][0])
+                for metric, value in info["metrics"].items():
+                    stored = run[metric][0]
+                    self.assertTrue(stored == value or (value is None and np.isnan(stored)), metric)
+                env.reset()
+                self.assertEqual(finish(env)["trace_hash"], run["trace_hash"][0])
+
+
+class EndTest(FolderCase):
+    def test_close_ends_all_processes_and_may_be_repeated(self) -> None:
+        before = set(children(os.getpid()))
+        env = clearway.env("intersection", seeds=[0, 1])
+        env.reset()
+        env.reset()
+        self.assertEqual(len(set(children(os.getpid())) - before), 4)  # two workers, an episode each
+        folder = env._folder
+        env.close()
+        env.close()
+        self.assertTrue(wait_until(lambda: set(children(os.getpid())) <= before))
+        self.assertFalse(folder.exists())
+        self.assertIn("is closed", self.message_of(clearway.ClearwayError, env.reset))
+
+    def test_a_forgotten_environment_ends(self) -> None:
+        before = set(children(os.getpid()))
+        env = clearway.env("intersection", seeds=[0])
+        env.reset()
+        del env
+        gc.collect()
+        self.assertTrue(wait_until(lambda: set(children(os.getpid())) <= before))
+
+    def test_a_forked_child_is_refused_and_does_not_keep_workers_alive(self) -> None:
+        env = clearway.env("intersection", seeds=[0])
+        self.addCleanup(env.close)
+        env.reset()
+        queue = multiprocessing.get_context("fork").Queue()
+
+        def use() -> None:
+            try:
+                env.reset()
+            except clearway.ClearwayError as error:
+                queue.put(str(error))
+
+        child = multiprocessing.get_context("fork").Process(target=use)
+        child.start()
+        self.assertIn("make one in this process", queue.get(timeout=60))
+        child.join()
+        env.step(no_action(env))  # the parent's goes on
+
+    def test_killed_parents_leave_no_process(self) -> None:
+        parent = subprocess.Popen([sys.executable, "-c", "import clearway, time; env = clearway.env('intersection', seeds=[0]); "
+                                   "env.reset(); print('ready', flush=True); time.sleep(600)"], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(parent.stdout.readline().strip(), "ready")
+        below = children(parent.pid)
+        self.assertEqual(len(below), 2)
+        parent.send_signal(signal.SIGKILL)
+        parent.wait()
+        parent.stdout.close()
+        self.assertTrue(wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in below)))
+
+    def test_a_killed_worker_is_told_and_a_reset_starts_another(self) -> None:
+        env = clearway.env("intersection", seeds=[0])
+        self.addCleanup(env.close)
+        env.reset()
+        for pid in children(os.getpid()):
+            os.kill(pid, signal.SIGKILL)
+        self.assertIn("ended with -9", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
+        env.reset()
+        env.step(no_action(env))
+
+    def test_a_killed_episode_is_told(self) -> None:
+        env = clearway.env("intersection", seeds=[0])
+        self.addCleanup(env.close)
+        env.reset()
+        os.kill(children(os.getpid())[-1], signal.SIGKILL)
+        self.assertIn("killed by signal 9", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
+
+
+class ParallelTest(FolderCase):
+    """What pettingzoo.test.parallel_api_test asks, without it."""
+
+    def test_follows_the_parallel_api(self) -> None:
+        env = clearway.parallel_env("intersection", seeds=[0])
+        self.addCleanup(env.close)
+        for _ in range(2):
+            observations, infos = env.reset()
+            self.assertEqual(set(observations), set(env.agents))
+            self.assertEqual(set(infos), set(env.agents))
+            self.assertEqual(env.agents, env.possible_agents)
+            while env.agents:
+                live = set(env.agents)
+                actions = {}
+                for agent in env.agents:
+                    self.assertIs(env.observation_space(agent), env.observation_space(agent))
+                    self.assertIs(env.action_space(agent), env.action_space(agent))
+                    self.assertIn(observations[agent], env.observation_space(agent))
+                    actions[agent] = env.action_space(agent).sample(observations[agent]["action_mask"])
+                observations, rewards, terminated, truncated, infos = env.step(actions)
+                for part in (observations, rewards, terminated, truncated, infos):
+                    self.assertEqual(set(part), live)
+                self.assertTrue(all(info["illegal_actions"] == 0 for info in infos.values()))
+                gone = {agent for agent in live if terminated[agent] or truncated[agent]}
+                self.assertEqual(set(env.agents), live - gone)
+            self.assertEqual(live, set(env.possible_agents))
+        self.assertIn("call reset()", self.message_of(clearway.ClearwayError, lambda: env.step({})))
+        env.reset()
+        self.assertIn("there is no agent", self.message_of(clearway.InputError, lambda: env.step({"signal:x": 0})))
+
+    def test_pettingzoo_accepts_it(self) -> None:
+        if not _spaces.installed("pettingzoo"):
+            self.skipTest("pettingzoo is not installed (it is in no Debian package)")
+        from pettingzoo.test import parallel_api_test
+        env = clearway.parallel_env("intersection", seeds=[0])
+        self.addCleanup(env.close)
+        parallel_api_test(env, num_cycles=50)
+
+
+class VectorTest(FolderCase):
+    def test_two_at_a_time_are_the_episodes_of_each_alone(self) -> None:
+        with clearway.vector_env("intersection", 2, seeds=[3, 4]) as both, clearway.env("intersection", seeds=[4]) as alone:
+            observations, _ = both.reset()
+            self.assertIn(observations, both.observation_space)
+            expected, _ = alone.reset()
+            ended = False
+            for _ in range(400):
+                np.testing.assert_array_equal(observations["vehicles"][1], expected["vehicles"])
+                if ended:
+                    break
+                observations, rewards, terminated, truncated, infos = both.step(np.zeros(both.action_space.shape, dtype=np.int64))
+                expected, reward, ended, _, _ = alone.step(no_action(alone))
+                self.assertEqual((rewards[1], terminated[1]), (reward, ended))
+                self.assertEqual(rewards.shape, (2,))
+            self.assertTrue(ended)
+            observations, rewards, terminated, _, infos = both.step(np.zeros(both.action_space.shape, dtype=np.int64))
+            self.assertEqual((rewards[1], terminated[1]), (0.0, False))  # a new episode has begun
+            np.testing.assert_array_equal(observations["vehicles"][1], alone.reset()[0]["vehicles"])
+
+    def test_wrong_counts_are_told(self) -> None:
+        self.assertIn("count is 9", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 9)))
+        self.assertIn("count is 0", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 0)))
+
+
+if __name__ == "__main__":
+    unittest.main()

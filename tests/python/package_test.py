@@ -1,0 +1,71 @@
+"""Import, installation and what is said when something is missing."""
+import subprocess
+import sys
+import unittest
+
+import clearway
+from support import FolderCase, PROGRAMS, program, python
+
+
+class ImportTest(FolderCase):
+    def test_loads_no_heavy_package(self) -> None:
+        ended = python("import clearway, sys; from clearway import *; "
+                       "print([name for name in ('torch', 'gymnasium', 'pettingzoo', 'pandas', 'h5py') if name in sys.modules])")
+        self.assertEqual((ended.stdout.strip(), ended.stderr), ("[]", ""))
+
+    def test_lists_every_public_name_with_a_docstring(self) -> None:
+        for name in clearway.__all__:
+            self.assertTrue(hasattr(clearway, name), name)
+            if name != "__version__":
+                self.assertGreater(len(getattr(clearway, name).__doc__ or ""), 30, name)
+
+    def test_says_what_it_has_when_a_name_is_wrong(self) -> None:
+        self.assertIn("it has", self.message_of(AttributeError, lambda: clearway.nonsense))
+
+    def test_says_which_python_lacks_numpy(self) -> None:
+        bare = self.folder / "bare"
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(bare)], check=True)
+        ended = python("import clearway", str(bare / "bin" / "python3"))
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn(f"clearway needs numpy, which {bare}/bin/python3 does not have", ended.stderr)
+
+    def test_says_where_programs_were_looked_for(self) -> None:
+        ended = python("import clearway; clearway.open('runs')", CLEARWAY_PROGRAMS=str(self.folder))
+        self.assertIn(f"EnvironmentFault: Clearway's programs are not in {self.folder}", ended.stderr)
+
+    def test_has_the_version_of_the_programs(self) -> None:
+        self.assertEqual(program("--version").split()[-1], clearway.__version__)
+
+
+class InstallTest(FolderCase):
+    code = "import clearway, clearway._program as p; print(clearway.__file__, p.programs())"
+
+    def test_into_a_folder(self) -> None:
+        program("python", "--to", "packages")
+        program("python", "--to", "packages")  # again, over the first
+        ended = python(self.code, PYTHONPATH=str(self.folder / "packages"), CLEARWAY_PROGRAMS="")
+        self.assertEqual(ended.stdout.split(), [str(self.folder / "packages/clearway/__init__.py"), str(PROGRAMS)], ended.stderr)
+        self.assertEqual(sorted(file.name for file in (self.folder / "packages").iterdir()),
+                         ["clearway", f"clearway-{clearway.__version__}.dist-info"])
+
+    def test_into_a_virtual_environment_that_is_made(self) -> None:
+        program("python", "--venv", "mine")
+        ended = python(self.code, str(self.folder / "mine/bin/python3"), PYTHONPATH="", CLEARWAY_PROGRAMS="")
+        self.assertEqual(ended.stdout.split()[1:], [str(PROGRAMS)], ended.stderr)
+        self.assertTrue(ended.stdout.startswith(str(self.folder / "mine/lib")))
+
+    def test_says_what_cannot_be_written(self) -> None:
+        self.write("taken", "")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "python", "--to", "taken"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 4)
+        self.assertIn("taken: cannot be written", ended.stderr)
+
+    def test_refuses_a_python_without_numpy_or_none_at_all(self) -> None:
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "python", "--python", "/no/python3"], capture_output=True, text=True,
+                               check=False)
+        self.assertEqual(ended.returncode, 4)
+        self.assertIn("/no/python3: cannot be started", ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

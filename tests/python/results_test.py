@@ -1,0 +1,98 @@
+"""Runs, tables, paired differences and recordings, against the program's own tables and sums made here."""
+import csv
+import io
+import math
+import os
+import tempfile
+import unittest
+
+import clearway
+import numpy as np
+from support import FolderCase, program
+
+T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
+
+
+class ResultsTest(FolderCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.holder = tempfile.TemporaryDirectory(prefix="clearway-test-")
+        cls.addClassCleanup(cls.holder.cleanup)
+        cls.results = clearway.run("intersection", ["corridor"], seeds=5, out=os.path.join(cls.holder.name, "runs"), record=True)
+
+    def test_tables_are_those_of_the_program(self) -> None:
+        for name in ("runs", "vehicles", "leases"):
+            lines = list(csv.DictReader(io.StringIO(program("results", str(self.results.folder), name, "--csv"))))
+            table = self.results.table(name)
+            self.assertEqual((table.row_count, list(table)), (len(lines), list(lines[0])), name)
+            for column, array in table.items():
+                for cell, value in zip((line[column] for line in lines), array):
+                    if array.dtype.kind == "U":
+                        self.assertEqual(cell, value, column)
+                    else:
+                        self.assertTrue(math.isnan(value) if cell == "" else math.isclose(float(cell), value, rel_tol=1e-12), column)
+
+    def test_where_and_pandas(self) -> None:
+        corridor = self.results.runs.where(condition="corridor", replication=2)
+        self.assertEqual(corridor.row_count, 1)
+        frame = self.results.vehicles.to_pandas()
+        self.assertEqual(list(frame.columns), list(self.results.vehicles))
+        self.assertEqual(len(frame), self.results.vehicles.row_count)
+
+    def test_a_paired_difference_is_the_mean_with_its_interval(self) -> None:
+        metric = "emergency_travel_time_s"
+        runs = self.results.runs
+        pairs = runs.where(condition="corridor")[metric] - runs.where(condition="baseline")[metric]
+        half = T_975_4 * pairs.std(ddof=1) / math.sqrt(5)
+        found = self.results.paired_difference(metric, "corridor")
+        self.assertAlmostEqual(found.difference, pairs.mean(), places=9)
+        self.assertAlmostEqual(found.interval_95[0], pairs.mean() - half, places=6)
+        self.assertAlmostEqual(found.interval_95[1], pairs.mean() + half, places=6)
+        self.assertEqual((found.complete_pairs, found.compared_with), (5, "baseline"))
+        self.assertIn("corridor - baseline", str(found))
+
+    def test_a_recording_is_what_replay_prints(self) -> None:
+        file = self.results.folder / "recordings/intersection/corridor/00000.h5"
+        lines = csv.DictReader(io.StringIO(program("replay", str(file), "--csv", "snapshot")))
+        printed = {(float(line["time_s"]), line["vehicle"]): np.float32(line["x_m"]) for line in lines}
+        with clearway.trace(file) as recording:
+            read = {(step.time_s, name): x_m for step in recording for name, x_m in zip(step.id, step.x_m)}
+            asked = sum(len(step.leases["policy"]) for step in recording)
+            self.assertEqual(len(recording[-1].id), len(recording[len(recording) - 1].id))
+        self.assertEqual(len(read), len(printed))
+        self.assertTrue(read == printed)
+        self.assertEqual(asked, program("replay", str(file), "--csv", "leases").count("\n") - 1)
+
+    def test_events_of_all_recordings(self) -> None:
+        events = self.results.events
+        arrived = (events["kind"] == "arrived") & (events["condition"] == "corridor") & (events["replication"] == 1)
+        run = self.results.runs.where(condition="corridor", replication=1)
+        outcome = self.results.vehicles.where(condition="corridor", replication=1)["outcome"]
+        # Vehicles that were there before the fork are in no recording as departed, but all arrive in it or were counted before.
+        self.assertLessEqual(arrived.sum(), (outcome == "arrived").sum())
+        self.assertGreater(arrived.sum(), 0.5 * run["arrived"][0])
+
+    def test_the_same_call_repeats_nothing(self) -> None:
+        before = {file: file.stat().st_mtime_ns for file in self.results.folder.glob("runs/*/*/*/run.json")}
+        clearway.run("intersection", ["corridor"], seeds=5, out=self.results.folder, record=True)
+        self.assertEqual(before, {file: file.stat().st_mtime_ns for file in before})
+        self.assertEqual(len(before), 10)
+
+    def test_wrong_names_are_told_with_what_there_is(self) -> None:
+        for call, says in ((lambda: self.results.table("nothing"), "it has"),
+                           (lambda: self.results.runs["nothing"], "columns are scenario"),
+                           (lambda: self.results.paired_difference("nothing_s", "corridor"), "nothing_s"),
+                           (lambda: self.results.paired_difference("collisions", "mine"), "intersection/corridor"),
+                           (lambda: clearway.open("no-folder"), "no-folder"),
+                           (lambda: clearway.trace("no.h5"), "no.h5 is not a file"),
+                           (lambda: clearway.trace(__file__), "is not a recording"),
+                           (lambda: clearway.study("no.toml"), "no.toml"),
+                           (lambda: clearway.run("intersectoin", seeds=1), "intersectoin"),
+                           (lambda: clearway.run("intersection", ["coridor"], seeds=1), "corridor"),
+                           (lambda: clearway.run("intersection", [3], seeds=1), "neither a name nor"),
+                           (lambda: clearway.run("intersection", seeds=0), "replications")):
+            self.assertIn(says, self.message_of(clearway.InputError, call))
+
+
+if __name__ == "__main__":
+    unittest.main()
