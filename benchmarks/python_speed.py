@@ -1,0 +1,146 @@
+"""What Python costs: a step of an environment against the C++ loop, a reset, two processes against one, and a policy at 2 Hz.
+
+    PYTHONPATH=python /usr/bin/python3 benchmarks/python_speed.py [--seeds N] [--scenario city] [--what step reset processes policy bell]
+
+Prints medians; run it on an idle machine, with programs of the release build. A step of the C++ loop is that of the same condition:
+`timing.json` of its run (simulator and coupling), so nothing but what the environment adds is in the difference.
+"""
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import clearway
+import numpy as np
+
+ANSWER = """
+import os, sys
+read, write = int(sys.argv[1]), int(sys.argv[2])
+while os.read(read, 1):
+    os.write(write, b"x")
+"""
+
+
+def bell(rounds: int = 20000) -> None:
+    """Round trip of the bell between two Python processes: what a question costs before anything is said."""
+    import subprocess
+    their_read, our_write = os.pipe()
+    our_read, their_write = os.pipe()
+    child = subprocess.Popen([sys.executable, "-c", ANSWER, str(their_read), str(their_write)], pass_fds=(their_read, their_write))
+    os.close(their_read)
+    os.close(their_write)
+    times = []
+    for _ in range(rounds):
+        begin = time.perf_counter()
+        os.write(our_write, b"x")
+        os.read(our_read, 1)
+        times.append(time.perf_counter() - begin)
+    os.close(our_write)
+    child.wait()
+    os.close(our_read)
+    print(f"bell: {1e6 * statistics.median(times):.1f} us there and back")
+
+
+def episode(env: clearway.Env) -> tuple[int, float]:
+    """Steps and wall time of an episode without actions, after its reset."""
+    action = np.zeros(env.action_space.shape, dtype=np.int64)
+    steps, done, begin = 0, False, time.perf_counter()
+    while not done:
+        _, _, terminated, truncated, _ = env.step(action)
+        steps, done = steps + 1, terminated or truncated
+    return steps, time.perf_counter() - begin
+
+
+def timings(results: clearway.Results, scenario: str, condition: str) -> list[dict]:
+    return [json.loads(file.read_text()) for file in sorted(results.folder.glob(f"runs/{scenario}/{condition}/*/timing.json"))]
+
+
+def step(scenario: str, seeds: int) -> None:
+    """Cost of the agent in a whole episode: the episode's wall time against the run's, per decision and per vehicle."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = clearway.run(scenario, ["corridor"], seeds=seeds, out=folder, jobs=1)
+        runs, times = results.runs.where(condition="corridor"), timings(results, scenario, "corridor")
+        extra_us, vehicles = [], []
+        for seed in range(seeds):
+            with clearway.env(scenario, policy="corridor", seeds=[seed], until="end") as env:
+                walls = []
+                for _ in range(3):
+                    begin = time.perf_counter()
+                    env.reset()
+                    decisions, _ = episode(env)
+                    walls.append(time.perf_counter() - begin)
+            extra_us.append(1e6 * (min(walls) - times[seed]["wall_s"]) / decisions)
+            vehicles.append(runs["vehicle_steps"][seed] * 0.25 / runs["simulated_s"][seed])
+    allowed = 10.0 + 0.02 * statistics.mean(vehicles)
+    print(f"step: {statistics.median(extra_us):+.1f} us a decision against the C++ loop of the same condition "
+          f"({statistics.mean(vehicles):.0f} vehicles: 10 us + 20 ns each are {allowed:.1f} us)")
+
+
+def reset(scenario: str) -> None:
+    with clearway.env(scenario, seeds=[0]) as env:
+        begin = time.perf_counter()
+        env.reset()
+        first = time.perf_counter() - begin
+        times = []
+        for _ in range(7):
+            begin = time.perf_counter()
+            env.reset()
+            times.append(time.perf_counter() - begin)
+    print(f"reset: first {first:.3f} s after loading, then {statistics.median(times):.3f} s")
+
+
+def processes(scenario: str, seeds: int) -> None:
+    """Episodes a second of one and of two environments at a time."""
+    rates = []
+    for count in (1, 2):
+        with clearway.vector_env(scenario, count, seeds=range(count)) as envs:
+            action = np.zeros(envs.action_space.shape, dtype=np.int64)
+            envs.reset()
+            begin, total = time.perf_counter(), 300 * seeds
+            for _ in range(total):
+                envs.step(action)
+            rates.append(count * total / (time.perf_counter() - begin))
+    print(f"processes: {rates[0]:.0f} steps/s alone, {rates[1]:.0f} with two: {rates[1] / rates[0]:.2f} times")
+
+
+def policy(scenario: str, seeds: int, dense: bool) -> None:
+    """A policy in Python that reads everything, at 2 Hz, against the same run without it."""
+    source = ("import numpy as np\nclass Reads:\n    def act(self, belief):\n        v = belief.vehicles\n"
+              "        near = v.is_automated & (v.speed_mps > 1.0)\n        belief.links.index\n"
+              "        for ev in belief.emergency_vehicles:\n            ev.ahead(150.0), ev.approaches\n"
+              "        return []\n")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "reads.py"
+        file.write_text(source)
+        conditions = [clearway.Condition("without", policy="corridor"), clearway.Condition("with", policy=["corridor", f"{file}:Reads"])]
+        overrides = {"variant": "dense"} if dense else {}
+        results = clearway.run(scenario, conditions, seeds=seeds, out=Path(folder) / "runs", jobs=1, **overrides)
+        walls = {name: [one["wall_s"] for one in timings(results, scenario, name)] for name in ("without", "with")}
+        same = set(results.runs.where(condition="with")["trace_hash"]) == set(results.runs.where(condition="without")["trace_hash"])
+    shares = [mine / plain - 1.0 for mine, plain in zip(walls["with"], walls["without"])]
+    print(f"policy: {statistics.median(walls['without']):.2f} s without, {statistics.median(walls['with']):.2f} s with: "
+          f"{100 * statistics.median(shares):+.1f} % (start of Python included; {'same' if same else 'NOT the same'} traffic)")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--scenario", default="intersection", help="for all but the policy [intersection]")
+    parser.add_argument("--policy-scenario", default="city", help="dense variant [city]")
+    parser.add_argument("--what", nargs="+", default=["bell", "reset", "step", "processes", "policy"])
+    arguments = parser.parse_args()
+    calls = {"bell": bell, "reset": lambda: reset(arguments.scenario), "step": lambda: step(arguments.scenario, arguments.seeds),
+             "processes": lambda: processes(arguments.scenario, arguments.seeds),
+             "policy": lambda: policy(arguments.policy_scenario, arguments.seeds, True)}
+    for name in arguments.what:
+        calls[name]()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,96 @@
+"""Every example of examples/python runs and says what it promises."""
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+import clearway
+from support import FolderCase, SOURCE, program
+
+GALLERY = SOURCE / "examples/python"
+
+
+class GalleryTest(FolderCase):
+    def example(self, *words: str) -> str:
+        ended = subprocess.run([sys.executable, str(GALLERY / words[0]), *words[1:]], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        return ended.stdout
+
+    def test_first_steps(self) -> None:
+        self.assertRegex(self.example("first_steps.py", "runs"), r"corridor - baseline, emergency_travel_time_s: -\d+\.\d\d too few seeds")
+
+    def test_study_with_plot_draws_each_condition(self) -> None:
+        said = self.example("study_with_plot.py", "runs", "1")
+        if importlib.util.find_spec("matplotlib"):
+            self.assertGreater((self.folder / "runs/study.png").stat().st_size, 5000)
+        else:
+            for condition in ("signals", "lanes", "mine"):
+                self.assertRegex(said, rf"{condition} +[-+]\d")
+            self.assertRegex(said, r"mine +-.*#")
+
+    def test_the_policy_and_the_predictor_run_together(self) -> None:
+        program("run", "intersection", "--policy", f"{GALLERY}/yield_policy.py:Yield", "--failure", "B10", "--predictor",
+                f"{GALLERY}/distance_predictor.py:ByDistance", "--name", "mine", "--seeds", "1", "--no-solo", "--out", "runs")
+        results = clearway.open("runs")
+        leases = results.leases.where(condition="mine", policy="Yield", outcome="acted")
+        self.assertIn("hold_green", set(leases["action"]))
+        self.assertGreater(results.runs.where(condition="mine")["dark_links_true_positive"][0], 0)
+
+    def test_a_policy_is_trained_and_scored(self) -> None:
+        if not importlib.util.find_spec("torch"):
+            self.skipTest("torch is not installed (Debian: python3-torch)")
+        said = self.example("train_signals.py", "--steps", "512", "--seeds", "1", "--out", "ppo")
+        for condition in ("corridor", "signals", "ppo"):
+            self.assertIn(f"intersection: {condition} - baseline, others_time_loss_s", said)
+        self.assertTrue(os.path.exists("ppo/trained.py"))
+        self.assertEqual(clearway.open("ppo/study").errors.row_count, 0)
+
+    def test_the_notebook_runs(self) -> None:
+        cells = json.loads((GALLERY / "first_steps.ipynb").read_text())["cells"]
+        if importlib.util.find_spec("nbconvert") and importlib.util.find_spec("ipykernel"):
+            subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", ".",
+                            str(GALLERY / "first_steps.ipynb")], check=True)
+            return
+        # Without Jupyter its cells run one after the other; %%writefile is the only magic that they use.
+        space: dict = {}
+        for cell in cells:
+            text = "".join(cell["source"])
+            if cell["cell_type"] != "code":
+                continue
+            if text.startswith("%%writefile "):
+                first, _, rest = text.partition("\n")
+                self.write(first.split()[1], rest)
+            else:
+                exec(compile(text.replace("seeds=5", "seeds=1"), "cell", "exec"), space)  # noqa: S102
+        self.assertGreater(space["lost_s"], 0.0)
+
+
+class TorchScriptTest(FolderCase):
+    def test_a_torch_script_is_a_predictor(self) -> None:
+        if not importlib.util.find_spec("torch"):
+            self.skipTest("torch is not installed (Debian: python3-torch)")
+        import torch
+
+        class Near(torch.nn.Module):
+            def forward(self, x, edge_index, pairs, pair_features):  # noqa: ANN001, ANN201
+                return (pair_features[:, 1] < 1.0).to(torch.float32)
+
+        torch.jit.script(Near()).save("near.pt")
+        self.write("same.py", "class Near:\n    def predict(self, o):\n        return o.pair_dead_reckoned_m < o.link_radius_m\n")
+        results = clearway.run("intersection", [
+            clearway.Condition(name, policy="corridor", failure="B10", predictor=predictor)
+            for name, predictor in (("script", "near.pt"), ("plain", "same.py:Near"))], seeds=1, out="runs")
+        self.assertEqual(results.errors.row_count, 0)
+        script, plain = (results.runs.where(condition=name) for name in ("script", "plain"))
+        self.assertEqual(script["trace_hash"][0], plain["trace_hash"][0])
+        self.assertEqual(script["dark_links_true_positive"][0], plain["dark_links_true_positive"][0])
+        self.assertGreater(plain["dark_links_true_positive"][0], 0)
+        (self.folder / "no.pt").write_bytes(b"nothing")
+        ended = program("run", "intersection", "--predictor", "no.pt", "--policy", "corridor", "--out", "other", code=3)
+        self.assertEqual(ended, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
