@@ -35,6 +35,8 @@ constexpr std::array all_verbs = {
          configure_merge},
     Verb{"report", "Print the tables of a run folder and write its report.html",
          "clearway report runs/reproduce", configure_report},
+    Verb{"figures", "Write every figure and table of a report as SVG, PNG, CSV and LaTeX",
+         "clearway figures runs/reproduce --out figures", configure_figures},
     Verb{"compare", "Compare the conditions of a run folder, or two run folders, pair by pair",
          "clearway compare runs/old runs/new --tolerance 1 --tolerance collisions=0.5", configure_compare},
     Verb{"results", "Print any table of a run folder as CSV or JSON",

@@ -70,6 +70,12 @@ Check check_osmium() {
             "Install the package osmium-tool to import .osm.pbf files"};
 }
 
+Check check_rasteriser() {
+    const std::string text = first_line(output_of("rsvg-convert", {"--version"}).value_or(""));
+    return {"rsvg-convert", !text.empty(), Severity::optional, text.empty() ? "missing" : text,
+            "Install the package librsvg2-bin to write figures as PNG"};
+}
+
 Check check_folder() {
     const std::filesystem::path here = std::filesystem::current_path();
     const bool writable = ::access(here.c_str(), W_OK) == 0;
@@ -88,6 +94,7 @@ std::vector<Check> all_checks() {
         check_sister("clearway-run", "the worker that holds SUMO"),
         check_sister("clearway-train", "training, holds libtorch"),
         check_osmium(),
+        check_rasteriser(),
         check_folder(),
         {"processors", true, Severity::optional, std::to_string(std::thread::hardware_concurrency()), ""}};
 }

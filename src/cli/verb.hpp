@@ -40,6 +40,7 @@ Action configure_submit(CLI::App& app);
 Action configure_merge(CLI::App& app);
 Action configure_status(CLI::App& app);
 Action configure_report(CLI::App& app);
+Action configure_figures(CLI::App& app);
 Action configure_compare(CLI::App& app);
 Action configure_results(CLI::App& app);
 Action configure_replay(CLI::App& app);

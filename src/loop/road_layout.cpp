@@ -54,13 +54,14 @@ void add_signal_ways(const roads::Network& network, metrics::RoadLayout& layout)
 
 metrics::WatchedRoute watched_route(const roads::Network& network, const metrics::RoadLayout& layout,
                                     const traffic::EmergencyDeparture& departure) {
-    metrics::WatchedRoute watched{core::vehicle_key(departure.id), departure.id, {}, {}, {}, {}};
+    metrics::WatchedRoute watched{core::vehicle_key(departure.id), departure.id, {}, {}, {}, {}, {}};
     std::vector<core::EdgeIndex> route;
     for (const std::string& id : departure.edges) {
         const auto edge = network.find_edge(id);
         if (!edge) break;
         route.push_back(*edge);
         const double length_m = network.edge(*edge).length_m;
+        watched.edges.push_back(id);
         watched.edge_start_m.push_back(roads::route_length(network, route).value - length_m);
         watched.edge_length_m.push_back(length_m);
         watched.approach.push_back(layout.approach_of_lane[network.edge(*edge).first_lane]);
@@ -83,6 +84,8 @@ metrics::RoadLayout road_layout(const roads::Network& network,
     metrics::RoadLayout layout;
     add_approaches(network, counts, layout);
     add_signal_ways(network, layout);
+    for (const roads::Signal& signal : network.signals())
+        layout.signals.push_back(signal.id);
     for (const roads::Lane& lane : network.lanes()) {
         layout.internal_lane.push_back(network.edge(lane.edge).internal ? 1 : 0);
         layout.limit_of_lane_mps.push_back(lane.speed_limit_mps);

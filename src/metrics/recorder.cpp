@@ -12,6 +12,7 @@
 #include "metrics/detail/conflict_watch.hpp"
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
+#include "metrics/detail/hold_watch.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
 #include "metrics/link_comparison.hpp"
@@ -262,6 +263,7 @@ struct Recorder::State {
     std::vector<std::uint32_t> row_before;  ///< Row of each vehicle at the step before.
     std::optional<detail::TrafficWatch> traffic;
     std::optional<detail::FlowWatch> flow;
+    std::optional<detail::HoldWatch> holds;
     std::optional<detail::ConflictWatch> conflicts;
 };
 
@@ -280,6 +282,7 @@ void Recorder::watch(RoadLayout layout) {
     state_->layout = std::move(layout);
     state_->traffic.emplace(state_->layout);
     state_->flow.emplace(state_->layout);
+    state_->holds.emplace(state_->layout);
     state_->conflicts.emplace();
 }
 
@@ -292,6 +295,7 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         state_->keys = snapshot.key;
         state_->traffic->step(snapshot, state_->row_before);
         state_->flow->step(snapshot, state_->row_before);
+        state_->holds->step(snapshot, leases);
         state_->conflicts->step(snapshot, roster);
     }
     RunMetrics& counted = state_->counted;
@@ -322,6 +326,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics = state_->counted;
     if (state_->traffic) {
         summary.traffic = state_->traffic->tables();
+        summary.traffic.holds = state_->holds->rows();
         describe_flow(*state_->flow, metrics);
         describe_conflicts(*state_->conflicts, metrics);
         metrics.worst_approach_delay_s = worst_delay_s(summary.traffic.approaches);

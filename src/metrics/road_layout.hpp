@@ -27,6 +27,7 @@ struct RouteSignal {
 struct WatchedRoute {
     core::VehicleKey vehicle;
     std::string id;
+    std::vector<std::string> edges;      ///< By position in the route.
     std::vector<double> edge_start_m;    ///< By position in the route, junctions included.
     std::vector<double> edge_length_m;   ///< Likewise.
     std::vector<std::int32_t> approach;  ///< Likewise; index of the approach, -1 for none.
@@ -50,6 +51,7 @@ struct RoadLayout {
     std::vector<std::uint8_t> internal_lane;     ///< By core::LaneIndex; 1 inside junctions.
     std::vector<float> limit_of_lane_mps;        ///< By core::LaneIndex.
     std::vector<WatchedRoute> routes;
+    std::vector<std::string> signals;    ///< Ids, by core::SignalIndex.
     std::vector<SignalWay> signal_ways;  ///< Ordered by `to`.
     /// Vehicles of the demand depart until this time; flows are measured until then.
     double demand_until_s = 0.0;

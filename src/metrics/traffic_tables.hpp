@@ -77,11 +77,53 @@ struct JourneyRow {
     }
 };
 
+/// How long an emergency vehicle needed for one edge of its route, the junction behind it included. Edges
+/// that it did not drive from their beginning to the next edge are left out, but for the last one, which
+/// counts until the vehicle was last seen.
+struct EdgeTimeRow {
+    std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
+    std::string edge;
+    double entered_s = 0.0;
+    double time_s = 0.0;
+
+    bool operator==(const EdgeTimeRow&) const = default;
+
+    static constexpr auto fields() {
+        using R = EdgeTimeRow;
+        using core::Field;
+        return std::make_tuple(
+            Field{"entered_s", "s", &R::entered_s, 0.0, 1e9, "Simulation time at which it entered the edge",
+                  ""},
+            Field{"time_s", "s", &R::time_s, 0.0, 1e9,
+                  "Time until it entered the next edge; on the last edge until it was last seen", ""});
+    }
+};
+
+/// How often and how long policies held a signal.
+struct SignalHoldRow {
+    std::string signal;
+    std::uint64_t holds = 0;
+    double held_s = 0.0;
+
+    bool operator==(const SignalHoldRow&) const = default;
+
+    static constexpr auto fields() {
+        using R = SignalHoldRow;
+        using core::Field;
+        return std::make_tuple(
+            Field{"holds", "1", &R::holds, 0.0, 1e9, "Times that a policy began to ask for green", ""},
+            Field{"held_s", "s", &R::held_s, 0.0, 1e9,
+                  "Time in which it asked for green and one of the links asked for was green", ""});
+    }
+};
+
 /// Where a run lost time, and how its emergency vehicles travelled.
 struct TrafficTables {
     std::vector<ApproachRow> approaches;  ///< By edge, then class; no rows without vehicles.
     std::vector<RecoveryRow> recovery;    ///< Ascending; empty where no emergency vehicle passed a signal.
     std::vector<JourneyRow> journeys;     ///< By vehicle; empty where they are not kept.
+    std::vector<EdgeTimeRow> edge_times;  ///< By vehicle, in driving order.
+    std::vector<SignalHoldRow> holds;     ///< By signal; no rows for signals that were not held.
 
     bool operator==(const TrafficTables&) const = default;
 };

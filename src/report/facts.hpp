@@ -13,6 +13,7 @@
 #include "core/settings.hpp"
 #include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
+#include "report/map.hpp"
 #include "report/sensitivity.hpp"
 
 namespace clearway::report {
@@ -271,6 +272,8 @@ struct ScenarioFacts {
     /// Scenario of the dissertation whose published numbers are shown; empty in other studies.
     std::string published_as;
     std::string title;
+    /// What its emergency vehicles are called: `ambulances` where all are, else `emergency vehicles`.
+    std::string emergency_noun = "emergency vehicles";
     std::string attribution;  ///< Credit that the map data requires; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
@@ -278,6 +281,7 @@ struct ScenarioFacts {
     double least_relevant_s = usual_least_relevant_s;
     std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.
     std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
+    std::optional<ScenarioMap> map;          ///< Nothing where the files of the runs do not hold it.
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
 };
 

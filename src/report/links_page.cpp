@@ -357,8 +357,8 @@ void write_links_page(const LinkFacts& facts, std::ostream& page) {
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
             "'unsafe-inline'; img-src data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>"
-         << title << "</title>\n<style>" << detail::style_sheet << "</style>\n</head>\n<body>\n<header>\n<h1>"
-         << title << "</h1>\n<p class=\"lead\">"
+         << title << "</title>\n<style>" << detail::page_style()
+         << "</style>\n</head>\n<body>\n<header>\n<h1>" << title << "</h1>\n<p class=\"lead\">"
          << escaped(fmt::format("{} predictors under {} sensor failures in {}, on {} seeds.",
                                 facts.predictors.size(), facts.failures.size(),
                                 fmt::join(facts.scenarios, ", "), facts.split))

@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
+#include "report/detail/map_facts.hpp"
 #include "report/detail/safety_facts.hpp"
 #include "report/detail/traffic_facts.hpp"
 #include "report/text.hpp"
@@ -279,6 +280,26 @@ void add_distributions(const results::Results& results, std::map<ConditionKey, C
     }
 }
 
+/// What the emergency vehicles of a scenario are called: by their kind where all are of one.
+void add_nouns(const results::Results& results, StudyFacts& study) {
+    static const std::map<traffic::VehicleKind, const char*> plurals = {
+        {traffic::VehicleKind::ambulance, "ambulances"},
+        {traffic::VehicleKind::fire_engine, "fire engines"},
+        {traffic::VehicleKind::police_car, "police cars"}};
+    std::map<std::string, std::set<traffic::VehicleKind>> kinds;
+    for (const results::RunRecord& run : results.runs) {
+        for (const metrics::VehicleRow& vehicle : run.vehicles) {
+            if (vehicle.vehicle_class == traffic::VehicleClass::emergency)
+                kinds[run.key.scenario].insert(vehicle.kind);
+        }
+    }
+    for (ScenarioFacts& scenario : study.scenarios) {
+        const std::set<traffic::VehicleKind>& seen = kinds[scenario.name];
+        const auto plural = seen.size() == 1 ? plurals.find(*seen.begin()) : plurals.end();
+        if (plural != plurals.end()) scenario.emergency_noun = plural->second;
+    }
+}
+
 void add_errors(const results::Results& results, std::map<ConditionKey, ConditionFacts*>& conditions) {
     for (const results::RunError& error : results.errors) {
         const auto found = conditions.find({error.key.scenario, error.key.condition});
@@ -382,6 +403,7 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
         }
     }
     add_distributions(results, conditions);
+    add_nouns(results, study);
     add_errors(results, conditions);
     add_files(summary.manifest, folder, study);
     study.failure_curves = failure_curves(summary);
@@ -389,6 +411,8 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     const results::Store store = results::Store::open(folder);
     for (ScenarioFacts& scenario : study.scenarios)
         scenario.journeys = detail::journeys_in(store, scenario);
+    for (ScenarioFacts& scenario : study.scenarios)
+        scenario.map = detail::map_in(store, study, scenario);
     for (ScenarioFacts& scenario : study.scenarios) {
         if (scenario.conditions.empty()) continue;
         const fs::path home = folder / "scenarios" / scenario.name;

@@ -15,6 +15,7 @@ namespace clearway::report {
 ///     scenarios/SCENARIO/network.svg                 picture of the network; optional
 ///     scenarios/SCENARIO/wide_edges.json             edges with three or more lanes for cars; optional
 ///     scenarios/SCENARIO/counts.csv                  counted flows; optional
+///     scenarios/SCENARIO/roads.json                  roads, signals and stations; optional
 ///     scenarios/SCENARIO/streets.json                street names by edge; optional
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional

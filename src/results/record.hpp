@@ -29,7 +29,8 @@ struct RunRecord {
     experiment::Provenance provenance;
     metrics::RunMetrics metrics;
     std::vector<metrics::VehicleRow> vehicles;
-    /// Where time was lost; empty for solo. Journeys are written but not read back; see Store::read_journeys.
+    /// Where time was lost; empty for solo. Journeys, edge times and holds are
+    /// written but not read back; see Store::read_traffic.
     metrics::TrafficTables traffic;
     /// By policy, then action. Nothing in a record of a version which kept only totals.
     std::optional<std::vector<metrics::LeaseRow>> leases = {};

@@ -333,10 +333,10 @@ std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::Run
     return moved;
 }
 
-std::vector<metrics::JourneyRow> Store::read_journeys(const experiment::RunKey& key) const {
+metrics::TrafficTables Store::read_traffic(const experiment::RunKey& key) const {
     if (!complete(key)) return {};
     const std::string file = (run_folder(key) / "run.json").string();
-    return detail::journeys_from_json(core::parse_object(core::read_file(file), file), file);
+    return detail::all_traffic_from_json(core::parse_object(core::read_file(file), file), file);
 }
 
 std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const {

@@ -80,9 +80,10 @@ class Store {
     bool done(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) const;
     /// Nothing if the run is not complete. Throws core::InputError for a damaged record.
     std::optional<RunRecord> read(const experiment::RunKey& key, VehicleRows rows = VehicleRows::all) const;
-    /// How the emergency vehicles of a run travelled; empty for runs that are not complete or did not keep
-    /// journeys. Throws core::InputError for a damaged record.
-    std::vector<metrics::JourneyRow> read_journeys(const experiment::RunKey& key) const;
+    /// All tables of where a run lost time and how its emergency vehicles travelled, also those that `read`
+    /// leaves out; empty for runs that are not complete or did not keep them. Throws core::InputError for a
+    /// damaged record.
+    metrics::TrafficTables read_traffic(const experiment::RunKey& key) const;
     std::optional<RunTiming> read_timing(const experiment::RunKey& key) const;
     std::optional<RunError> read_error(const experiment::RunKey& key) const;
     /// Forgets an error so that the run can be tried again.

@@ -10,6 +10,7 @@
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
 #include "scenario/prepare.hpp"
+#include "study/detail/road_map.hpp"
 
 namespace clearway::study {
 namespace {
@@ -49,7 +50,7 @@ void write_counts(const scenario::ScenarioConfig& config, const roads::Network& 
 }
 
 /// Makes what a scenario needs besides its network: a first demand, which finds unknown edges and unreachable
-/// destinations before any worker starts, its wide edges, street names, and a picture for the report.
+/// destinations before any worker starts, its wide edges, street names, a map and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const experiment::RunJob& unit,
                        const std::filesystem::path& folder) {
     const std::filesystem::path picture = folder / "network.svg";
@@ -63,6 +64,7 @@ void complete_scenario(const scenario::ScenarioConfig& config, const experiment:
     core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
     write_counts(config, built.network, folder / "counts.csv");
     core::write_atomically(folder / "streets.json", streets_json(built.network));
+    core::write_atomically(folder / "roads.json", detail::road_map_json(built.network, config));
     core::write_atomically(picture, scenario::network_picture(built.network, title));
 }
 

@@ -271,8 +271,9 @@ void expect_equal_without_fork(const std::string& scenario, const scenario::Opti
     EXPECT_FALSE(record.traffic.approaches.empty());
     EXPECT_FALSE(record.traffic.recovery.empty());
     EXPECT_FALSE(record.traffic.journeys.empty());
+    EXPECT_FALSE(record.traffic.edge_times.empty());
     const experiment::RunKey key{alone.unit(0).scenario, "repaired", 0};
-    EXPECT_EQ(record.traffic.journeys, forked.store().read_journeys(key));
+    EXPECT_EQ(record.traffic, forked.store().read_traffic(key));
     alone.store().write(record, timing);
     EXPECT_GT(alone.store().read(key)->metrics.leases_issued, 0U);
     EXPECT_EQ(stored_bytes(alone.store(), key), stored_bytes(forked.store(), key));

@@ -20,7 +20,8 @@ RoadLayout crossing() {
     layout.approach_of_lane = {0, 1, RoadLayout::no_approach, RoadLayout::no_approach};
     layout.internal_lane = {0, 0, 1, 0};
     layout.limit_of_lane_mps = {10.0F, 10.0F, 10.0F, 10.0F};
-    WatchedRoute route{core::vehicle_key("ev"),      "ev", {0.0, 110.0}, {100.0, 200.0},
+    layout.signals = {"J"};
+    WatchedRoute route{core::vehicle_key("ev"),      "ev", {"in", "out"}, {0.0, 110.0}, {100.0, 200.0},
                        {0, RoadLayout::no_approach}, {}};
     route.signals = {{SignalIndex{0}, "J", {0, 1}, 100.0}};
     layout.routes = {route};
@@ -38,7 +39,8 @@ class TrafficWatch : public testing::Test {
         rows_[core::vehicle_key(id)] = {vehicle_class, lane, speed_mps, position_m, route_edge};
     }
     /// One step with the vehicles that were put since the last one.
-    void step(double time_s, const std::string& signal = "rr") {
+    void step(double time_s, const std::string& signal = "rr",
+              const std::vector<traffic::Lease>& leases = {}) {
         truth::Snapshot snapshot;
         snapshot.time = core::Seconds(time_s);
         snapshot.resize(rows_.size());
@@ -52,7 +54,7 @@ class TrafficWatch : public testing::Test {
             snapshot.route_edge[row++] = vehicle.route_edge;
         }
         snapshot.signals.state = {signal};
-        recorder_.step(snapshot, {}, {}, {});
+        recorder_.step(snapshot, {}, {}, leases);
         rows_.clear();
     }
     TrafficTables tables() {
@@ -167,6 +169,45 @@ TEST_F(TrafficWatch, KeepsAJourneyInAsFewPlacesAsItsSpeedNeeds) {
     EXPECT_THAT(places, ElementsAre(std::pair(0.0, 0.0), std::pair(9.0, 90.0), std::pair(14.0, 90.0),
                                     std::pair(24.0, 190.0)));
     EXPECT_THAT(states, ElementsAre("red0", "yellow12", "green14"));
+}
+
+TEST_F(TrafficWatch, TellsHowLongAnEmergencyVehicleNeedsForEachEdge) {
+    // 6 s on the first edge, 2 s across the junction behind it, which count there, 4 s on the last one.
+    for (int second = 3; second <= 15; ++second) {
+        put("ev", VehicleClass::emergency,
+            second < 9    ? 0
+            : second < 11 ? 2
+                          : 3,
+            10.0F, 0.0F, second < 11 ? 0 : 1);
+        step(second);
+    }
+    EXPECT_THAT(tables().edge_times,
+                ElementsAre(EdgeTimeRow{"ev", "in", 3.0, 8.0}, EdgeTimeRow{"ev", "out", 11.0, 4.0}));
+}
+
+TEST_F(TrafficWatch, LeavesOutAnEdgeThatAnEmergencyVehicleDidNotDriveToItsEnd) {
+    put("ev", VehicleClass::emergency, 0, 10.0F);
+    step(0.0);
+    step(1.0);
+    EXPECT_TRUE(tables().edge_times.empty());
+}
+
+TEST_F(TrafficWatch, CountsASignalAsHeldWhileItIsAskedForGreenAndShowsIt) {
+    const auto green = [](double expiry_s) {
+        traffic::Lease lease;
+        lease.target = SignalIndex{0};
+        lease.action = traffic::HoldGreen{.links = {1}};
+        lease.expiry = core::Seconds(expiry_s);
+        return lease;
+    };
+    step(0.0, "Gr");
+    step(1.0, "Gr", {green(4.0)});  // asked for; the other link is green
+    step(2.0, "yr");
+    step(3.0, "rG", {green(6.0)});  // renewed, and green from here on
+    step(5.0, "rG");
+    step(8.0, "rG");                 // it expired at 6 s
+    step(9.0, "rG", {green(10.0)});  // a second time
+    EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 2, 4.0}));
 }
 
 TEST_F(TrafficWatch, OfNobodyIsEmpty) {

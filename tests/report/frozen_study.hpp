@@ -27,6 +27,18 @@ class FrozenStudy {
         write(folder / "command.txt", "./clearway study frozen.toml --out \"<runs>\"\n");
         write(folder / "scenarios" / "crossing" / "counts.csv",
               "edge,vehicles_per_hour\nnorth_in,500\nwest_in,700\n<i>nowhere</i>,40\n");
+        write(folder / "scenarios" / "crossing" / "roads.json", R"({
+            "edges": [
+                {"id": "north_in", "to": [2, 3], "signal": true, "length_m": 300, "limit_mps": 15,
+                 "shape_m": [0, 300, 0, 10]},
+                {"id": "west_in", "to": [3], "signal": true, "length_m": 300, "limit_mps": 15,
+                 "shape_m": [-300, 0, -10, 0]},
+                {"id": "south_out", "to": [], "signal": false, "length_m": 600, "limit_mps": 15,
+                 "shape_m": [0, -10, 0, -300]},
+                {"id": "east_out", "to": [], "signal": false, "length_m": 900, "limit_mps": 15,
+                 "shape_m": [10, 0, 900, 0]}],
+            "signals": [{"id": "J<1>", "x_m": 0, "y_m": 0}],
+            "stations": [{"edge": "north_in", "kind": "fire_station", "name": "<b>One</b>"}]})");
         write(folder / "scenarios" / "crossing" / "streets.json",
               R"({"north_in": "Long & <b>Short</b> Street"})");
     }
@@ -98,10 +110,17 @@ class FrozenStudy {
         for (const double offset_s : {-5.0, 0.0, 5.0, 10.0})
             traffic.recovery.push_back(
                 {offset_s, 2, 1.0 + 0.1 * luck_s + (helps && offset_s == 5.0 ? 2.0 : 0.0)});
+        const double half_s = 0.5 * travel_time_s(key, 0);
+        traffic.edge_times = {{"emergency<0>", "north_in", 60.0, half_s},
+                              {"emergency<0>", "south_out", 60.0 + half_s, half_s}};
+        if (helps) traffic.holds = {{"J<1>", 1, 20.0 + luck_s}};
         if (key.replication != 0) return;
         const double end_s = 60.0 + travel_time_s(key, 0);
         for (const auto& [time_s, distance_m] : {std::pair{60.0, 0.0}, {80.0, 200.0}, {end_s, 900.0}})
             traffic.journeys.push_back({"emergency<0>", "", "", time_s, distance_m});
+        for (const auto& [time_s, distance_m] :
+             {std::pair{60.0, 0.0}, {60.0 + travel_time_s(key, 1), 800.0}})
+            traffic.journeys.push_back({"emergency<1>", "", "", time_s, distance_m});
         traffic.journeys.push_back({"emergency<0>", "J<1>", "red", 60.0, 220.0});
         traffic.journeys.push_back({"emergency<0>", "J<1>", "yellow", 88.0, 220.0});
         traffic.journeys.push_back({"emergency<0>", "J<1>", "green", 91.0, 220.0});

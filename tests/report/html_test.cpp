@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 
 #include <gmock/gmock.h>
 
+#include "report/page.hpp"
 #include "report/sample.hpp"
 
 namespace clearway::report {
@@ -15,9 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string page_of(const StudyFacts& study) {
-    std::ostringstream page;
-    write_html(study, page);
-    return page.str();
+    return tests::without_script(tests::page_of(study));
 }
 
 std::size_t count_of(const std::string& text, const std::string& word) {
@@ -30,8 +28,8 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
     const std::string page = page_of(tests::study({"merge", "city"}));
-    for (const char* const id : {"verdict", "tables", "differences", "travel-time", "cost", "journeys",
-                                 "enough", "training", "outcomes", "reproduce"}) {
+    for (const char* const id : {"overview", "verdict", "tables", "differences", "travel-time", "cost",
+                                 "journeys", "enough", "training", "outcomes", "reproduce"}) {
         EXPECT_THAT(page, HasSubstr("<section id=\"" + std::string(id) + "\">"));
         EXPECT_THAT(page, HasSubstr("<a href=\"#" + std::string(id) + "\">"));
     }
@@ -52,9 +50,9 @@ TEST(Page, leaves_out_sections_that_have_nothing_to_show) {
 TEST(Page, has_the_data_of_every_plot_beside_it) {
     const std::string page = page_of(tests::study({"merge", "city"}));
     EXPECT_EQ(count_of(page, "<svg class=\"plot\""),
-              24u);  // two scenarios: differences, travel time, its pairs, four costs, recovery, two
-                     // journeys, precision; two trainings
-    EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 24u);
+              25u);  // two scenarios: map, trip, gain and cost, differences, travel time, its pairs, cost,
+                     // recovery, two journeys, precision; the reach of one; two trainings
+    EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 25u);
 }
 
 TEST(Page, tells_all_that_is_known_of_a_paired_difference) {

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "experiment/conditions.hpp"
 #include "report/console.hpp"
-#include "report/html.hpp"
+#include "report/page.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::report {
@@ -214,9 +214,7 @@ TEST_F(RunFolder, becomes_tables_and_a_page) {
     write("training/true_links/losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,0.7,0.6\n1,0.1,0.2\n");
     write("command.txt", "./clearway reproduce --seeds 3\n");
     const StudyFacts facts = read_facts(study());
-    std::ostringstream stream;
-    write_html(facts, stream);
-    const std::string page = stream.str();
+    const std::string page = tests::without_script(tests::page_of(facts));
     EXPECT_THAT(page, HasSubstr("Clearway: frozen"));
     EXPECT_THAT(page, HasSubstr("<svg class=\"network\" viewBox=\"0 0 9 9\"></svg>"));
     EXPECT_THAT(page, HasSubstr("Map data: somebody"));

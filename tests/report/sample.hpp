@@ -93,6 +93,44 @@ inline void compare(ConditionFacts& facts, const Estimate& travel_time, const Es
     facts.outcome(Measure::gap_closed).value = around(0.41, 0.13);
 }
 
+/// A small grid of streets with two stations; its first street was driven.
+inline ScenarioMap map() {
+    ScenarioMap map;
+    constexpr std::size_t size = 6;
+    const auto street = [&](bool east, std::size_t row, std::size_t column) {
+        MapEdge edge;
+        edge.id = (east ? "east" : "north") + std::to_string(row) + std::to_string(column);
+        const double x = 200.0 * static_cast<double>(column);
+        const double y = 150.0 * static_cast<double>(row);
+        edge.shape = {{x, y}, {x + (east ? 200.0 : 0.0), y + (east ? 0.0 : 150.0)}};
+        edge.length_m = east ? 200.0 : 150.0;
+        edge.limit_mps = 13.9;
+        edge.signal = true;
+        const std::size_t next_row = row + (east ? 0 : 1);
+        const std::size_t next_column = column + (east ? 1 : 0);
+        if (next_column < size) edge.to.push_back(2 * (next_row % size * size + next_column));
+        if (next_row < size) edge.to.push_back(2 * (next_row * size + next_column % size) + 1);
+        map.roads.edges.push_back(edge);
+    };
+    for (std::size_t row = 0; row < size; ++row) {
+        for (std::size_t column = 0; column < size; ++column) {
+            street(true, row, column);
+            street(false, row, column);
+        }
+    }
+    map.roads.signals = {{"J1", {200.0, 0.0}}, {"J2", {400.0, 0.0}}};
+    map.roads.stations = {{"east00", "fire_station", "Station <1>"}, {"north00", "ambulance_station", ""}};
+    map.condition = 1;
+    map.times = {{0, 20, 31.0, 18.5},
+                 {2, 20, 40.0, 38.0},
+                 {4, 19, 18.0, 18.1},
+                 {7, 12, 15.0, 16.2},
+                 {9, 4, 15.0, 23.0}};
+    map.holds = {{0, 1.5, 22.0}, {1, 1.0, 9.5}};
+    map.reach = reach_of(map.roads, map.times, {0, 1}, 240.0);
+    return map;
+}
+
 /// A helpful, a harmful and an ineffective condition beside the baseline, and the floor.
 inline ScenarioFacts scenario(const std::string& name) {
     ScenarioFacts facts;
@@ -120,6 +158,8 @@ inline ScenarioFacts scenario(const std::string& name) {
     compare(facts.conditions[2], around(-9.1, 3.6), around(2.4, 1.2));
     compare(facts.conditions[3], around(29.5, 8.5), around(3.9, 2.2));
     compare(facts.conditions[4], around(-0.6, 2.8), around(-0.1, 1.0));
+    facts.map = map();
+    if (name != std::string("city")) facts.map->reach.reset();  // the others have no stations
     return facts;
 }
 

@@ -1,14 +1,15 @@
-// Writes a page of made-up results with names that try to break out of it: report_sample_page FILE.
+// Writes a page of made-up results with names that try to break out of it: report_sample_page FILE FOLDER.
 #include <fstream>
 #include <iostream>
 
+#include "report/figure_files.hpp"
 #include "report/html.hpp"
 #include "report/sample.hpp"
 
 int main(int argument_count, char** arguments) {
     using namespace clearway::report;
-    if (argument_count != 2) {
-        std::cerr << "report_sample_page FILE\n";
+    if (argument_count != 3) {
+        std::cerr << "report_sample_page FILE FOLDER\n";
         return 2;
     }
     StudyFacts study =
@@ -21,5 +22,6 @@ int main(int argument_count, char** arguments) {
     std::ofstream page(arguments[1]);
     write_html(study, page);
     page.close();
+    write_figures(study, arguments[2]);
     return page ? 0 : 1;
 }

@@ -49,15 +49,19 @@ TEST_F(StoreOfAStudy, GivesBackWhatWasWritten) {
     EXPECT_EQ(store_.read_timing(key)->peak_kib, 4096);
 }
 
-TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysOnlyWhenAskedFor) {
+TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnlyWhenAskedFor) {
     RunRecord run = record(key);
     run.traffic.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
     run.traffic.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
     run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
+    run.traffic.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
+    run.traffic.holds = {{"J\n2", 3, 41.5}};
     store_.write(run, {});
-    EXPECT_EQ(store_.read_journeys(key), run.traffic.journeys);
-    EXPECT_TRUE(store_.read_journeys({"alpha", "baseline", 0}).empty());
+    EXPECT_EQ(store_.read_traffic(key), run.traffic);
+    EXPECT_EQ(store_.read_traffic({"alpha", "baseline", 0}), metrics::TrafficTables{});
     run.traffic.journeys.clear();
+    run.traffic.edge_times.clear();
+    run.traffic.holds.clear();
     EXPECT_EQ(store_.read(key), run);
 }
 

@@ -35,7 +35,9 @@ ReferencePage columns() {
              table_of<metrics::RecoveryRow>("Recovery", "What a signal was like after an EV, in `run.json`"),
              table_of<metrics::JourneyRow>("Journeys",
                                            "Where an EV was, in `run.json` of the first three "
-                                           "replications")}};
+                                           "replications"),
+             table_of<metrics::EdgeTimeRow>("Edge times", "How EVs drove their routes, in `run.json`"),
+             table_of<metrics::SignalHoldRow>("Signal holds", "Signals that policies held, in `run.json`")}};
 }
 
 ReferencePage scenario_keys() {

@@ -137,6 +137,9 @@ void TrafficWatch::follow(const truth::Snapshot& snapshot, std::size_t row, cons
     if (edge >= route.edge_start_m.size() || lane >= layout_.internal_lane.size()) return;
     const bool inside = layout_.internal_lane[lane] != 0;
     pass(now_s, edge, inside, route, journey);
+    journey.entered_s.resize(route.edge_start_m.size(), -1.0);
+    if (journey.entered_s[edge] < 0.0) journey.entered_s[edge] = now_s;
+    journey.last_s = now_s;
     if (!layout_.keep_journeys) return;
     double distance_m = route.edge_start_m[edge] + static_cast<double>(snapshot.lane_position_m[row]);
     if (inside) distance_m += route.edge_length_m[edge];
@@ -212,6 +215,22 @@ std::vector<JourneyRow> TrafficWatch::journeys() const {
     return rows;
 }
 
+std::vector<EdgeTimeRow> TrafficWatch::edge_times() const {
+    std::vector<EdgeTimeRow> rows;
+    for (std::size_t number = 0; number < journeys_.size(); ++number) {
+        const WatchedRoute& route = layout_.routes[number];
+        const Journey& journey = journeys_[number];
+        for (std::size_t edge = 0; edge < std::min(journey.entered_s.size(), route.edges.size()); ++edge) {
+            const double entered_s = journey.entered_s[edge];
+            const bool last = edge + 1 == journey.entered_s.size();
+            const double left_s = last ? journey.last_s : journey.entered_s[edge + 1];
+            if (entered_s >= 0.0 && left_s >= entered_s)
+                rows.push_back({route.id, route.edges[edge], entered_s, left_s - entered_s});
+        }
+    }
+    return rows;
+}
+
 TrafficTables TrafficWatch::tables() const {
     TrafficTables tables;
     const double hours = (std::min(last_s_, layout_.demand_until_s) - first_s_) / 3600.0;
@@ -226,6 +245,7 @@ TrafficTables TrafficWatch::tables() const {
     }
     tables.recovery = recovery();
     tables.journeys = journeys();
+    tables.edge_times = edge_times();
     return tables;
 }
 

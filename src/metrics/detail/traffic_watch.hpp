@@ -46,7 +46,9 @@ class TrafficWatch {
     struct Journey {
         std::uint32_t route_edge = 0;
         bool seen = false;
-        bool passed = false;  ///< It left `route_edge` and is crossing the junction.
+        bool passed = false;            ///< It left `route_edge` and is crossing the junction.
+        std::vector<double> entered_s;  ///< By position in the route; negative where it was not seen.
+        double last_s = 0.0;            ///< When it was last seen.
         std::vector<Place> places;
         std::vector<SignalChange> changes;
         std::vector<char> shown;  ///< Last state of each signal on the route.
@@ -63,6 +65,7 @@ class TrafficWatch {
     void pass(double now_s, std::uint32_t edge, bool inside, const WatchedRoute& route, Journey& journey);
     std::vector<RecoveryRow> recovery() const;
     std::vector<JourneyRow> journeys() const;
+    std::vector<EdgeTimeRow> edge_times() const;
     double others_halted(const Passage& passage, std::size_t sample) const;
 
     const RoadLayout& layout_;

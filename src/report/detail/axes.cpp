@@ -54,9 +54,11 @@ Range padded(Range range, double share) {
 }
 
 Plot::Plot(const std::string& title, double height, Axis x, Axis y)
-    : x_(std::move(x)), y_(std::move(y)), height_(height) {
-    svg_ = fmt::format("<svg class=\"plot\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" aria-label=\"{}\">\n",
-                       width, height, escaped(title));
+    : Canvas(title, height), x_(std::move(x)), y_(std::move(y)) {}
+
+void Plot::turn_to(Axis x, Axis y) {
+    x_ = std::move(x);
+    y_ = std::move(y);
 }
 
 void Plot::grid_x() {
@@ -64,25 +66,25 @@ void Plot::grid_x() {
     const double bottom = std::max(y_.from, y_.to);
     const double top = std::min(y_.from, y_.to);
     for (const double value : ticks.values) {
-        fmt::format_to(std::back_inserter(svg_), "<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>",
-                       x_.place(value), bottom, top);
+        fmt::format_to(out(), "<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x_.place(value), bottom,
+                       top);
         text(x_.place(value), bottom + 16.0, number(value, {ticks.decimals, Script::typeset}), Anchor::middle,
              "tick");
     }
-    text((x_.from + x_.to) / 2.0, bottom + 34.0, x_.label, Anchor::middle, "axis");
+    if (!x_.label.empty()) text((x_.from + x_.to) / 2.0, bottom + 34.0, x_.label, Anchor::middle, "axis");
 }
 
 void Plot::grid_y() {
     const bool decades = y_.scale == Scale::logarithmic;
     const Ticks ticks = decades ? decade_ticks(y_.values) : nice_ticks(y_.values, 5);
     for (const double value : ticks.values) {
-        fmt::format_to(std::back_inserter(svg_), "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>",
-                       x_.from, y_.place(value), x_.to);
+        fmt::format_to(out(), "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", x_.from, y_.place(value),
+                       x_.to);
         const std::string label =
             decades ? fmt::format("{:g}", value) : number(value, {ticks.decimals, Script::typeset});
         text(x_.from - 6.0, y_.place(value) + 4.0, label, Anchor::end, "tick");
     }
-    text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
+    if (!y_.label.empty()) text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
 }
 
 void Plot::line(const std::vector<std::pair<double, double>>& points, std::size_t series) {
@@ -94,91 +96,69 @@ void Plot::hair(const std::vector<std::pair<double, double>>& points, std::size_
 }
 
 void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t series) {
-    auto out = std::back_inserter(svg_);
-    fmt::format_to(out, "<polygon class=\"band s{}\" points=\"", series % palette_size);
+    const auto svg = out();
+    fmt::format_to(svg, "<polygon class=\"band s{}\" points=\"", series % palette_size);
     for (const auto& [x, low, high] : bounds)
-        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(high));
+        fmt::format_to(svg, "{:.1f},{:.1f} ", x_.place(x), y_.place(high));
     for (std::size_t at = bounds.size(); at > 0; --at) {
         const auto& [x, low, high] = bounds[at - 1];
-        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(low));
+        fmt::format_to(svg, "{:.1f},{:.1f} ", x_.place(x), y_.place(low));
     }
-    fmt::format_to(out, "\"/>\n");
+    fmt::format_to(svg, "\"/>\n");
 }
 
 void Plot::polyline(const char* style, const std::vector<std::pair<double, double>>& points,
                     std::size_t series) {
-    auto out = std::back_inserter(svg_);
-    fmt::format_to(out, "<polyline class=\"{} s{}\" points=\"", style, series % palette_size);
+    const auto svg = out();
+    fmt::format_to(svg, "<polyline class=\"{} s{}\" points=\"", style, series % palette_size);
     for (const auto& [x, y] : points) {
-        fmt::format_to(out, "{:.1f},{:.1f} ", x_.place(x), y_.place(y));
+        fmt::format_to(svg, "{:.1f},{:.1f} ", x_.place(x), y_.place(y));
     }
-    fmt::format_to(out, "\"/>\n");
+    fmt::format_to(svg, "\"/>\n");
 }
 
 void Plot::interval(std::pair<double, double> bounds, double mean, double y, std::size_t series) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<path class=\"bar s{0}\" d=\"M{1:.1f} {2:.1f}v8m0 -4H{3:.1f}m0 -4v8\"/>",
+    fmt::format_to(out(), "<path class=\"bar s{0}\" d=\"M{1:.1f} {2:.1f}v8m0 -4H{3:.1f}m0 -4v8\"/>",
                    series % palette_size, x_.place(bounds.first), y - 4.0, x_.place(bounds.second));
     point(mean, y, series);
 }
 
 void Plot::point(double value, double y, std::size_t series) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
+    fmt::format_to(out(), "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
                    series % palette_size, x_.place(value), y);
 }
 
 void Plot::beam(std::pair<double, double> bounds, double y, std::size_t series) {
     constexpr double half_height = 5.0;
     const auto [low, high] = std::minmax({x_.place(bounds.first), x_.place(bounds.second)});
-    fmt::format_to(std::back_inserter(svg_),
+    fmt::format_to(out(),
                    "<rect class=\"beam s{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>",
                    series % palette_size, low, y - half_height, high - low, 2.0 * half_height);
 }
 
 void Plot::stripe(std::pair<double, double> bounds, double value, const char* style) {
-    fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", style,
-                   x_.place(bounds.first), y_.place(value), x_.place(bounds.second));
+    fmt::format_to(out(), "<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", style, x_.place(bounds.first),
+                   y_.place(value), x_.place(bounds.second));
 }
 
 void Plot::vertical(double value) {
-    fmt::format_to(std::back_inserter(svg_), "<path class=\"zero\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n",
-                   x_.place(value), y_.from, y_.to);
+    fmt::format_to(out(), "<path class=\"zero\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n", x_.place(value), y_.from,
+                   y_.to);
 }
 
 void Plot::blank(double top, double bottom) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<rect class=\"blank\" x=\"0\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.1f}\"/>\n", top,
-                   width, bottom - top);
+    fmt::format_to(out(), "<rect class=\"blank\" x=\"0\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.1f}\"/>\n",
+                   top, width, bottom - top);
 }
 
 void Plot::horizontal(double value) {
-    fmt::format_to(std::back_inserter(svg_), "<path class=\"zero\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", x_.from,
-                   y_.place(value), x_.to);
+    fmt::format_to(out(), "<path class=\"zero\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", x_.from, y_.place(value),
+                   x_.to);
 }
 
 void Plot::whisker(double x, std::pair<double, double> bounds, std::size_t series) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<path class=\"bar s{}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
+    fmt::format_to(out(), "<path class=\"bar s{}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
                    series % palette_size, x_.place(x) - 3.0, y_.place(bounds.first), y_.place(bounds.second));
-}
-
-void Plot::text(double x, double y, const std::string& words, Anchor anchor, const char* style) {
-    const char* const where = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
-    fmt::format_to(std::back_inserter(svg_),
-                   "<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", style, x, y,
-                   where, escaped(words));
-}
-
-std::string Plot::finish() {
-    return std::move(svg_) + "</svg>\n";
-}
-
-std::string swatch(std::size_t series) {
-    return fmt::format(
-        "<svg class=\"swatch\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line s{}\" "
-        "d=\"M1 5H27\"/></svg>",
-        series % palette_size);
 }
 
 }  // namespace clearway::report::detail

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/detail/canvas.hpp"
+
 namespace clearway::report::detail {
 
 /// A range of values. `low` < `high` after `padded`.
@@ -54,14 +56,10 @@ struct Axis {
     }
 };
 
-/// A figure of the report. All figures share one geometry, frame, grid and set of line styles. Its text has
-/// the size of the page's small text when 400 units are 400 px, and is still legible at 320 px. All text is
-/// escaped here.
-class Plot {
+/// A drawing with two axes.
+class Plot : public Canvas {
   public:
-    static constexpr double width = 400.0;
-
-    /// `height` includes the labels of the axes. `title` names the figure for screen readers.
+    /// `height` includes the labels of the axes.
     Plot(const std::string& title, double height, Axis x, Axis y);
 
     const Axis& x() const { return x_; }
@@ -89,10 +87,8 @@ class Plot {
     void hair(const std::vector<std::pair<double, double>>& points, std::size_t series);
     /// The area between two bounds of y over x: (x, low, high).
     void band(const std::vector<std::array<double, 3>>& bounds, std::size_t series);
-    enum class Anchor { start, middle, end };
-    void text(double x, double y, const std::string& words, Anchor anchor, const char* style);
-    /// The finished `<svg>` element.
-    std::string finish();
+    /// Continues with other axes: the next panel of the drawing.
+    void turn_to(Axis x, Axis y);
 
   private:
     void polyline(const char* style, const std::vector<std::pair<double, double>>& points,
@@ -100,14 +96,6 @@ class Plot {
 
     Axis x_;
     Axis y_;
-    double height_;
-    std::string svg_;
 };
-
-/// Number of line styles; further series reuse them.
-inline constexpr std::size_t palette_size = 7;
-
-/// A short piece of line in the style of `series`, for legends.
-std::string swatch(std::size_t series);
 
 }  // namespace clearway::report::detail

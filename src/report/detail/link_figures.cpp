@@ -34,11 +34,11 @@ std::string decimal(double value, int decimals) {
     return number(value, {decimals, Script::typeset});
 }
 
-std::string legend_of(const std::vector<DrawnResult>& drawn) {
-    std::vector<std::pair<std::size_t, std::string>> entries;
+std::vector<LegendEntry> legend_of(const std::vector<DrawnResult>& drawn) {
+    std::vector<LegendEntry> entries;
     for (const DrawnResult& one : drawn)
-        entries.emplace_back(one.series, one.result->predictor);
-    return legend(entries);
+        entries.push_back(line_entry(one.series, one.result->predictor));
+    return entries;
 }
 
 /// Leaves out points too close to the last one drawn.
@@ -107,7 +107,8 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
         data.rows.push_back(std::move(row));
     }
     if (!any) return {};
-    return to_html(Figure{"Precision over recall", plot.finish(), legend_of(drawn),
+    plot.legend(legend_of(drawn));
+    return to_html(Figure{"", "Precision over recall", plot.finish(),
                           "Only the quarter where both are above 0.5 is shown; a predictor without a line "
                           "stays below it.",
                           data});
@@ -132,7 +133,8 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
             data.rows.push_back({drawn[i].result->predictor, decimal(stated, 3), decimal(gap, 3)});
     }
     if (data.rows.empty()) return {};
-    return to_html(Figure{"Reliability", plot.finish(), legend_of(drawn),
+    plot.legend(legend_of(drawn));
+    return to_html(Figure{"", "Reliability", plot.finish(),
                           fmt::format("Perfect calibration is 0. {} bins of equal width; those with fewer "
                                       "than {} pairs are left out.",
                                       links::calibration_bins, fewest_pairs),
@@ -174,8 +176,8 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (!curves[i].empty()) plot.line(curves[i], drawn[i].series);
     }
-    return to_html(Figure{"Average precision by age", plot.finish(), legend_of(drawn),
-                          "Pairs by classes of age.", data});
+    plot.legend(legend_of(drawn));
+    return to_html(Figure{"", "Average precision by age", plot.finish(), "Pairs by classes of age.", data});
 }
 
 }  // namespace clearway::report::detail

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "report/detail/axes.hpp"
-
 namespace clearway::report::detail {
+namespace {
 
-std::string to_html(const DataTable& table) {
-    std::string html = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"data{}\"><thead><tr>",
-                                   table.cells == DataTable::Cells::words ? " words" : "");
+std::string table_element(const DataTable& table, const char* more) {
+    std::string html = fmt::format("<table class=\"data{}\"{}><thead><tr>",
+                                   table.cells == DataTable::Cells::words ? " words" : "", more);
     for (const std::string& cell : table.head) {
         html += fmt::format("<th scope=\"col\">{}</th>", escaped(cell));
     }
@@ -21,25 +20,32 @@ std::string to_html(const DataTable& table) {
         }
         html += "</tr>\n";
     }
-    return html + "</tbody></table></div>\n";
+    return html + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string to_html(const DataTable& table) {
+    return "<div class=\"scroll\" tabindex=\"0\">" + table_element(table, "") + "</div>\n";
+}
+
+std::string to_html(const Table& table) {
+    const std::string id = table.name.empty() ? "" : fmt::format(" id=\"{}\"", table.name);
+    std::string html = fmt::format("<div class=\"table\"{}>", id);
+    if (!table.caption.empty()) html += fmt::format("<p class=\"caption\">{}</p>\n", escaped(table.caption));
+    html += table.markup.empty() ? to_html(table.data) : table.markup + table_element(table.data, " hidden");
+    return html + "</div>\n";
 }
 
 std::string to_html(const Figure& figure) {
-    std::string html = fmt::format("<figure><figcaption>{}</figcaption>\n{}{}", escaped(figure.caption),
-                                   figure.drawing, figure.legend);
+    const std::string id = figure.name.empty() ? "" : fmt::format(" id=\"{}\"", figure.name);
+    std::string html =
+        fmt::format("<figure{}><figcaption>{}</figcaption>\n{}", id, escaped(figure.caption), figure.drawing);
     if (!figure.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(figure.note));
     if (!figure.data.rows.empty()) {
         html += "<details><summary>Data</summary>\n" + to_html(figure.data) + "</details>";
     }
     return html + "</figure>\n";
-}
-
-std::string legend(const std::vector<std::pair<std::size_t, std::string>>& entries) {
-    std::string html = "<ul class=\"legend\">";
-    for (const auto& [series, name] : entries) {
-        html += fmt::format("<li>{}{}</li>", swatch(series), escaped(name));
-    }
-    return html + "</ul>\n";
 }
 
 std::string condition_label(const ConditionFacts& condition) {

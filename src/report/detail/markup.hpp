@@ -16,18 +16,26 @@ struct DataTable {
 };
 std::string to_html(const DataTable& table);
 
-/// A <figure>. `drawing` and `legend` are markup, the other texts are escaped.
-struct Figure {
+/// A table of its own, not the data of a figure.
+struct Table {
+    std::string name;  ///< Of its files, without ending; made safe and unique by the writer.
     std::string caption;
-    std::string drawing;
-    std::string legend;
+    DataTable data;
+    /// Markup to show instead of `data`, which then serves downloads alone; empty for most tables.
+    std::string markup = {};
+};
+
+/// A figure: a drawing and the data behind it. Without a drawing there is nothing to show.
+struct Figure {
+    std::string name;  ///< Of its files, without ending; made safe and unique by the writer.
+    std::string caption;
+    std::string drawing;  ///< One `<svg>` element, legend included.
     std::string note;
     DataTable data;
 };
-std::string to_html(const Figure& figure);
 
-/// A legend as markup. Each entry is a style index and a name, which is escaped here.
-std::string legend(const std::vector<std::pair<std::size_t, std::string>>& entries);
+std::string to_html(const Figure& figure);
+std::string to_html(const Table& table);
 
 /// The title as markup, escaped, with a mark if safety checks were off.
 std::string condition_label(const ConditionFacts& condition);

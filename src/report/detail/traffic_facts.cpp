@@ -1,8 +1,8 @@
 #include "report/detail/traffic_facts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -60,20 +60,21 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
     return shown;
 }
 
-/// The vehicle that occurs in all runs and passes the most signals; empty if there is none.
-std::string common_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs) {
+/// Of the vehicles that occur in all runs the one whose gain, from the first to the second run, is nearest to
+/// `gain_s`; of equals the first. Empty if there is none.
+std::string typical_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs, double gain_s) {
     std::string best;
-    std::size_t most = 0;
+    double least = 0.0;
     for (const auto& [vehicle, journey] : runs.front()) {
         const bool everywhere =
             std::ranges::all_of(runs, [&, &name = vehicle](const auto& run) { return run.contains(name); });
-        std::set<double> stop_lines;
-        for (const SignalSpan& span : journey.signals)
-            stop_lines.insert(span.distance_m);
-        if (everywhere && (best.empty() || stop_lines.size() > most)) {
-            best = vehicle;
-            most = stop_lines.size();
-        }
+        if (!everywhere) continue;
+        const JourneyFacts& with = runs[std::min<std::size_t>(1, runs.size() - 1)].at(vehicle);
+        const double gained_s = journey.places.back().time_s - with.places.back().time_s;
+        const double off_s = std::abs(gained_s - gain_s);
+        if (!best.empty() && off_s >= least) continue;
+        best = vehicle;
+        least = off_s;
     }
     return best;
 }
@@ -83,13 +84,16 @@ std::string common_vehicle(const std::vector<std::map<std::string, JourneyFacts>
 std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario) {
     const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
     if (conditions.empty()) return {};
+    const ConditionFacts& first = *conditions[std::min<std::size_t>(1, conditions.size() - 1)];
+    const double gain_s = -first.outcome(Measure::emergency_restricted_time).difference.mean.value_or(0.0);
     constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
     for (std::uint32_t replication = 0;
          replication < std::min<std::uint64_t>(looked_at, scenario.replications); ++replication) {
         std::vector<std::map<std::string, JourneyFacts>> runs;
         for (const ConditionFacts* condition : conditions)
-            runs.push_back(journeys_of(store.read_journeys({scenario.name, condition->name, replication})));
-        const std::string vehicle = common_vehicle(runs);
+            runs.push_back(
+                journeys_of(store.read_traffic({scenario.name, condition->name, replication}).journeys));
+        const std::string vehicle = typical_vehicle(runs, gain_s);
         if (vehicle.empty()) continue;
         std::vector<JourneyFacts> journeys;
         for (std::size_t row = 0; row < runs.size(); ++row) {

@@ -10,8 +10,10 @@ namespace clearway::results::detail {
 namespace {
 
 using metrics::ApproachRow;
+using metrics::EdgeTimeRow;
 using metrics::JourneyRow;
 using metrics::RecoveryRow;
+using metrics::SignalHoldRow;
 
 /// The words before the numbers of a row.
 std::string words_of(const ApproachRow& row) {
@@ -20,6 +22,12 @@ std::string words_of(const ApproachRow& row) {
 std::string words_of(const JourneyRow& row) {
     return fmt::format("{},{},{}", core::csv_text(row.vehicle), core::csv_text(row.signal),
                        core::csv_text(row.state));
+}
+std::string words_of(const EdgeTimeRow& row) {
+    return fmt::format("{},{}", core::csv_text(row.vehicle), core::csv_text(row.edge));
+}
+std::string words_of(const SignalHoldRow& row) {
+    return core::csv_text(row.signal);
 }
 
 using Cells = std::vector<std::string_view>;
@@ -36,6 +44,15 @@ std::size_t read_words(const Cells& cells, JourneyRow& row) {
     row.signal = cells.at(1);
     row.state = cells.at(2);
     return 3;
+}
+std::size_t read_words(const Cells& cells, EdgeTimeRow& row) {
+    row.vehicle = cells.at(0);
+    row.edge = cells.at(1);
+    return 2;
+}
+std::size_t read_words(const Cells& cells, SignalHoldRow& row) {
+    row.signal = cells.at(0);
+    return 1;
 }
 std::size_t read_words(const Cells&, RecoveryRow&) {
     return 0;
@@ -59,7 +76,7 @@ std::string to_csv(const std::vector<Row>& rows, const char* words) {
 template <class Row>
 std::vector<Row> from_csv(const core::Json& run, const char* name, const std::string& where) {
     const auto tables = run.find("traffic");
-    if (tables == run.end()) return {};
+    if (tables == run.end() || !tables->contains(name)) return {};  // Older records lack some tables.
     std::vector<Row> rows;
     std::size_t line = 1;
     try {
@@ -87,16 +104,24 @@ core::Json traffic_to_json(const metrics::TrafficTables& tables) {
     object["approaches"] = to_csv(tables.approaches, "edge,class");
     object["recovery"] = to_csv(tables.recovery, "");
     object["journeys"] = to_csv(tables.journeys, "vehicle,signal,state");
+    object["edge_times"] = to_csv(tables.edge_times, "vehicle,edge");
+    object["holds"] = to_csv(tables.holds, "signal");
     return object;
 }
 
 metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where) {
-    return {
-        from_csv<ApproachRow>(run, "approaches", where), from_csv<RecoveryRow>(run, "recovery", where), {}};
+    metrics::TrafficTables tables;
+    tables.approaches = from_csv<ApproachRow>(run, "approaches", where);
+    tables.recovery = from_csv<RecoveryRow>(run, "recovery", where);
+    return tables;
 }
 
-std::vector<JourneyRow> journeys_from_json(const core::Json& run, const std::string& where) {
-    return from_csv<JourneyRow>(run, "journeys", where);
+metrics::TrafficTables all_traffic_from_json(const core::Json& run, const std::string& where) {
+    metrics::TrafficTables tables = traffic_from_json(run, where);
+    tables.journeys = from_csv<JourneyRow>(run, "journeys", where);
+    tables.edge_times = from_csv<EdgeTimeRow>(run, "edge_times", where);
+    tables.holds = from_csv<SignalHoldRow>(run, "holds", where);
+    return tables;
 }
 
 }  // namespace clearway::results::detail

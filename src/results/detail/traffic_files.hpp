@@ -12,9 +12,10 @@ namespace clearway::results::detail {
 /// which is written, flushed and compared as a whole. Null if all tables are empty.
 core::Json traffic_to_json(const metrics::TrafficTables& tables);
 
-/// Approaches and recovery. Journeys are not read, because they are large and few readers want them. Throws
-/// core::InputError, naming `where`.
+/// Approaches and recovery. The other tables are not read, because they are large and few readers want them.
+/// Throws core::InputError, naming `where`.
 metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where);
-std::vector<metrics::JourneyRow> journeys_from_json(const core::Json& run, const std::string& where);
+/// All tables; those that a record of an older version lacks are empty.
+metrics::TrafficTables all_traffic_from_json(const core::Json& run, const std::string& where);
 
 }  // namespace clearway::results::detail

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "report/detail/markup.hpp"
-#include "report/detail/sections.hpp"
 #include "report/published.hpp"
+#include "report/sections/sections.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report::detail {
@@ -99,33 +98,73 @@ DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
     return table;
 }
 
-std::string statistics_of(const ScenarioFacts& scenario) {
-    std::string html;
-    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
-                                  Measure::other_time_loss, Measure::collisions}) {
-        const DataTable table = statistics_table(scenario, measure);
-        if (!table.rows.empty()) html += to_html(table);
+/// The same as `measure_table`, as plain cells.
+DataTable plain_table(const ScenarioFacts& scenario, std::span<const Measure> columns, bool with_published) {
+    DataTable table{{"Condition"}, {}};
+    for (const Measure measure : columns) {
+        const std::string title = fmt::format("{}, {}", info(measure).title, info(measure).unit);
+        table.head.push_back(title);
+        table.head.push_back(title + ", difference");
+        if (with_published) table.head.push_back(title + ", published");
     }
-    if (html.empty()) return html;
-    return "<details><summary>Statistics of the paired differences</summary>\n" + html +
-           "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences "
-           "over their standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted "
-           "over the rows of the table; for counts this is Wilcoxon\u2019s p. Incomplete: replications "
-           "without a value in both conditions; EVs left out: those that did not arrive in "
-           "both.</p></details>\n";
+    for (const ConditionFacts& condition : scenario.conditions) {
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row.push_back(condition.label());
+        for (const Measure measure : columns) {
+            const Outcome& outcome = condition.outcome(measure);
+            NumberStyle style{decimals_of(scenario, measure), Script::typeset};
+            row.push_back(estimate(outcome.value, style, info(measure).printed_factor));
+            style.sign = Sign::always;
+            row.push_back(estimate(outcome.difference, style, info(measure).printed_factor));
+            const auto value = published_value(scenario.published_as, condition.name, measure);
+            if (with_published) row.push_back(value ? number(*value, {1, Script::typeset}) : "");
+        }
+    }
+    return table;
 }
 
-std::string definitions() {
-    std::string html = "<details><summary>What the columns mean</summary><dl class=\"facts\">\n";
+/// A table as readers see it, and its plain cells for downloads.
+Table measures_of(const ScenarioFacts& scenario, std::span<const Measure> columns, const char* name,
+                  const std::string& caption, bool with_published = false) {
+    return {fmt::format("{}-{}", name, scenario.name), caption,
+            plain_table(scenario, columns, with_published), measure_table(scenario, columns, with_published)};
+}
+
+void write_statistics(const ScenarioFacts& scenario, Writer& writer) {
+    std::vector<Table> tables;
+    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
+                                  Measure::other_time_loss, Measure::collisions}) {
+        DataTable table = statistics_table(scenario, measure);
+        if (!table.rows.empty())
+            tables.push_back(
+                {fmt::format("statistics-{}-{}", scenario.name, info(measure).field), "", std::move(table)});
+    }
+    if (tables.empty()) return;
+    writer.open_fold("Statistics of the paired differences");
+    for (Table& table : tables)
+        writer.table(std::move(table));
+    writer.markup(
+        "<p class=\"note\">BCa: bootstrap interval of the mean. Effect size: mean of the differences "
+        "over their standard deviation (Cohen\u2019s d for pairs, d<sub>z</sub>). p (Holm): adjusted "
+        "over the rows of the table; for counts this is Wilcoxon\u2019s p. Incomplete: replications "
+        "without a value in both conditions; EVs left out: those that did not arrive in "
+        "both.</p>");
+    writer.close_fold();
+}
+
+void write_definitions(Writer& writer) {
+    std::string html = "<dl class=\"facts\">\n";
     for (const MeasureInfo& measure : measures()) {
         html += fmt::format("<dt>{}, {}</dt><dd>{}</dd>\n", measure.title, measure.unit, measure.doc);
     }
-    return html + "</dl></details>\n";
+    writer.open_fold("What the columns mean");
+    writer.markup(html + "</dl>\n");
+    writer.close_fold();
 }
 
 }  // namespace
 
-std::string tables_section(const StudyFacts& study) {
+void tables_section(const StudyFacts& study, Writer& writer) {
     constexpr std::array published_columns = {Measure::emergency_waiting_time,
                                               Measure::emergency_depart_delay, Measure::waiting_time};
     constexpr std::array emergency_columns = {Measure::emergency_restricted_time,
@@ -144,18 +183,18 @@ std::string tables_section(const StudyFacts& study) {
             "two: the "
             "net as published and the one with corrected inputs.";
     html += "</p>\n";
-    html += definitions();
+    writer.markup(html);
+    write_definitions(writer);
     for (const ScenarioFacts& scenario : study.scenarios) {
         const std::string caption = published_caption(scenario);
-        html += fmt::format("<h3>{}</h3>\n<p class=\"caption\">{}</p>\n", escaped(scenario.name),
-                            caption.empty() ? "Waiting time and depart delay" : escaped(caption));
-        html += measure_table(scenario, published_columns, !caption.empty());
-        html += "<p class=\"caption\">What these columns hide</p>\n";
-        html += measure_table(scenario, emergency_columns, false);
-        html += measure_table(scenario, event_columns, false);
-        html += statistics_of(scenario);
+        writer.heading(scenario.name);
+        writer.table(measures_of(scenario, published_columns, "waiting",
+                                 caption.empty() ? "Waiting time and depart delay" : caption,
+                                 !caption.empty()));
+        writer.table(measures_of(scenario, emergency_columns, "times", "What these columns hide"));
+        writer.table(measures_of(scenario, event_columns, "events-mean", ""));
+        write_statistics(scenario, writer);
     }
-    return html;
 }
 
 }  // namespace clearway::report::detail

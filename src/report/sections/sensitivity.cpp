@@ -1,12 +1,12 @@
 // Sensitivity: a tornado chart of every setting that was varied alone.
 
+#include "report/sensitivity.hpp"
+
 #include <fmt/format.h>
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
-#include "report/detail/markup.hpp"
-#include "report/detail/sections.hpp"
-#include "report/sensitivity.hpp"
+#include "report/sections/sections.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
@@ -92,46 +92,43 @@ DataTable data_of(const Rows& rows) {
     return table;
 }
 
-std::string figures_of(const Sensitivity& sensitivity, const Rows& rows) {
-    return "<div class=\"figures\">\n" +
-           to_html(Figure{
-               "Emergency vehicles",
-               tornado(sensitivity, rows, &SensitivityLevel::emergency, "EV travel time, difference, s"), "",
-               "", data_of(rows)}) +
-           to_html(Figure{"The others",
-                          tornado(sensitivity, rows, &SensitivityLevel::others,
-                                  "time loss of the others, difference, s"),
-                          "", "", data_of(rows)}) +
-           "</div>\n";
+void write_figures(const Sensitivity& sensitivity, const Rows& rows, Writer& writer) {
+    const std::string of = fmt::format("{}-{}", sensitivity.scenario, sensitivity.condition);
+    writer.figures(
+        {{"sensitivity-emergency-" + of, "Emergency vehicles",
+          tornado(sensitivity, rows, &SensitivityLevel::emergency, "EV travel time, difference, s"), "",
+          data_of(rows)},
+         {"sensitivity-others-" + of, "The others",
+          tornado(sensitivity, rows, &SensitivityLevel::others, "time loss of the others, difference, s"), "",
+          data_of(rows)}});
 }
 
-std::string chart(const Sensitivity& sensitivity) {
+void write_chart(const Sensitivity& sensitivity, Writer& writer) {
     Rows shown;
     Rows folded;
     for (const SensitivityRow& row : sensitivity.rows)
         (row.shows_nothing() ? folded : shown).push_back(&row);
-    std::string html =
-        fmt::format("<h3>{}, {}</h3>\n", escaped(sensitivity.scenario), escaped(sensitivity.condition));
-    html += shown.empty() ? "<p>No setting has a shown effect.</p>\n" : figures_of(sensitivity, shown);
-    if (folded.empty()) return html;
-    return html + fmt::format(
-                      "<details class=\"fold\"><summary>{} without a shown effect: both intervals include 0 "
-                      "at every level</summary>\n{}</details>\n",
-                      counted(folded.size(), "setting"), figures_of(sensitivity, folded));
+    writer.heading(fmt::format("{}, {}", sensitivity.scenario, sensitivity.condition));
+    if (shown.empty()) writer.markup("<p>No setting has a shown effect.</p>\n");
+    if (!shown.empty()) write_figures(sensitivity, shown, writer);
+    if (folded.empty()) return;
+    writer.open_fold(fmt::format("{} without a shown effect: both intervals include 0 at every level",
+                                 counted(folded.size(), "setting")));
+    write_figures(sensitivity, folded, writer);
+    writer.close_fold();
 }
 
 }  // namespace
 
-std::string sensitivity_section(const StudyFacts& study) {
-    std::string html =
+void sensitivity_section(const StudyFacts& study, Writer& writer) {
+    writer.markup(
         "<p>Each setting of a condition varied alone, from its shipped value to another one (shipped \u2192 "
         "turned to), compared with the same condition at its defaults: paired differences with 95 % "
         "intervals. Below 0 is a gain. The setting with the largest effect on emergency vehicles comes "
         "first. (!): against the baseline, the level loses or hits more emergency vehicles or ran without "
-        "safety checks. With many settings, one interval in twenty excludes 0 by chance.</p>\n";
+        "safety checks. With many settings, one interval in twenty excludes 0 by chance.</p>\n");
     for (const Sensitivity& sensitivity : study.sensitivities)
-        html += chart(sensitivity);
-    return html;
+        write_chart(sensitivity, writer);
 }
 
 }  // namespace clearway::report::detail

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include "report/detail/markup.hpp"
-#include "report/detail/sections.hpp"
+#include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -26,21 +25,22 @@ DataTable table_of(const ConditionFacts& condition) {
 
 }  // namespace
 
-std::string safety_section(const StudyFacts& study) {
-    std::string html =
+void safety_section(const StudyFacts& study, Writer& writer) {
+    writer.markup(
         "<p>What happens between vehicles, and how the traffic of the others flows. Time to collision and "
         "the deceleration to avoid a crash are those of vehicles that follow each other on one lane within "
         "100 m of an EV. Like red passages, braking, jerk and queues, they are counted from a minute before "
-        "the first EV. Queues and passages of stop lines are measured while demand departs.</p>\n";
+        "the first EV. Queues and passages of stop lines are measured while demand departs.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
-        html += fmt::format("<h3>{}</h3>\n", escaped(scenario.name));
+        writer.heading(scenario.name);
         for (const ConditionFacts& condition : scenario.conditions) {
             if (condition.safety.empty()) continue;
-            html += fmt::format("<details><summary>{}</summary>\n{}</details>\n", condition_label(condition),
-                                to_html(table_of(condition)));
+            writer.open_fold(condition_label(condition));
+            writer.table(
+                {fmt::format("safety-{}-{}", scenario.name, condition.name), "", table_of(condition)});
+            writer.close_fold();
         }
     }
-    return html;
 }
 
 }  // namespace clearway::report::detail

@@ -1,0 +1,88 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/number_range.hpp"
+#include "core/process.hpp"
+#include "core/temporary_folder.hpp"
+#include "report/figure_files.hpp"
+#include "report/read_facts.hpp"
+
+namespace clearway::cli {
+namespace {
+
+enum class Pixels { png, none };
+
+struct Arguments {
+    std::filesystem::path folder;
+    std::filesystem::path output;
+    double least_relevant_s = report::usual_least_relevant_s;
+    Pixels pixels = Pixels::png;
+};
+
+constexpr const char* rasteriser = "rsvg-convert";
+constexpr const char* scale = "3";  // 1200 pixels across: enough for a column of print at 300 dpi
+
+/// Draws SVG files as PNG files beside them. Throws core::EnvironmentError when the program is missing or
+/// fails.
+void draw_pixels(const std::vector<std::filesystem::path>& drawings) {
+    const core::TemporaryFolder folder;
+    for (const std::filesystem::path& drawing : drawings) {
+        std::filesystem::path picture = drawing;
+        picture.replace_extension(".png");
+        const std::filesystem::path log = folder.path() / "log";
+        const core::Exit exit =
+            core::run({.program = rasteriser,
+                       .arguments = {"--zoom", scale, "--output", picture.string(), drawing.string()},
+                       .output = log});
+        if (exit.ok()) continue;
+        if (exit.code == 127)
+            throw core::EnvironmentError(
+                fmt::format("{} cannot be started; it draws PNG files. Install the package librsvg2-bin, or "
+                            "give --no-png. "
+                            "The SVG, CSV and LaTeX files are written",
+                            rasteriser));
+        throw core::EnvironmentError(fmt::format("{}: {} ended with {}: {}", drawing.string(), rasteriser,
+                                                 exit.describe(), core::tail(log, 3)));
+    }
+}
+
+core::ExitCode write(const Arguments& arguments) {
+    const bool pixels = arguments.pixels == Pixels::png;
+    const report::StudyFacts facts = report::read_facts(arguments.folder, arguments.least_relevant_s);
+    const report::FigureFiles files = report::write_figures(facts, arguments.output);
+    if (pixels) draw_pixels(files.drawings);
+    fmt::print(stderr,
+               "clearway: written to {}: {} figures as SVG{}, {} tables as CSV, {} of them as LaTeX\n",
+               arguments.output.string(), files.drawings.size(), pixels ? " and PNG" : "",
+               files.tables.size(), files.typeset.size());
+    return core::ExitCode::ok;
+}
+
+}  // namespace
+
+Action configure_figures(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce, complete or not")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("--out", arguments->output, "Folder for the files; made if it does not exist")
+        ->required()
+        ->option_text("DIR (required)");
+    app.add_option("--least-difference", arguments->least_relevant_s,
+                   "Smallest difference of an EV's time that counts as an effect, s; 0: any")
+        ->check(core::NumberRange{0.0, 1e6})
+        ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->least_relevant_s));
+    app.add_flag_callback(
+           "--no-png", [arguments] { arguments->pixels = Pixels::none; },
+           "Write no PNG files, which need the program rsvg-convert")
+        ->option_text("[off]");
+    return [arguments](const Invocation&) { return write(*arguments); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,109 @@
+#include "report/detail/canvas.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "report/text.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr double letter_width = 6.3;  // of text of 12 units, mean; from Liberation Sans
+constexpr double legend_row = 18.0;
+constexpr double legend_mark = 34.0;  // the mark and the gap behind it
+constexpr std::size_t longest_entry = 56;
+
+/// Characters of a UTF-8 text.
+std::size_t letters(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        text, [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U; }));
+}
+
+std::string class_of(std::size_t series) {
+    return fmt::format("s{}", series % palette_size);
+}
+
+}  // namespace
+
+std::string shortened(const std::string& text, std::size_t longest) {
+    if (text.size() <= longest) return text;
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+        --end;
+    return text.substr(0, end) + "\u2026";
+}
+
+LegendEntry line_entry(std::size_t series, std::string words) {
+    return {fmt::format("<path class=\"line {}\" d=\"M1 5H27\"/>", class_of(series)), std::move(words)};
+}
+
+LegendEntry stripe_entry(const char* style, std::string words) {
+    return {fmt::format("<path class=\"{}\" d=\"M1 5H27\"/>", style), std::move(words)};
+}
+
+LegendEntry dot_entry(const std::string& style, std::string words) {
+    return {fmt::format("<circle class=\"{}\" cx=\"20\" cy=\"5\" r=\"4.5\"/>", style), std::move(words)};
+}
+
+LegendEntry number_entry(std::size_t series, std::string words) {
+    return {fmt::format(
+                "<circle class=\"dot {}\" cx=\"20\" cy=\"5\" r=\"8\"/><text class=\"onDot\" x=\"20\" y=\"9\" "
+                "text-anchor=\"middle\">{}</text>",
+                class_of(series), series),
+            std::move(words)};
+}
+
+Canvas::Canvas(std::string title, double height) : title_(std::move(title)), height_(height) {}
+
+void Canvas::rectangle(double x, double y, double box_width, double box_height, const std::string& style) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
+                   style, x, y, box_width, box_height);
+}
+
+void Canvas::path(const std::vector<std::pair<double, double>>& points, const std::string& style) {
+    auto out = std::back_inserter(svg_);
+    fmt::format_to(out, "<polyline class=\"{}\" points=\"", style);
+    for (const auto& [x, y] : points)
+        fmt::format_to(out, "{:.1f},{:.1f} ", x, y);
+    fmt::format_to(out, "\"/>\n");
+}
+
+void Canvas::circle(double x, double y, double radius, const std::string& style) {
+    fmt::format_to(std::back_inserter(svg_),
+                   "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", style, x, y, radius);
+}
+
+void Canvas::legend(const std::vector<LegendEntry>& entries) {
+    if (entries.empty()) return;
+    double x = 8.0;
+    height_ += legend_row;
+    for (const LegendEntry& entry : entries) {
+        const std::string words = shortened(entry.words, longest_entry);
+        const double entry_width = legend_mark + letter_width * static_cast<double>(letters(words)) + 12.0;
+        if (x > 8.0 && x + entry_width > width) {
+            x = 8.0;
+            height_ += legend_row;
+        }
+        fmt::format_to(std::back_inserter(svg_), "<g transform=\"translate({:.1f} {:.1f})\">{}</g>", x,
+                       height_ - 14.0, entry.mark);
+        text(x + legend_mark, height_ - 5.0, words, Anchor::start, "legend");
+        x += entry_width;
+    }
+}
+
+void Canvas::text(double x, double y, const std::string& words, Anchor anchor, const char* style) {
+    const char* const where = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
+    fmt::format_to(std::back_inserter(svg_),
+                   "<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", style, x, y,
+                   where, escaped(words));
+}
+
+std::string Canvas::finish() {
+    return fmt::format(
+        "<svg class=\"plot\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" aria-label=\"{}\">\n{}</svg>\n",
+        width, height_, escaped(title_), std::exchange(svg_, {}));
+}
+
+}  // namespace clearway::report::detail

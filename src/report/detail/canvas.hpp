@@ -1,0 +1,62 @@
+#pragma once
+
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clearway::report::detail {
+
+/// Number of line styles; further series reuse them.
+inline constexpr std::size_t palette_size = 7;
+
+/// The start of a long text, cut between characters, with an ellipsis.
+std::string shortened(const std::string& text, std::size_t longest);
+
+/// An entry of a legend: its mark, as markup in a box of 28 x 10 units, and what it stands for.
+struct LegendEntry {
+    std::string mark;
+    std::string words;
+};
+/// A piece of line in the style of `series`, an index of the palette.
+LegendEntry line_entry(std::size_t series, std::string words);
+/// A piece of line with the CSS class `style`.
+LegendEntry stripe_entry(const char* style, std::string words);
+/// A small circle with the CSS class `style`.
+LegendEntry dot_entry(const std::string& style, std::string words);
+/// A dot in the style of `series` that holds its number.
+LegendEntry number_entry(std::size_t series, std::string words);
+
+/// A drawing of the report: an `<svg>` element. All drawings share one width, set of styles and legend. Text
+/// has the size of the page's small text when 400 units are 400 px, and is still legible at 320 px. All text
+/// is escaped here. Places are in figure units, from the upper left corner.
+class Canvas {
+  public:
+    static constexpr double width = 400.0;
+    enum class Anchor { start, middle, end };
+
+    /// `title` names the figure for screen readers.
+    Canvas(std::string title, double height);
+
+    void text(double x, double y, const std::string& words, Anchor anchor, const char* style);
+    void rectangle(double x, double y, double box_width, double box_height, const std::string& style);
+    /// An open line through points, with CSS classes.
+    void path(const std::vector<std::pair<double, double>>& points, const std::string& style);
+    void circle(double x, double y, double radius, const std::string& style);
+    /// Markup of `<svg>`, which is not escaped.
+    void add(const std::string& markup) { svg_ += markup; }
+    /// Entries below the drawing, in as many rows as they need.
+    void legend(const std::vector<LegendEntry>& entries);
+    /// The finished `<svg>` element.
+    std::string finish();
+
+  protected:
+    std::back_insert_iterator<std::string> out() { return std::back_inserter(svg_); }
+
+  private:
+    std::string title_;
+    double height_;
+    std::string svg_;
+};
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "report/detail/figures.hpp"
+#include "report/detail/map_canvas.hpp"
+#include "report/detail/overview_figures.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr std::size_t drawn_losses = 8;  // approaches with the largest shown losses; the data list all
+
+/// Seconds gained on an edge as it is drawn: colour says the direction, width how much.
+struct Band {
+    double from_s;  ///< Gains from here on.
+    const char* style;
+    const char* words;
+};
+constexpr std::array<Band, 5> bands = {{{5.0, "way better much", "gain 5 s or more on the edge"},
+                                        {0.5, "way better", "gain 0.5 to 5 s"},
+                                        {-0.5, "way", "less than 0.5 s"},
+                                        {-5.0, "way worse", "loss 0.5 to 5 s"},
+                                        {-1e30, "way worse much", "loss 5 s or more"}}};
+
+const Band& band_of(double gain_s) {
+    return *std::ranges::find_if(bands, [&](const Band& band) { return gain_s >= band.from_s; });
+}
+
+std::vector<const MapEdge*> all_edges(const RoadMap& roads) {
+    std::vector<const MapEdge*> edges;
+    for (const MapEdge& edge : roads.edges)
+        edges.push_back(&edge);
+    return edges;
+}
+
+/// The ways, small changes first, so that large ones lie on top.
+void draw_ways(MapCanvas& canvas, const ScenarioMap& map) {
+    std::vector<EdgeTimes> times = map.times;
+    std::ranges::stable_sort(times, {}, [](const EdgeTimes& one) { return std::abs(one.gain_s()); });
+    for (const EdgeTimes& one : times)
+        canvas.edge(map.roads.edges[one.edge], band_of(one.gain_s()).style);
+}
+
+void draw_holds(MapCanvas& canvas, const ScenarioMap& map) {
+    double longest_s = 0.0;
+    for (const SignalHolds& one : map.holds)
+        longest_s = std::max(longest_s, one.held_s);
+    for (const SignalHolds& one : map.holds) {
+        if (one.held_s <= 0.0) continue;
+        const auto [x, y] = canvas.place(map.roads.signals[one.signal].place);
+        canvas.circle(x, y, 3.0 + 4.0 * std::sqrt(one.held_s / longest_s), "held");
+    }
+}
+
+/// Approaches whose interval lies above 0, the largest losses first.
+std::vector<const ApproachFacts*> losing_approaches(const ConditionFacts& condition) {
+    std::vector<const ApproachFacts*> losing;
+    for (const ApproachFacts& approach : condition.approaches) {
+        if (approach.difference.has_interval() && *approach.difference.low > 0.0) losing.push_back(&approach);
+    }
+    std::ranges::stable_sort(losing, std::greater{},
+                             [](const ApproachFacts* approach) { return *approach->difference.mean; });
+    return losing;
+}
+
+/// A triangle at the end of the approach, where its vehicles wait.
+void draw_loss(MapCanvas& canvas, const MapEdge& edge) {
+    if (edge.shape.empty()) return;
+    const auto [x, y] = canvas.place(edge.shape.back());
+    canvas.add(fmt::format("<path class=\"losing\" d=\"M{:.1f} {:.1f}l5 -9h-10z\"/>\n", x, y));
+}
+
+DataTable data_of(const ScenarioMap& map, const std::vector<const ApproachFacts*>& losing) {
+    DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
+    for (const EdgeTimes& one : map.times)
+        table.rows.push_back({"edge", map.roads.edges[one.edge].id, grouped(one.passages),
+                              number(one.baseline_s, typeset(2)), number(one.condition_s, typeset(2)),
+                              number(one.gain_s(), typeset(2, Sign::always))});
+    for (const SignalHolds& one : map.holds)
+        table.rows.push_back({"signal held, per run", map.roads.signals[one.signal].id,
+                              number(one.holds, typeset(2)), "", number(one.held_s, typeset(1)), ""});
+    for (const ApproachFacts* const approach : losing)
+        table.rows.push_back({"others lose, s per run", approach->edge, "",
+                              cell(approach->baseline_s, typeset(0)), "",
+                              number(-*approach->difference.mean, typeset(0, Sign::always))});
+    return table;
+}
+
+std::vector<LegendEntry> entries_of(const ScenarioMap& map, bool losing) {
+    std::vector<LegendEntry> entries;
+    for (const Band& band : bands) {
+        const bool used = std::ranges::any_of(
+            map.times, [&](const EdgeTimes& one) { return &band_of(one.gain_s()) == &band; });
+        if (used) entries.push_back(stripe_entry(band.style, band.words));
+    }
+    if (!map.holds.empty()) entries.push_back(dot_entry("held", "signal held, larger: longer"));
+    if (losing)
+        entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
+    return entries;
+}
+
+}  // namespace
+
+Figure gain_map_figure(const ScenarioFacts& scenario) {
+    if (!scenario.map || !is_drawable(scenario.map->roads)) return {};
+    const ScenarioMap& map = *scenario.map;
+    const ConditionFacts& condition = scenario.conditions[map.condition];
+    MapCanvas canvas(fmt::format("{}: where {} gains and costs time", scenario.name, condition.label()),
+                     map.roads);
+    canvas.edges(all_edges(map.roads), "road");
+    draw_ways(canvas, map);
+    draw_holds(canvas, map);
+    const std::vector<const ApproachFacts*> losing = losing_approaches(condition);
+    for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
+        if (const auto edge = map.roads.find_edge(losing[row]->edge))
+            draw_loss(canvas, map.roads.edges[*edge]);
+    }
+    canvas.scale_bar();
+    canvas.legend(entries_of(map, !losing.empty()));
+    std::string note = fmt::format(
+        "Seconds that an emergency vehicle gains on an edge and the junction behind it under {}: means over "
+        "all passages that it shares with the baseline. Single edges have no interval; the sum over a trip "
+        "is in the tables.",
+        condition.label());
+    if (losing.size() > drawn_losses)
+        note += fmt::format(
+            " Of {} approaches on which others lose time, the {} with the largest losses are marked.",
+            losing.size(), drawn_losses);
+    return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(),
+            scenario.attribution.empty() ? note : note + " " + scenario.attribution + ".",
+            data_of(map, losing)};
+}
+
+}  // namespace clearway::report::detail

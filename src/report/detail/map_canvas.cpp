@@ -1,0 +1,94 @@
+#include "report/detail/map_canvas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr double margin = 12.0;
+constexpr double bar_space = 24.0;
+constexpr double most_height = 330.0;
+constexpr double flattest = 0.22;  // height over width
+constexpr double largest_stretch = 10.0;
+
+}  // namespace
+
+bool is_drawable(const RoadMap& map) {
+    return std::ranges::any_of(map.edges, [](const MapEdge& edge) { return edge.shape.size() > 1; });
+}
+
+MapCanvas::Frame MapCanvas::frame_of(const RoadMap& map) {
+    double left = 1e30;
+    double right = -1e30;
+    double bottom = 1e30;
+    double top = -1e30;
+    for (const MapEdge& edge : map.edges) {
+        for (const auto& [x, y] : edge.shape) {
+            left = std::min(left, x);
+            right = std::max(right, x);
+            bottom = std::min(bottom, y);
+            top = std::max(top, y);
+        }
+    }
+    Frame frame;
+    const double width_m = std::max(1.0, right - left);
+    const double height_m = std::max(1.0, top - bottom);
+    frame.stretch = std::clamp(flattest * width_m / height_m, 1.0, largest_stretch);
+    frame.scale =
+        std::min((width - 2 * margin) / width_m, (most_height - 2 * margin) / (height_m * frame.stretch));
+    frame.left = 0.5 * (width - width_m * frame.scale);
+    frame.left_m = left;
+    frame.top_m = top;
+    frame.height = height_m * frame.stretch * frame.scale + 2 * margin + bar_space;
+    return frame;
+}
+
+MapCanvas::MapCanvas(const std::string& title, const RoadMap& map) : MapCanvas(title, frame_of(map)) {}
+
+MapCanvas::MapCanvas(const std::string& title, const Frame& frame)
+    : Canvas(title, frame.height), frame_(frame) {}
+
+std::pair<double, double> MapCanvas::place(const MapPlace& place) const {
+    return {frame_.left + (place.first - frame_.left_m) * frame_.scale,
+            margin + (frame_.top_m - place.second) * frame_.scale * frame_.stretch};
+}
+
+void MapCanvas::edge(const MapEdge& edge, const std::string& style) {
+    const MapEdge* const one = &edge;
+    edges({&one, 1}, style);
+}
+
+void MapCanvas::edges(std::span<const MapEdge* const> edges, const std::string& style) {
+    std::string way;
+    for (const MapEdge* const edge : edges) {
+        const char* command = "M";
+        for (const MapPlace& point : edge->shape) {
+            const auto [x, y] = place(point);
+            way += fmt::format("{}{:.1f} {:.1f}", command, x, y);
+            command = "L";
+        }
+    }
+    if (!way.empty()) add(fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, way));
+}
+
+void MapCanvas::scale_bar() {
+    const double longest = width / 5.0 / frame_.scale;
+    const double power = std::pow(10.0, std::floor(std::log10(longest)));
+    double metres = power;
+    for (const double factor : std::array{2.0, 5.0}) {
+        if (factor * power <= longest) metres = factor * power;
+    }
+    const double y = frame_.height - 10.0;
+    path({{margin, y}, {margin + metres * frame_.scale, y}}, "line s0");
+    text(margin + metres * frame_.scale + 6.0, y + 4.0,
+         fmt::format(
+             "{:g} m{}", metres,
+             frame_.stretch > 1.0 ? fmt::format("; drawn {:.1f} times as wide across", frame_.stretch) : ""),
+         Anchor::start, "tick");
+}
+
+}  // namespace clearway::report::detail

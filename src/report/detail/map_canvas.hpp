@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "report/detail/canvas.hpp"
+#include "report/map.hpp"
+
+namespace clearway::report::detail {
+
+/// Draws roads to scale, north up, with a scale bar. A network that is much wider than high is stretched
+/// across, at most tenfold, and says so.
+class MapCanvas : public Canvas {
+  public:
+    MapCanvas(const std::string& title, const RoadMap& map);
+
+    /// One line through the shape of an edge, with CSS classes.
+    void edge(const MapEdge& edge, const std::string& style);
+    /// Many edges as one path, with CSS classes.
+    void edges(std::span<const MapEdge* const> edges, const std::string& style);
+    /// In figure units.
+    std::pair<double, double> place(const MapPlace& place) const;
+    void scale_bar();
+
+  private:
+    struct Frame {
+        double scale = 1.0;    ///< Units a metre.
+        double stretch = 1.0;  ///< Of y relative to x.
+        double left = 0.0;
+        double left_m = 0.0;
+        double top_m = 0.0;
+        double height = 0.0;
+    };
+    static Frame frame_of(const RoadMap& map);
+    MapCanvas(const std::string& title, const Frame& frame);
+
+    Frame frame_;
+};
+
+/// Whether there is something to draw.
+bool is_drawable(const RoadMap& map);
+
+}  // namespace clearway::report::detail

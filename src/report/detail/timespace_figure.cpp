@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "report/detail/axes.hpp"
+#include "report/detail/figures.hpp"
+#include "report/detail/overview_figures.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr double height = 330.0;
+constexpr double offset = 2.6;  // of a run's signals from the stop line, so that both runs are seen
+
+const JourneyFacts* journey_under(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const auto found = std::ranges::find(scenario.journeys, condition.label(), &JourneyFacts::condition);
+    return found == scenario.journeys.end() || found->places.size() < 2 ? nullptr : &*found;
+}
+
+void include(const JourneyFacts& journey, Range& times, Range& distances) {
+    for (const JourneyPlace& place : journey.places) {
+        times.include(place.time_s);
+        distances.include(place.distance_m);
+    }
+}
+
+/// What the signals showed in one run, beside their stop lines.
+void draw_signals(Plot& plot, const JourneyFacts& journey, double below) {
+    for (const SignalSpan& span : journey.signals) {
+        const double y = plot.y().place(span.distance_m) + below;
+        const double end_s = std::min(span.to_s, plot.x().values.high);
+        if (end_s > span.from_s)
+            plot.path({{plot.x().place(span.from_s), y}, {plot.x().place(end_s), y}}, "signal-" + span.state);
+    }
+}
+
+void draw_way(Plot& plot, const JourneyFacts& journey, std::size_t series) {
+    std::vector<std::pair<double, double>> points;
+    for (const JourneyPlace& place : journey.places)
+        points.emplace_back(place.time_s, place.distance_m);
+    plot.line(points, series);
+}
+
+void add_data(const JourneyFacts& journey, DataTable& table) {
+    for (const JourneyPlace& place : journey.places)
+        table.rows.push_back({journey.condition, "vehicle", "", number(place.time_s, typeset(1)), "",
+                              number(place.distance_m, typeset(0))});
+    for (const SignalSpan& span : journey.signals)
+        table.rows.push_back({journey.condition, "signal " + span.signal, span.state,
+                              number(span.from_s, typeset(1)), number(span.to_s, typeset(1)),
+                              number(span.distance_m, typeset(0))});
+}
+
+}  // namespace
+
+Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    if (!condition.baseline) return {};
+    const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
+    const JourneyFacts* const without = journey_under(scenario, baseline);
+    const JourneyFacts* const with = journey_under(scenario, condition);
+    if (without == nullptr || with == nullptr) return {};
+    Range times;
+    Range distances;
+    include(*without, times, distances);
+    include(*with, times, distances);
+    if (times.high <= times.low || distances.high <= distances.low) return {};
+    Plot plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), height,
+              {times, "time since departure, s", left_edge, right_edge},
+              {distances, "distance along the route, m", height - label_space, 26.0});
+    plot.grid_x();
+    plot.grid_y();
+    draw_signals(plot, *without, -offset);
+    draw_signals(plot, *with, offset);
+    const auto series = static_cast<std::size_t>(&condition - scenario.conditions.data());
+    draw_way(plot, *without, *condition.baseline);
+    draw_way(plot, *with, series);
+    plot.legend({line_entry(*condition.baseline, baseline.label()), line_entry(series, condition.label()),
+                 stripe_entry("signal-red", "red"), stripe_entry("signal-yellow", "yellow"),
+                 stripe_entry("signal-green", "green")});
+    DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};
+    add_data(*without, data);
+    add_data(*with, data);
+    const double saved_s = without->places.back().time_s - with->places.back().time_s;
+    return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
+            fmt::format("Vehicle {}, replication {}: {} s {}. A level piece is a stop. Signals on its route "
+                        "are drawn twice: without the condition above the stop line, with it below. Of the "
+                        "trips of this replication its gain is nearest to the mean.",
+                        with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
+                        saved_s >= 0.0 ? "sooner" : "later"),
+            std::move(data)};
+}
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,61 @@
+#include "report/detail/writer.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace clearway::report::detail {
+
+std::string Writer::file_name(const std::string& wanted) {
+    constexpr std::size_t longest = 80;  // names of scenarios come from files and have no limit
+    std::string name;
+    for (const char letter : wanted) {
+        const auto code = static_cast<unsigned char>(letter);
+        const bool plain = code < 0x80 && std::isalnum(code) != 0;
+        if (plain) name += static_cast<char>(std::tolower(code));
+        if (!plain && !name.empty() && name.back() != '-') name += '-';
+        if (name.size() == longest) break;
+    }
+    while (name.ends_with('-'))
+        name.pop_back();
+    std::string unique = name;
+    for (int number = 2; !names_.insert(unique).second; ++number)
+        unique = fmt::format("{}-{}", name, number);
+    return unique;
+}
+
+void Writer::figure(Figure figure) {
+    if (figure.drawing.empty()) return;
+    figure.name = file_name(figure.name);
+    put(figure);
+}
+
+void Writer::figures(std::vector<Figure> figures) {
+    const auto drawn = std::ranges::count_if(figures, [](const Figure& one) { return !one.drawing.empty(); });
+    if (drawn == 0) return;
+    markup(drawn == 1 ? "<div class=\"figures one\">\n" : "<div class=\"figures\">\n");
+    for (Figure& one : figures)
+        figure(std::move(one));
+    markup("</div>\n");
+}
+
+void Writer::table(Table table) {
+    if (table.data.rows.empty()) return;
+    table.name = file_name(table.name);
+    put(table);
+}
+
+void Writer::heading(const std::string& text) {
+    markup(fmt::format("<h3>{}</h3>\n", escaped(text)));
+}
+
+void Writer::open_fold(const std::string& summary) {
+    markup(fmt::format("<details class=\"fold\"><summary>{}</summary>\n", summary));
+}
+
+void Writer::close_fold() {
+    markup("</details>\n");
+}
+
+}  // namespace clearway::report::detail

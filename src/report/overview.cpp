@@ -1,0 +1,305 @@
+#include "report/overview.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace clearway::report {
+namespace {
+
+constexpr Measure primary = Measure::emergency_restricted_time;
+
+const Estimate& difference_of(const ConditionFacts& condition, Measure measure) {
+    return condition.outcome(measure).difference;
+}
+
+/// Seconds without a sign: whole ones from 10 s on, else one decimal.
+std::string seconds(double value, Script script) {
+    return number(std::abs(value), {std::abs(value) < 9.95 ? 1 : 0, script}) + " s";
+}
+
+std::string signed_seconds(double value, Script script) {
+    return number(value, {std::abs(value) < 9.95 ? 1 : 0, script, Sign::always}) + " s";
+}
+
+/// `95 % interval -30 to -22 s`; empty without one.
+std::string interval_words(const Estimate& difference, Script script) {
+    if (!difference.has_interval()) return {};
+    const double most = std::max(std::abs(*difference.low), std::abs(*difference.high));
+    const NumberStyle style{most < 9.95 ? 1 : 0, script};
+    return fmt::format("95 % interval {} to {} s", number(*difference.low, style),
+                       number(*difference.high, style));
+}
+
+/// Difference in EV travel time as a share of the baseline's, %.
+std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const auto& difference = difference_of(condition, primary).mean;
+    if (!difference || !condition.baseline) return std::nullopt;
+    const auto& base = scenario.conditions[*condition.baseline].outcome(primary).value.mean;
+    if (!base || *base == 0.0) return std::nullopt;
+    return 100.0 * *difference / *base;
+}
+
+/// ` (24 %)`, or nothing.
+std::string percent_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const std::optional<double> percent = percent_of_baseline(scenario, condition);
+    return percent ? fmt::format(" ({} %)", number(std::abs(*percent), {0, script})) : std::string();
+}
+
+std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const std::string name = condition.title;
+    const std::string& noun = scenario.emergency_noun;
+    if (condition.objections.on_emergency())
+        return fmt::format("{} {}", name, analysis::emergency_objections(condition.objections));
+    const Estimate& difference = difference_of(condition, primary);
+    const double mean = difference.mean.value_or(0.0);
+    const std::string share = percent_words(scenario, condition, script);
+    switch (effect_of(condition, primary)) {
+        case Effect::better:
+            return fmt::format("{} saves {} {} a trip{}", name, noun, seconds(mean, script), share);
+        case Effect::worse:
+            return fmt::format("{} costs {} {} a trip{}", name, noun, seconds(mean, script), share);
+        case Effect::negligible:
+            return fmt::format("{} makes no difference to {} that counts ({} a trip)", name, noun,
+                               signed_seconds(mean, script));
+        case Effect::none_shown:
+            return fmt::format("No effect of {} on {} is shown ({} a trip)", name, noun,
+                               signed_seconds(mean, script));
+        case Effect::too_few:
+            return fmt::format("No verdict on {} yet: {} of at least {} runs", name, difference.count,
+                               analysis::fewest_for_interval);
+        case Effect::ruled_out:
+        case Effect::undecided:
+            break;
+    }
+    if (condition.emergency.all() == 0 && condition.runs > 0)
+        return fmt::format("No verdict on {}: the demand has no emergency vehicle", name);
+    return fmt::format("No verdict on {}: {}", name,
+                       difference.mean ? "no interval" : "no complete pair of runs");
+}
+
+std::string others_clause(const ConditionFacts& condition, Script script) {
+    const double mean = difference_of(condition, Measure::other_time_loss).mean.value_or(0.0);
+    switch (effect_of(condition, Measure::other_time_loss)) {
+        case Effect::better:
+            return fmt::format("other drivers save {} each", seconds(mean, script));
+        case Effect::worse:
+            return fmt::format("other drivers lose {} each", seconds(mean, script));
+        case Effect::negligible:
+        case Effect::none_shown:
+            return fmt::format("no effect on other drivers is shown ({} each)", signed_seconds(mean, script));
+        case Effect::ruled_out:
+            return analysis::other_objections(condition.objections);
+        case Effect::too_few:
+        case Effect::undecided:
+            break;
+    }
+    return {};
+}
+
+std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    if (condition.runs == 0) return {};
+    const std::uint64_t count = condition.events.collisions;
+    const std::string runs = counted(condition.runs, "run");
+    if (count == 0) return fmt::format("no collision in {}", runs);
+    const Effect effect = effect_of(condition, Measure::collisions);
+    const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
+                             : effect == Effect::better ? "fewer collisions than the baseline"
+                                                        : "collisions";
+    std::string words = fmt::format("{} ({} in {}", more, grouped(count), runs);
+    if (condition.baseline) {
+        const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
+        words += fmt::format("; baseline {} in {}", grouped(baseline.events.collisions), baseline.runs);
+    }
+    return words + ")";
+}
+
+std::string missing_clause(const ConditionFacts& condition) {
+    const std::uint64_t absent = condition.failed.size() + condition.missing_runs;
+    if (absent == 0) return {};
+    return fmt::format("{} of {} runs {}", absent, absent + condition.runs,
+                       condition.failed.empty()      ? "missing"
+                       : condition.missing_runs == 0 ? "failed"
+                                                     : "failed or missing");
+}
+
+Tile::Tone tone_of(Effect effect) {
+    return effect == Effect::better  ? Tile::Tone::better
+           : effect == Effect::worse ? Tile::Tone::worse
+                                     : Tile::Tone::neutral;
+}
+
+/// What an effect is called where the reader sees the measure beside it.
+const char* words_of(Effect effect, const char* better, const char* worse) {
+    switch (effect) {
+        case Effect::better:
+            return better;
+        case Effect::worse:
+            return worse;
+        case Effect::negligible:
+            return "too small to count";
+        case Effect::none_shown:
+            return "no effect shown";
+        case Effect::ruled_out:
+            return "no gain may be claimed";
+        case Effect::too_few:
+            return "too few runs for a verdict";
+        case Effect::undecided:
+            break;
+    }
+    return "no verdict";
+}
+
+std::string joined(std::string words, const std::string& more) {
+    if (more.empty()) return words;
+    return words.empty() ? more : words + "; " + more;
+}
+
+Tile time_tile(const char* subject, const ConditionFacts& condition, Measure measure, const char* better,
+               const char* worse, Script script) {
+    const Estimate& difference = difference_of(condition, measure);
+    const Effect effect = effect_of(condition, measure);
+    Tile tile{subject, difference.mean ? signed_seconds(*difference.mean, script) : missing(script),
+              words_of(effect, better, worse), tone_of(effect)};
+    tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
+    return tile;
+}
+
+}  // namespace
+
+const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario) {
+    const ConditionFacts* best = nullptr;
+    std::tuple<bool, int, double> best_rank;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.is_compared()) continue;
+        const bool helps = effect_of(condition, primary) == Effect::better;
+        const int grade = helps ? 0 : condition.objections.on_emergency() ? 2 : 1;
+        const std::tuple rank(reference_of(study, scenario, condition) != nullptr, grade,
+                              difference_of(condition, primary).mean.value_or(1e30));
+        if (best != nullptr && rank >= best_rank) continue;
+        best = &condition;
+        best_rank = rank;
+    }
+    return best;
+}
+
+std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    std::string words = emergency_clause(scenario, condition, script);
+    words = joined(std::move(words), others_clause(condition, script));
+    words = joined(std::move(words), collisions_clause(scenario, condition));
+    words = joined(std::move(words), missing_clause(condition));
+    if (condition.safety_checks_off)
+        words = joined(std::move(words), "the simulator's safety checks were off");
+    return words + ".";
+}
+
+std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {
+    std::size_t compared = 0;
+    std::size_t help = 0;
+    std::size_t objected = 0;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
+        ++compared;
+        help += effect_of(condition, primary) == Effect::better ? 1 : 0;
+        objected += condition.objections.on_emergency() ? 1 : 0;
+    }
+    if (compared < 2) return {};
+    std::string words = help == 0 ? fmt::format("None of {} conditions is shown to help", compared)
+                                  : fmt::format("{} of {} conditions {} shown to help", help, compared,
+                                                help == 1 ? "is" : "are");
+    if (help > 1)
+        words +=
+            "; this one has the largest mean gain, and the largest of several is usually a little too large";
+    if (objected > 0)
+        words += fmt::format("; {} lost or hit emergency vehicles, or ran without safety checks", objected);
+    return words + ".";
+}
+
+Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    Tile tile = time_tile("Emergency vehicles", condition, primary, "faster trips", "slower trips", script);
+    const std::optional<double> percent = percent_of_baseline(scenario, condition);
+    if (percent) tile.figure += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
+    if (condition.objections.on_emergency()) {
+        tile.tone = Tile::Tone::worse;
+        tile.meaning = analysis::emergency_objections(condition.objections) + "; no gain may be claimed";
+    }
+    return tile;
+}
+
+Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condition, Script script) {
+    Tile tile = time_tile("Other drivers", condition, Measure::other_time_loss, "lose less time each",
+                          "lose more time each", script);
+    if (condition.objections.on_others()) {
+        const std::string objections = analysis::other_objections(condition.objections);
+        if (!objections.empty()) tile.tone = Tile::Tone::worse;
+        tile.meaning = joined(objections, tile.meaning);
+    }
+    return tile;
+}
+
+Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    Tile tile{"Safety", missing(script), "no complete run", Tile::Tone::neutral};
+    if (condition.runs == 0) return tile;
+    tile.figure =
+        condition.events.collisions == 0 ? "no collision" : counted(condition.events.collisions, "collision");
+    tile.meaning = "in " + counted(condition.runs, "run");
+    if (condition.baseline) {
+        const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
+        tile.meaning +=
+            fmt::format("; baseline: {} in {}", grouped(baseline.events.collisions), baseline.runs);
+    }
+    const Effect effect = effect_of(condition, Measure::collisions);
+    tile.tone = tone_of(effect);
+    if (effect == Effect::better) tile.meaning += "; fewer";
+    if (effect == Effect::worse) tile.meaning += "; more";
+    if (condition.events.emergency_collisions > 0)
+        tile.meaning +=
+            fmt::format("; {} with an emergency vehicle", grouped(condition.events.emergency_collisions));
+    if (condition.objections.collisions) tile.tone = Tile::Tone::worse;
+    if (condition.safety_checks_off) {
+        tile.tone = Tile::Tone::worse;
+        tile.meaning += "; the simulator's safety checks were off";
+    }
+    return tile;
+}
+
+Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const Estimate& difference = difference_of(condition, primary);
+    const std::string pairs = counted(difference.count, "pair") + " of runs";
+    // What the intervals alone show: objections are counts and need no interval.
+    switch (effect_of(condition.outcome(primary), Better::lower)) {
+        case Effect::better:
+        case Effect::worse:
+            return {Badge::Runs::enough, fmt::format("Enough runs: {} show the direction", pairs)};
+        case Effect::negligible:
+            return {Badge::Runs::enough,
+                    fmt::format("Enough runs: {} show that the difference is too small to count", pairs)};
+        case Effect::none_shown: {
+            const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
+            const std::string least = number(condition.outcome(primary).least_relevant > 0.0
+                                                 ? condition.outcome(primary).least_relevant
+                                                 : usual_least_relevant_s,
+                                             {1, script});
+            if (needed <= difference.count)
+                return {Badge::Runs::enough,
+                        fmt::format("Enough runs: {} would have shown {} s", pairs, least)};
+            const std::string wanted = needed > most_replications_asked
+                                           ? fmt::format("more than {}", most_replications_asked)
+                                           : fmt::format("about {}", needed);
+            return {Badge::Runs::too_few,
+                    fmt::format("Not enough runs: {}; {} would show {} s", pairs, wanted, least)};
+        }
+        case Effect::too_few:
+            return {Badge::Runs::too_few, fmt::format("Not enough runs: {}, at least {} for any verdict",
+                                                      pairs, analysis::fewest_for_interval)};
+        case Effect::ruled_out:
+        case Effect::undecided:
+            break;
+    }
+    return {Badge::Runs::too_few,
+            scenario.replications == 0 ? "No runs" : "Not enough runs: no complete pair"};
+}
+
+}  // namespace clearway::report

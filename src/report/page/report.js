@@ -1,0 +1,124 @@
+'use strict';
+(() => {
+  const sources = 'fill stroke stroke-width stroke-dasharray stroke-linejoin stroke-opacity fill-opacity opacity paint-order ' +
+    'font-size font-weight font-family font-variant-numeric text-anchor color';
+
+  const offer = (name, type, content) => {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], {type: type}));
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  };
+
+  // A drawing as a file of its own: looks as here, whatever style sheet the reader's program has.
+  const standalone = svg => {
+    const copy = svg.cloneNode(true);
+    const there = [copy, ...copy.querySelectorAll('*')];
+    [svg, ...svg.querySelectorAll('*')].forEach((element, at) => {
+      const style = getComputedStyle(element);
+      there[at].setAttribute('style', sources.split(' ').map(key => `${key}:${style.getPropertyValue(key)}`).join(';'));
+    });
+    const box = svg.viewBox.baseVal;
+    copy.setAttribute('width', box.width);
+    copy.setAttribute('height', box.height);
+    copy.style.background = getComputedStyle(document.body).backgroundColor;
+    return new XMLSerializer().serializeToString(copy);
+  };
+
+  const savePng = (name, svg) => {
+    const scale = 3;
+    const image = new Image();
+    image.onload = () => {
+      const canvas = document.createElement('canvas');
+      canvas.width = scale * svg.viewBox.baseVal.width;
+      canvas.height = scale * svg.viewBox.baseVal.height;
+      const context = canvas.getContext('2d');
+      context.fillStyle = getComputedStyle(document.body).backgroundColor;
+      context.fillRect(0, 0, canvas.width, canvas.height);
+      context.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob(picture => offer(name + '.png', 'image/png', picture));
+    };
+    image.src = 'data:image/svg+xml;charset=utf-8,' + encodeURIComponent(standalone(svg));
+  };
+
+  const cellsOf = table => [...table.rows].map(row => [...row.cells].map(cell => cell.textContent));
+
+  // The rules of plain_cells in report/detail/table_files.cpp, and files of the same bytes.
+  const plain = text => {
+    const value = text.replaceAll('\u2212', '-');
+    if (value === '\u2013') return '';
+    if (/^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/.test(value)) return value.replaceAll(',', '').replace(/^\+/, '');
+    return value.replace(/^\+(?=[\d.])/, '');
+  };
+  const interval = text => /^(\S+) \[(\S+), (\S+)\]$/.exec(text);
+  const csv = table => {
+    const [head, ...rows] = cellsOf(table);
+    const wide = head.map((_, column) => rows.some(row => interval(row[column])));
+    const quoted = text => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+    const lines = [head.flatMap((text, column) => (wide[column] ? [text, 'low 95 %', 'high 95 %'] : [text]))];
+    for (const row of rows) {
+      lines.push(row.flatMap((text, column) => {
+        if (!wide[column]) return [plain(text)];
+        const parts = interval(text);
+        return parts ? parts.slice(1).map(plain) : [plain(text), '', ''];
+      }));
+    }
+    return lines.map(line => line.map(quoted).join(',') + '\n').join('');
+  };
+
+  const latex = table => {
+    const words = {'\\': '\\textbackslash{}', '{': '\\{', '}': '\\}', '&': '\\&', '%': '\\%', '$': '\\$', '#': '\\#', '_': '\\_',
+      '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '\u2212': '$-$', '\u2013': '--', '\u00b1': '$\\pm$'};
+    const escaped = text => [...text].map(letter => words[letter] ?? letter).join('');
+    const [head, ...rows] = cellsOf(table).map(row => row.map(escaped).join(' & ') + ' \\\\\n');
+    const columns = 'l' + (table.classList.contains('words') ? 'l' : 'r').repeat(table.rows[0].cells.length - 1);
+    return `\\begin{tabular}{${columns}}\n\\toprule\n${head}\\midrule\n${rows.join('')}\\bottomrule\n\\end{tabular}\n`;
+  };
+
+  const addButtons = (place, name, ways) => {
+    const group = document.createElement('span');
+    group.className = 'save';
+    for (const [ending, save] of ways) {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = ending.toUpperCase();
+      button.setAttribute('aria-label', `Download ${name}.${ending}`);
+      button.addEventListener('click', save);
+      group.append(button);
+    }
+    place.append(group);
+  };
+
+  for (const figure of document.querySelectorAll('figure[id]')) {
+    const svg = figure.querySelector('svg');
+    const data = figure.querySelector('table.data');
+    const ways = [['svg', () => offer(figure.id + '.svg', 'image/svg+xml', standalone(svg))], ['png', () => savePng(figure.id, svg)]];
+    if (data) ways.push(['csv', () => offer(figure.id + '.csv', 'text/csv', csv(data))]);
+    addButtons(figure.querySelector('figcaption'), figure.id, ways);
+  }
+  for (const part of document.querySelectorAll('.table[id]')) {
+    const data = part.querySelector('table.data');
+    const place = document.createElement('div');
+    part.append(place);
+    addButtons(place, part.id, [['csv', () => offer(part.id + '.csv', 'text/csv', csv(data))],
+      ['tex', () => offer(part.id + '.tex', 'application/x-tex', latex(data))]]);
+  }
+
+  let unfolded = [];
+  addEventListener('beforeprint', () => {
+    unfolded = [...document.querySelectorAll('details.fold:not([open])')];
+    unfolded.forEach(part => { part.open = true; });
+  });
+  addEventListener('afterprint', () => unfolded.forEach(part => { part.open = false; }));
+
+  const reveal = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    for (let part = target; part; part = part.parentElement) {
+      if (part.localName === 'details') part.open = true;
+    }
+    if (target) target.scrollIntoView();
+  };
+  addEventListener('hashchange', reveal);
+  if (location.hash) reveal();
+})();

@@ -1,0 +1,99 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "report/detail/axes.hpp"
+#include "report/detail/figures.hpp"
+#include "report/sections/sections.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+/// A number only if no effect is shown: otherwise more replications are not needed.
+std::string replications_needed(const ConditionFacts& condition) {
+    const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
+    if (!condition.precision || !open) return missing(Script::typeset);
+    if (condition.precision->needed > most_replications_asked)
+        return fmt::format("more than {}", most_replications_asked);
+    return grouped(condition.precision->needed);
+}
+
+Figure precision_figure(const ScenarioFacts& scenario) {
+    Range replications;
+    Range widths;
+    widths.include(0.0);
+    widths.include(scenario.least_relevant_s);
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.precision) continue;
+        for (const PrecisionPoint& point : condition.precision->points) {
+            replications.include(static_cast<double>(point.replications));
+            widths.include(point.half_width_s);
+        }
+    }
+    if (replications.empty()) return {};
+    constexpr double least_width = 5.0;  // so that the ticks are whole numbers
+    replications.high = std::max(replications.high, replications.low + least_width);
+    constexpr double height = 270.0;
+    widths.high *= 1.05;
+    Plot plot(fmt::format("{}: width of the interval over replications", scenario.name), height,
+              {replications, "replications", left_edge, right_edge},
+              {widths, "half width of the interval, s", height - label_space, 26.0});
+    plot.grid_x();
+    plot.grid_y();
+    if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
+    std::vector<LegendEntry> entries;
+    DataTable data{{"Condition, replications", "half width, s"}, {}};
+    for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
+        const ConditionFacts& condition = scenario.conditions[row];
+        if (!condition.precision || condition.precision->points.empty()) continue;
+        std::vector<std::pair<double, double>> points;
+        for (const PrecisionPoint& point : condition.precision->points) {
+            points.emplace_back(static_cast<double>(point.replications), point.half_width_s);
+            data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
+                                 number(point.half_width_s, typeset(2))});
+        }
+        plot.line(points, row);
+        entries.push_back(line_entry(row, condition.label()));
+    }
+    const std::string note = fmt::format("The level line is the smallest difference that counts, {} s.",
+                                         number(scenario.least_relevant_s, typeset(1)));
+    plot.legend(entries);
+    return {"precision-" + scenario.name, scenario.name, plot.finish(), note, std::move(data)};
+}
+
+DataTable precision_table(const ScenarioFacts& scenario) {
+    const double wanted_s =
+        scenario.least_relevant_s > 0.0 ? scenario.least_relevant_s : usual_least_relevant_s;
+    DataTable table{
+        {"Condition", "complete pairs", "deviation of the differences, s", "half width, s",
+         fmt::format("replications for \u00b1{} s, where no effect is shown", number(wanted_s, typeset(1)))},
+        {}};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.is_compared()) continue;
+        const Estimate& difference = condition.outcome(Measure::emergency_restricted_time).difference;
+        const auto& precision = condition.precision;
+        table.rows.push_back(
+            {condition.label(), grouped(difference.count),
+             precision ? number(precision->deviation_s, typeset(1)) : missing(Script::typeset),
+             difference.has_interval() ? number((*difference.high - *difference.low) / 2.0, typeset(2))
+                                       : missing(Script::typeset),
+             replications_needed(condition)});
+    }
+    return table;
+}
+
+}  // namespace
+
+void enough_section(const StudyFacts& study, Writer& writer) {
+    writer.markup(
+        "<p>Half the width of the 95 % interval of the EV travel time difference, as replications were "
+        "added. Where the curve is below the line, differences as small as the line can be detected. If an "
+        "effect is shown, n is enough; if none is, the last column gives the number of replications needed "
+        "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n");
+    writer.figures(figures_of(study, precision_figure));
+    for (const ScenarioFacts& scenario : study.scenarios)
+        writer.table({"replications-" + scenario.name, scenario.name, precision_table(scenario)});
+}
+
+}  // namespace clearway::report::detail

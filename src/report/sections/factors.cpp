@@ -1,0 +1,180 @@
+// Grid charts of a study's factors: what each combination does for emergency vehicles and to the others.
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "report/detail/figures.hpp"
+#include "report/detail/grid.hpp"
+#include "report/sections/sections.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+/// A condition of a scenario that was made by factors.
+struct Made {
+    const ScenarioFacts* scenario = nullptr;
+    const ConditionFacts* condition = nullptr;
+};
+
+std::vector<Made> made_by_factors(const StudyFacts& study) {
+    std::vector<Made> made;
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        for (const ConditionFacts& condition : scenario.conditions) {
+            if (condition.is_compared() && !condition.factors.empty() &&
+                reference_of(study, scenario, condition) == nullptr)
+                made.push_back({&scenario, &condition});
+        }
+    }
+    return made;
+}
+
+/// A factor and its levels, in the order of the study.
+struct Factor {
+    std::string name;
+    std::vector<std::string> levels;
+};
+
+/// Factors with at least two levels, the one with most levels first.
+std::vector<Factor> varied(const std::vector<Made>& made) {
+    std::map<std::string, std::vector<std::string>> levels;
+    for (const Made& one : made) {
+        for (const auto& [name, value] : one.condition->factors) {
+            std::vector<std::string>& known = levels[name];
+            if (std::ranges::find(known, value) == known.end()) known.push_back(value);
+        }
+    }
+    std::vector<Factor> factors;
+    for (auto& [name, known] : levels) {
+        if (known.size() > 1) factors.push_back({name, std::move(known)});
+    }
+    std::ranges::stable_sort(factors, std::greater{}, [](const Factor& one) { return one.levels.size(); });
+    return factors;
+}
+
+std::string level_of(const Made& made, const std::string& factor) {
+    const auto found = made.condition->factors.find(factor);
+    return found == made.condition->factors.end() ? std::string() : found->second;
+}
+
+/// The name that the study file gave: what follows `+` was added by factors.
+std::string plain_name(const std::string& name) {
+    return name.substr(0, name.find('+'));
+}
+
+/// All that the axes of a grid do not say: scenario, condition and the levels of the other factors.
+std::string panel_of(const Made& made, const std::vector<Factor>& factors) {
+    std::string panel =
+        fmt::format("{}, {}", plain_name(made.scenario->name), plain_name(made.condition->name));
+    for (std::size_t factor = 2; factor < factors.size(); ++factor)
+        panel += fmt::format(", {} {}", factors[factor].name, level_of(made, factors[factor].name));
+    return panel;
+}
+
+GridCell cell_of(const Made& made, Measure measure) {
+    const Estimate& difference = made.condition->outcome(measure).difference;
+    if (!difference.mean) return {};
+    const Effect effect = effect_of(*made.condition, measure);
+    const bool lost =
+        measure == Measure::emergency_restricted_time && made.condition->objections.on_emergency();
+    return {number(*difference.mean, typeset(1, Sign::always)) + (lost ? " (!)" : ""),
+            lost || effect == Effect::worse ? GridCell::Tone::worse
+            : effect == Effect::better      ? GridCell::Tone::better
+                                            : GridCell::Tone::neutral};
+}
+
+using Panels = std::map<std::string, std::vector<Made>>;
+
+Grid grid_of(const std::string& heading, const std::vector<Made>& panel, const std::vector<Factor>& factors,
+             Measure measure, std::size_t first_column) {
+    Grid grid;
+    grid.heading = heading;
+    const Factor& across = factors[0];
+    const std::size_t end = std::min(across.levels.size(), first_column + most_grid_columns);
+    grid.columns.assign(across.levels.begin() + static_cast<std::ptrdiff_t>(first_column),
+                        across.levels.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::vector<std::string> down =
+        factors.size() > 1 ? factors[1].levels : std::vector<std::string>{""};
+    for (const std::string& level : down) {
+        Grid::Row row{level, std::vector<GridCell>(grid.columns.size())};
+        for (const Made& one : panel) {
+            if (factors.size() > 1 && level_of(one, factors[1].name) != level) continue;
+            const auto column = std::ranges::find(grid.columns, level_of(one, across.name));
+            if (column != grid.columns.end())
+                row.cells[static_cast<std::size_t>(column - grid.columns.begin())] = cell_of(one, measure);
+        }
+        grid.rows.push_back(std::move(row));
+    }
+    return grid;
+}
+
+DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure) {
+    DataTable table{{"Condition", "scenario"}, {}};
+    for (const Factor& factor : factors)
+        table.head.push_back(factor.name);
+    table.head.push_back("difference, s [95 %]");
+    table.head.emplace_back("objection");
+    for (const Made& one : made) {
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row = {one.condition->label(), one.scenario->name};
+        for (const Factor& factor : factors)
+            row.push_back(level_of(one, factor.name));
+        row.push_back(estimate(one.condition->outcome(measure).difference, typeset(2, Sign::always)));
+        row.push_back(analysis::emergency_objection_word(one.condition->objections));
+    }
+    return table;
+}
+
+Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
+                      const char* name, const std::string& caption) {
+    Panels panels;
+    for (const Made& one : made)
+        panels[panel_of(one, factors)].push_back(one);
+    std::vector<Grid> grids;
+    for (const auto& [heading, panel] : panels) {
+        for (std::size_t column = 0; column < factors[0].levels.size(); column += most_grid_columns)
+            grids.push_back(grid_of(heading, panel, factors, measure, column));
+    }
+    double height = 24.0;
+    for (const Grid& grid : grids)
+        height += grid_height(grid);
+    Canvas canvas(caption, height);
+    canvas.text(2.0, 14.0,
+                shortened(fmt::format("across: {}{}", factors[0].name,
+                                      factors.size() > 1 ? "; down: " + factors[1].name : ""),
+                          62),
+                Canvas::Anchor::start, "axis");
+    double top = 24.0;
+    for (const Grid& grid : grids) {
+        draw_grid(grid, top, canvas);
+        top += grid_height(grid);
+    }
+    return {name, caption, canvas.finish(), "", data_of(made, factors, measure)};
+}
+
+}  // namespace
+
+bool has_factors(const StudyFacts& study) {
+    return !varied(made_by_factors(study)).empty();
+}
+
+void factors_section(const StudyFacts& study, Writer& writer) {
+    const std::vector<Made> made = made_by_factors(study);
+    const std::vector<Factor> factors = varied(made);
+    if (factors.empty()) return;
+    writer.markup(
+        "<p>Mean paired difference to the baseline for every combination of the study\u2019s factors, s. A "
+        "cell is coloured if its 95 % interval excludes 0 and the difference counts (blue: better, orange: "
+        "worse). (!): the combination loses or hits more emergency vehicles than the baseline, or ran "
+        "without "
+        "safety checks. With many cells, one interval in twenty excludes 0 by chance.</p>\n");
+    writer.figures({factors_figure(made, factors, Measure::emergency_restricted_time, "factors-emergency",
+                                   "EV travel time against the baseline, s"),
+                    factors_figure(made, factors, Measure::other_time_loss, "factors-others",
+                                   "Time loss of the others against the baseline, s")});
+}
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include "report/sections/sections.hpp"
+#include "report/verdict.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr std::size_t shown_failures = 50;  // of each condition; the rest is counted
+
+DataTable events_of(const ScenarioFacts& scenario) {
+    DataTable table{
+        {"Condition", "actions asked", "refused", "ended by expiry", "collisions", "with an EV", "teleports"},
+        {}};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Events& events = condition.events;
+        table.rows.push_back({condition.label(), grouped(events.leases_issued),
+                              grouped(events.leases_refused), grouped(events.leases_expired),
+                              grouped(events.collisions), grouped(events.emergency_collisions),
+                              grouped(events.teleports)});
+    }
+    return table;
+}
+
+DataTable leases_of(const ScenarioFacts& scenario) {
+    DataTable table{{"Condition", "what its policy asked for"}, {}, DataTable::Cells::words};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.has_policy) table.rows.push_back({condition.label(), lease_sentence(condition)});
+    }
+    return table;
+}
+
+DataTable endings_of(const ScenarioFacts& scenario) {
+    DataTable table{{"Condition", "EVs", "arrived", "running at end", "teleported", "not inserted", "removed",
+                     "others", "arrived", "runs", "failed", "missing"},
+                    {}};
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Endings& ends = condition.emergency;
+        table.rows.push_back({condition.label(), grouped(ends.all()), grouped(ends.arrived),
+                              grouped(ends.running), grouped(ends.teleported), grouped(ends.not_inserted),
+                              grouped(ends.removed), grouped(condition.others.all()),
+                              grouped(condition.others.arrived), grouped(condition.runs),
+                              grouped(condition.failed.size()), grouped(condition.missing_runs)});
+    }
+    return table;
+}
+
+void write_failures(const ScenarioFacts& scenario, Writer& writer) {
+    bool any = false;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.failed.empty()) continue;
+        any = true;
+        DataTable table{{"Replication", "Cause"}, {}, DataTable::Cells::words};
+        for (const FailedRun& run : condition.failed) {
+            if (table.rows.size() == shown_failures) break;
+            table.rows.push_back({std::to_string(run.replication), run.cause});
+        }
+        writer.markup(fmt::format("<details open><summary>{}, {}: {} failed</summary>\n",
+                                  escaped(scenario.name), condition_label(condition),
+                                  counted(condition.failed.size(), "run")));
+        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name), "", std::move(table)});
+        if (condition.failed.size() > shown_failures)
+            writer.markup(fmt::format("<p class=\"note\">The first {} are listed.</p>", shown_failures));
+        writer.close_fold();
+    }
+    if (!any) writer.markup("<p class=\"note\">No run failed.</p>\n");
+}
+
+}  // namespace
+
+void outcomes_section(const StudyFacts& study, Writer& writer) {
+    writer.markup(
+        "<p>How every vehicle of the demand ended, over all completed runs. Means over arrived EVs leave "
+        "out all other EVs in this table. The second table counts the actions that policies asked for, "
+        "those that were refused because they could not be carried out safely, and what went wrong on the "
+        "road; the third lists the actions and the reasons for refusals.</p>\n");
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        writer.heading(scenario.name);
+        for (const ConditionFacts& condition : scenario.conditions) {
+            if (condition.runs_without_horizon > 0)
+                writer.markup(fmt::format("<p class=\"note\">{}: {}</p>\n", condition_label(condition),
+                                          without_horizon_sentence(condition.runs_without_horizon)));
+        }
+        writer.table({"outcomes-" + scenario.name, "", endings_of(scenario)});
+        writer.table({"events-" + scenario.name, "", events_of(scenario)});
+        writer.table({"actions-" + scenario.name, "", leases_of(scenario)});
+        write_failures(scenario, writer);
+    }
+}
+
+}  // namespace clearway::report::detail

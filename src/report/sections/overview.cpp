@@ -1,0 +1,53 @@
+// The first screen: for each scenario what its best condition does, in a sentence, three tiles and a badge.
+
+#include "report/overview.hpp"
+
+#include <fmt/format.h>
+
+#include "report/detail/overview_figures.hpp"
+#include "report/sections/sections.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+std::string tile_markup(const Tile& tile) {
+    const char* const tone = tile.tone == Tile::Tone::better  ? " better"
+                             : tile.tone == Tile::Tone::worse ? " worse"
+                                                              : "";
+    return fmt::format("<div class=\"tile{}\"><h4>{}</h4><p class=\"figure\">{}</p><p>{}</p></div>\n", tone,
+                       tile.subject, escaped(tile.figure), escaped(tile.meaning));
+}
+
+void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const ConditionFacts& condition,
+                 Writer& writer) {
+    constexpr Script script = Script::typeset;
+    const std::string title = scenario.title.empty() || scenario.title == scenario.name
+                                  ? ""
+                                  : fmt::format("<small>{}</small>", escaped(scenario.title));
+    const Badge badge = badge_of(scenario, condition, script);
+    writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
+                              escaped(scenario_headline(scenario, condition, script))));
+    const std::string among = among_conditions(study, scenario);
+    if (!among.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(among)));
+    writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
+                              badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
+    writer.markup("<div class=\"tiles\">\n" + tile_markup(emergency_tile(scenario, condition, script)) +
+                  tile_markup(others_tile(scenario, condition, script)) +
+                  tile_markup(safety_tile(scenario, condition, script)) + "</div>\n");
+}
+
+}  // namespace
+
+void overview_section(const StudyFacts& study, Writer& writer) {
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        const ConditionFacts* const condition = featured_condition(study, scenario);
+        if (condition == nullptr) continue;
+        writer.markup("<div class=\"glance\">\n");
+        write_words(study, scenario, *condition, writer);
+        writer.figures({gain_map_figure(scenario), timespace_figure(scenario, *condition),
+                        tradeoff_figure(study, scenario), reach_figure(scenario)});
+        writer.markup("</div>\n");
+    }
+}
+
+}  // namespace clearway::report::detail

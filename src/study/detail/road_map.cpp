@@ -1,0 +1,112 @@
+#include "study/detail/road_map.hpp"
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/json.hpp"
+
+namespace clearway::study::detail {
+namespace {
+
+double tenths(double value) {
+    return std::round(10.0 * value) / 10.0;
+}
+
+/// The middle one of the lanes that an emergency vehicle may use; nothing if there is none.
+std::optional<core::LaneIndex> middle_lane(const roads::Network& network, const roads::Edge& edge) {
+    std::vector<core::LaneIndex> open;
+    for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+        const core::LaneIndex lane{edge.first_lane + number};
+        if (network.lane(lane).allows_emergency || network.lane(lane).allows_cars) open.push_back(lane);
+    }
+    if (open.empty()) return std::nullopt;
+    return open[open.size() / 2];
+}
+
+/// The ways out of an edge for emergency vehicles, and whether a signal controls one of them.
+struct Ways {
+    std::set<core::EdgeIndex> to;
+    bool signal = false;
+};
+
+Ways ways_from(const roads::Network& network, const roads::Edge& edge) {
+    Ways ways;
+    for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+        for (const roads::Connection& connection :
+             network.connections_from(core::LaneIndex{edge.first_lane + number})) {
+            if (!connection.allows_emergency && !connection.allows_cars) continue;
+            ways.to.insert(network.lane(connection.to).edge);
+            ways.signal = ways.signal || connection.signal.exists();
+        }
+    }
+    return ways;
+}
+
+core::Json signals_json(const roads::Network& network) {
+    core::Json signals = core::Json::array();
+    for (const roads::Signal& signal : network.signals()) {
+        double x = 0.0;
+        double y = 0.0;
+        double count = 0.0;
+        for (const auto& link : signal.links) {
+            for (const roads::SignalLink& way : link) {
+                const roads::Point end = network.lane(way.from).shape.back();
+                x += end.x_m;
+                y += end.y_m;
+                count += 1.0;
+            }
+        }
+        if (count == 0.0) continue;
+        signals.push_back({{"id", signal.id}, {"x_m", tenths(x / count)}, {"y_m", tenths(y / count)}});
+    }
+    return signals;
+}
+
+core::Json stations_json(const scenario::ScenarioConfig& config) {
+    core::Json stations = core::Json::array();
+    for (const scenario::EmergencySite& site : config.emergency_sites) {
+        if (site.kind == scenario::SiteKind::hospital) continue;
+        stations.push_back({{"edge", site.edge}, {"kind", core::name(site.kind)}, {"name", site.name}});
+    }
+    return stations;
+}
+
+}  // namespace
+
+std::string road_map_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
+    std::vector<std::optional<std::size_t>> place(network.edges().size());
+    std::size_t count = 0;
+    for (std::size_t index = 0; index < place.size(); ++index) {
+        const roads::Edge& edge = network.edges()[index];
+        if (!edge.internal && middle_lane(network, edge)) place[index] = count++;
+    }
+    core::Json edges = core::Json::array();
+    for (std::size_t index = 0; index < place.size(); ++index) {
+        if (!place[index]) continue;
+        const roads::Edge& edge = network.edges()[index];
+        const roads::Lane& lane = network.lane(*middle_lane(network, edge));
+        const Ways ways = ways_from(network, edge);
+        core::Json to = core::Json::array();
+        for (const core::EdgeIndex next : ways.to) {
+            if (place[next.value]) to.push_back(*place[next.value]);
+        }
+        core::Json shape = core::Json::array();
+        for (const roads::Point& point : lane.shape) {
+            shape.push_back(tenths(point.x_m));
+            shape.push_back(tenths(point.y_m));
+        }
+        edges.push_back({{"id", edge.id},
+                         {"to", std::move(to)},
+                         {"signal", ways.signal},
+                         {"length_m", tenths(edge.length_m)},
+                         {"limit_mps", std::round(100.0 * lane.speed_limit_mps) / 100.0},
+                         {"shape_m", std::move(shape)}});
+    }
+    const core::Json map = {
+        {"edges", std::move(edges)}, {"signals", signals_json(network)}, {"stations", stations_json(config)}};
+    return map.dump(-1, ' ', false, core::Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearway::study::detail

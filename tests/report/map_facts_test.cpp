@@ -1,0 +1,79 @@
+// The maps of a run folder, from its files.
+#include "report/detail/map_facts.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "report/frozen_study.hpp"
+#include "report/read_facts.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MapFacts : public testing::Test {
+  protected:
+    ScenarioFacts crossing() const { return read_facts(folder_.path() / "study").scenarios[0]; }
+
+    const support::TemporaryFolder folder_;
+    const tests::FrozenStudy study_{folder_.path() / "study"};
+    const std::filesystem::path roads_ = folder_.path() / "study" / "scenarios" / "crossing" / "roads.json";
+};
+
+TEST_F(MapFacts, AreMeansOverThePassagesThatBothRunsHave) {
+    const ScenarioFacts scenario = crossing();
+    ASSERT_TRUE(scenario.map);
+    EXPECT_EQ(scenario.conditions[scenario.map->condition].name, "helps");
+    ASSERT_EQ(scenario.map->times.size(), 2u);
+    const EdgeTimes& first = scenario.map->times[0];
+    EXPECT_EQ(scenario.map->roads.edges[first.edge].id, "north_in");
+    EXPECT_EQ(first.passages, 6u);
+    // Half of 100 s and of 75 s, with luck of 0, 7, ... 35 s and half of it.
+    EXPECT_DOUBLE_EQ(first.baseline_s, 0.5 * (100.0 + 17.5));
+    EXPECT_DOUBLE_EQ(first.condition_s, 0.5 * (75.0 + 8.75));
+    ASSERT_EQ(scenario.map->holds.size(), 1u);
+    EXPECT_DOUBLE_EQ(scenario.map->holds[0].holds, 1.0);
+    EXPECT_DOUBLE_EQ(scenario.map->holds[0].held_s, 20.0 + 7.5);
+}
+
+TEST_F(MapFacts, ReachStartsAtTheStations) {
+    const ScenarioFacts scenario = crossing();
+    ASSERT_TRUE(scenario.map && scenario.map->reach);
+    EXPECT_THAT(scenario.map->reach->starts, ::testing::ElementsAre(0u));
+    EXPECT_FALSE(scenario.map->reach->edges[1].baseline_s);  // nothing leads to west_in
+    EXPECT_DOUBLE_EQ(*scenario.map->reach->edges[2].condition_s, 75.0 + 8.75);
+}
+
+TEST_F(MapFacts, AndTheTripWhoseGainIsNearestToTheMeanAreShown) {
+    // In replication 0 the first vehicle gains 25 s and the second one 35.5 s; the mean of all is above both.
+    const ScenarioFacts scenario = crossing();
+    EXPECT_LT(*scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference.mean, -35.5);
+    ASSERT_FALSE(scenario.journeys.empty());
+    EXPECT_EQ(scenario.journeys[0].vehicle, "emergency<1>");
+}
+
+TEST_F(MapFacts, AreMissingWhereTheFolderHasNoRoads) {
+    std::filesystem::remove(roads_);
+    EXPECT_FALSE(crossing().map);
+}
+
+TEST_F(MapFacts, OfADamagedFileAreRefusedWithItsName) {
+    for (const char* const text :
+         {"{", R"({"edges": []})", R"({"edges": [{"id": "a", "to": [7], "signal": false,
+             "length_m": 1, "limit_mps": 1, "shape_m": []}], "signals": [], "stations": []})"}) {
+        std::ofstream(roads_) << text;
+        try {
+            crossing();
+            FAIL() << text;
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("roads.json"));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace clearway::report

@@ -1,0 +1,146 @@
+#include "report/overview.hpp"
+
+#include <gmock/gmock.h>
+
+#include "report/sample.hpp"
+
+namespace clearway::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using tests::around;
+
+/// A baseline of 100 s and one condition, `corridor`, both with 20 runs.
+class Overview : public testing::Test {
+  protected:
+    Overview() {
+        scenario_.name = "city";
+        scenario_.replications = 20;
+        scenario_.emergency_noun = "ambulances";
+        scenario_.conditions = {tests::condition("baseline", "baseline", 100.0),
+                                tests::condition("corridor", "corridor", 74.0)};
+        tests::compare(corridor(), around(-26.0, 4.0), around(4.6, 1.0));
+        study_.scenarios = {scenario_};
+    }
+    ConditionFacts& corridor() { return scenario_.conditions[1]; }
+    std::string headline() { return scenario_headline(scenario_, corridor(), Script::plain); }
+    Tile emergency() { return emergency_tile(scenario_, corridor(), Script::plain); }
+    Tile others() { return others_tile(scenario_, corridor(), Script::plain); }
+    Tile safety() { return safety_tile(scenario_, corridor(), Script::plain); }
+    Badge badge() { return badge_of(scenario_, corridor(), Script::plain); }
+    void lose_vehicles() {
+        corridor().objections.emergency = {.arrived = 17, .teleported = 3};
+        corridor().objections.baseline_emergency = {.arrived = 20};
+    }
+
+    ScenarioFacts scenario_;
+    StudyFacts study_;
+};
+
+TEST_F(Overview, SaysInOneSentenceWhatIsGainedWhatItCostsAndThatNobodyCollided) {
+    EXPECT_EQ(headline(),
+              "corridor saves ambulances 26 s a trip (26 %); other drivers lose 4.6 s each; no collision in "
+              "20 runs.");
+}
+
+TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {
+    tests::compare(corridor(), around(-2.0, 3.0), around(0.4, 1.0));
+    EXPECT_EQ(
+        headline(),
+        "No effect of corridor on ambulances is shown (-2.0 s a trip); no effect on other drivers is shown "
+        "(+0.4 s each); no collision in 20 runs.");
+    EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
+    EXPECT_THAT(emergency().meaning, StartsWith("no effect shown"));
+}
+
+TEST_F(Overview, CallsAShownDifferenceThatIsTooSmallNoDifference) {
+    tests::compare(corridor(), around(-0.5, 0.2), around(0.4, 1.0));
+    corridor().outcome(Measure::emergency_restricted_time).least_relevant = 1.0;
+    EXPECT_THAT(headline(),
+                StartsWith("corridor makes no difference to ambulances that counts (-0.5 s a trip)"));
+    EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
+    EXPECT_THAT(badge().words, HasSubstr("too small to count"));
+}
+
+TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {
+    lose_vehicles();
+    EXPECT_THAT(headline(),
+                StartsWith("corridor lost 3 of 20 emergency vehicles (3 teleported; baseline 0);"));
+    EXPECT_THAT(headline(), Not(HasSubstr("saves")));
+    EXPECT_EQ(emergency().tone, Tile::Tone::worse);
+    EXPECT_THAT(emergency().meaning, HasSubstr("no gain may be claimed"));
+}
+
+TEST_F(Overview, SaysThatSafetyChecksWereOff) {
+    corridor().safety_checks_off = true;
+    corridor().objections.unchecked = true;
+    EXPECT_THAT(headline(), HasSubstr("ran without safety checks"));
+    EXPECT_THAT(headline(), Not(HasSubstr("saves")));
+    EXPECT_EQ(safety().tone, Tile::Tone::worse);
+}
+
+TEST_F(Overview, GivesTheOthersATileOfTheirOwnColour) {
+    EXPECT_EQ(emergency().tone, Tile::Tone::better);
+    EXPECT_EQ(others().tone, Tile::Tone::worse);
+    EXPECT_EQ(others().figure, "+4.6 s");
+    EXPECT_THAT(others().meaning, HasSubstr("lose more time each; 95 % interval 3.6 to 5.6 s"));
+}
+
+TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
+    corridor().events.collisions = 7;
+    corridor().events.emergency_collisions = 2;
+    scenario_.conditions[0].events.collisions = 5;
+    EXPECT_THAT(headline(), HasSubstr("collisions (7 in 20 runs; baseline 5 in 20)"));
+    EXPECT_EQ(safety().figure, "7 collisions");
+    EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
+    EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle"));
+    corridor().outcome(Measure::collisions).difference = around(0.4, 0.2);
+    EXPECT_EQ(safety().tone, Tile::Tone::worse);
+    EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));
+}
+
+TEST_F(Overview, NamesFailedAndMissingRuns) {
+    corridor().failed = {{3, "killed"}};
+    corridor().missing_runs = 1;
+    EXPECT_THAT(headline(), HasSubstr("2 of 22 runs failed or missing."));
+}
+
+TEST_F(Overview, SaysWhetherThereAreEnoughRuns) {
+    EXPECT_EQ(badge().runs, Badge::Runs::enough);
+    tests::compare(corridor(), around(-2.0, 3.0), around(0.4, 1.0));
+    corridor().precision = Precision{{}, 6.4, 160};
+    EXPECT_EQ(badge().runs, Badge::Runs::too_few);
+    EXPECT_EQ(badge().words, "Not enough runs: 20 pairs of runs; about 160 would show 1.0 s");
+    corridor().precision->needed = 20;
+    EXPECT_EQ(badge().words, "Enough runs: 20 pairs of runs would have shown 1.0 s");
+    tests::compare(corridor(), around(-2.0, 3.0, 3), around(0.4, 1.0, 3));
+    EXPECT_EQ(badge().words, "Not enough runs: 3 pairs of runs, at least 5 for any verdict");
+    EXPECT_THAT(headline(), StartsWith("No verdict on corridor yet: 3 of at least 5 runs"));
+}
+
+TEST_F(Overview, FeaturesTheLargestShownGainAndSaysThatItWasChosen) {
+    ConditionFacts lucky = tests::condition("lucky", "lucky", 60.0);
+    tests::compare(lucky, around(-40.0, 50.0), around(0.0, 1.0));  // larger, but not shown
+    ConditionFacts small = tests::condition("small", "small", 90.0);
+    tests::compare(small, around(-10.0, 4.0), around(0.0, 1.0));
+    scenario_.conditions.push_back(lucky);
+    scenario_.conditions.push_back(small);
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[1]);
+    EXPECT_EQ(
+        among_conditions(study_, scenario_),
+        "2 of 3 conditions are shown to help; this one has the largest mean gain, and the largest of several "
+        "is usually a little too large.");
+    lose_vehicles();
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[3]);
+}
+
+TEST_F(Overview, OfABaselineAloneIsEmpty) {
+    scenario_.conditions.pop_back();
+    EXPECT_EQ(featured_condition(study_, scenario_), nullptr);
+    EXPECT_EQ(among_conditions(study_, scenario_), "");
+}
+
+}  // namespace
+}  // namespace clearway::report
