@@ -275,6 +275,7 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
 
 void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     append_head(scenario, text);
+    append_wrapped(coarse_step_sentence(scenario), text);
     append_verdicts(scenario, text);
     append_runs(scenario, text);
     if (const std::string caption = published_caption(scenario); !caption.empty()) {
@@ -286,16 +287,6 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     if (tables == Tables::all) append_censored(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
-}
-
-/// Empty if there are enough.
-std::string few_seeds_sentence(const StudyFacts& study) {
-    const bool few = std::ranges::any_of(study.scenarios, [](const ScenarioFacts& scenario) {
-        return scenario.replications < analysis::fewest_for_interval;
-    });
-    if (!few) return "";
-    return fmt::format("too few seeds: fewer than {} give no interval and no effect; see --seeds.",
-                       analysis::fewest_for_interval);
 }
 
 }  // namespace

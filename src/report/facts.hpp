@@ -277,6 +277,8 @@ struct ScenarioFacts {
     std::string attribution;  ///< Credit that the map data requires; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
+    std::optional<std::uint64_t> signals;             ///< Of the network; nothing if the folder does not say.
+    double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
     std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.

@@ -12,6 +12,7 @@
 #include "analysis/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/strict_table.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
 #include "report/detail/map_facts.hpp"
@@ -362,6 +363,11 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const fs::path& file) {
     }
 }
 
+/// Of a stored scenario.toml; 0 if it does not say.
+double step_length_in(const std::string& configuration) {
+    return core::parse_toml(configuration, "manifest.json")["time"]["step_length_s"].value_or(0.0);
+}
+
 void add_files(const results::Manifest& manifest, const fs::path& folder, StudyFacts& study) {
     for (ScenarioFacts& scenario : study.scenarios) {
         const fs::path picture = folder / "scenarios" / scenario.name / "network.svg";
@@ -377,8 +383,12 @@ void add_files(const results::Manifest& manifest, const fs::path& folder, StudyF
             }
         }
         scenario.wide_edges = wide_edges_in(folder / "scenarios" / scenario.name / "wide_edges.json");
+        if (const auto roads = detail::roads_in(folder / "scenarios" / scenario.name / "roads.json"))
+            scenario.signals = roads->signals.size();
         for (const results::ScenarioEntry& entry : manifest.scenarios) {
-            if (entry.name == scenario.name) scenario.attribution = entry.attribution;
+            if (entry.name != scenario.name) continue;
+            scenario.attribution = entry.attribution;
+            scenario.step_length_s = step_length_in(entry.configuration);
         }
     }
     study.curves = curves_in(folder / "training");

@@ -39,6 +39,12 @@ std::string relative_text(const ScenarioFacts& scenario, const ConditionFacts& c
 
 constexpr Measure primary = Measure::emergency_restricted_time;
 
+/// Why a condition may have no effect; empty if nothing is known.
+const char* reason_for_none(const ScenarioFacts& scenario) {
+    return scenario.signals == 0U ? "; the network has no signals, so policies at signals have nothing to do"
+                                  : "";
+}
+
 std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const Outcome& outcome = condition.outcome(primary);
     const Estimate& difference = outcome.difference;
@@ -57,10 +63,10 @@ std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition,
         case Effect::worse:
             return fmt::format("harmed: EV travel time {}", amount);
         case Effect::negligible:
-            return fmt::format("no relevant effect: EV travel time {}, where {} s would count", amount,
-                               number(outcome.least_relevant, {1, script}));
+            return fmt::format("no relevant effect: EV travel time {}, where {} s would count{}", amount,
+                               number(outcome.least_relevant, {1, script}), reason_for_none(scenario));
         case Effect::none_shown:
-            return fmt::format("no effect shown: EV travel time {}", amount);
+            return fmt::format("no effect shown: EV travel time {}{}", amount, reason_for_none(scenario));
         case Effect::too_few:
             return fmt::format("no verdict: too few seeds, {} of at least {} (EV travel time {})",
                                difference.count, analysis::fewest_for_interval, amount);
@@ -208,6 +214,30 @@ constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost"
                                                        "no verdict"};
 
 }  // namespace
+
+std::string coarse_step_sentence(const ScenarioFacts& scenario) {
+    constexpr double coarsest_trusted_s = 0.25;  // docs/decisions/0001-step-length.md
+    if (scenario.step_length_s <= coarsest_trusted_s) return "";
+    return fmt::format(
+        "steps of {:g} s: only for a comparison with figures made with such steps. Vehicles react "
+        "late and pass signals otherwise than at {:g} s, and some collide.",
+        scenario.step_length_s, coarsest_trusted_s);
+}
+
+std::string few_seeds_sentence(const StudyFacts& study) {
+    std::uint64_t fewest = fewest_to_trust;
+    for (const ScenarioFacts& scenario : study.scenarios)
+        fewest = std::min(fewest, scenario.replications);
+    if (fewest < analysis::fewest_for_interval)
+        return fmt::format("too few seeds: fewer than {} give no interval and no effect; see --seeds.",
+                           analysis::fewest_for_interval);
+    if (fewest < fewest_to_trust)
+        return fmt::format(
+            "few seeds: intervals of fewer than {} seeds are easily wrong, and so are their "
+            "means; see --seeds.",
+            fewest_to_trust);
+    return "";
+}
 
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
                                    const ConditionFacts& condition) {

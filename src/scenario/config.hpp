@@ -99,6 +99,9 @@ struct NetworkSource {
     }
 };
 
+/// Coarser steps are for a comparison with figures made with such steps, and output marks them: decision 1.
+inline constexpr double coarsest_trusted_step_s = 0.25;
+
 /// Table `[time]`.
 struct Times {
     double warm_up_s = 60.0;
@@ -119,7 +122,8 @@ struct Times {
                 "horizon_s", "s", &S::horizon_s, 1.0, 604800.0,
                 "A run that is not over by then is cut off, and its vehicles count as running at end.",
                 "assumed: several times the longest free trip"},
-            core::Field{"step_length_s", "s", &S::step_length_s, 0.1, 0.25, "Simulation step.",
+            core::Field{"step_length_s", "s", &S::step_length_s, 0.1, 1.0,
+                        "Simulation step; above 0.25 s results are marked.",
                         "docs/decisions/0001-step-length.md"},
             core::Field{"time_to_teleport_s", "s", &S::time_to_teleport_s, -1.0, 86400.0,
                         "SUMO teleports a vehicle that has stood this long past the jam; -1: never.",

@@ -248,6 +248,14 @@ TEST_F(RunFolder, tells_which_edges_have_three_or_more_lanes) {
     EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
 }
 
+TEST_F(RunFolder, tells_how_many_signals_the_network_has) {
+    EXPECT_FALSE(read_facts(study()).scenarios[0].signals.has_value());
+    write("scenarios/merge/roads.json", R"({"edges": [], "signals": [], "stations": []})");
+    EXPECT_EQ(read_facts(study()).scenarios[0].signals, 0U);
+    write("scenarios/merge/roads.json", "{}");
+    EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
+}
+
 TEST(ReadFacts, refuses_what_is_no_run_folder) {
     const support::TemporaryFolder folder;
     EXPECT_THROW(static_cast<void>(read_facts(folder.path())), core::InputError);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "report/console.hpp"
 #include "report/sample.hpp"
 
 namespace clearway::report {
@@ -66,6 +67,40 @@ TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
     EXPECT_THAT(
         verdict(scenario, scenario.conditions[1], Script::plain),
         StartsWith("no relevant effect: EV travel time -0.2 s [-0.3, -0.1], 0 %, where 1.0 s would count;"));
+}
+
+TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    const auto of_four = [&] { return verdict(scenario, scenario.conditions[4], Script::plain); };
+    EXPECT_THAT(of_four(), Not(HasSubstr("signals")));
+    scenario.signals = 3;
+    EXPECT_THAT(of_four(), Not(HasSubstr("signals")));
+    scenario.signals = 0;
+    EXPECT_THAT(of_four(),
+                StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %; the network has "
+                           "no signals, so policies at signals have nothing to do;"));
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), Not(HasSubstr("signals")));
+}
+
+TEST(CoarseSteps, are_marked_above_a_quarter_of_a_second) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios.front().step_length_s = 0.25;
+    EXPECT_EQ(coarse_step_sentence(study.scenarios.front()), "");
+    EXPECT_THAT(console_tables(study), Not(HasSubstr("steps of")));
+    study.scenarios.front().step_length_s = 1.0;
+    EXPECT_THAT(coarse_step_sentence(study.scenarios.front()),
+                StartsWith("steps of 1 s: only for a comparison"));
+    EXPECT_THAT(console_tables(study), HasSubstr("steps of 1 s: only for a comparison"));
+}
+
+TEST(FewSeeds, are_named_below_ten) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios.front().replications = 10;
+    EXPECT_EQ(few_seeds_sentence(study), "");
+    study.scenarios.front().replications = 9;
+    EXPECT_THAT(few_seeds_sentence(study), StartsWith("few seeds: intervals of fewer than 10 seeds"));
+    study.scenarios.front().replications = 4;
+    EXPECT_THAT(few_seeds_sentence(study), StartsWith("too few seeds: fewer than 5 give no interval"));
 }
 
 TEST(Verdict, names_collisions_when_their_interval_excludes_zero) {

@@ -108,11 +108,11 @@ TEST_F(Config, fractional_count_is_refused) {
 }
 
 TEST_F(Config, step_out_of_range_is_refused_in_file_and_option) {
-    EXPECT_THAT(only_problem("[time]\nstep_length_s = 0.5\n"),
-                AllOf(Field(&core::Problem::what, HasSubstr("0.5 is out of range")),
-                      Field(&core::Problem::allowed, "0.1 to 0.25")));
+    EXPECT_THAT(only_problem("[time]\nstep_length_s = 1.5\n"),
+                AllOf(Field(&core::Problem::what, HasSubstr("1.5 is out of range")),
+                      Field(&core::Problem::allowed, "0.1 to 1")));
     Options options;
-    options.step_length_s = 1.0;
+    options.step_length_s = 0.05;
     EXPECT_EQ(only_problem("", options).where, "--step-length");
 }
 

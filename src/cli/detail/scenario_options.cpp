@@ -42,8 +42,9 @@ void add_physics_options(CLI::App& app, scenario::Options& options) {
     app.add_option("--horizon", options.horizon_s, "End a run at this simulation time, s")
         ->option_text("SECONDS [by scenario]")
         ->group(group);
-    app.add_option("--step-length", options.step_length_s, "Simulation step, s")
-        ->option_text("SECONDS, 0.1 to 0.25 [0.25]")
+    app.add_option("--step-length", options.step_length_s,
+                   "Simulation step, s; above 0.25 results are marked")
+        ->option_text("SECONDS, 0.1 to 1 [0.25]")
         ->group(group);
     app.add_option("--time-to-teleport", options.time_to_teleport_s,
                    "SUMO teleports a vehicle that has stood this long, s; -1: never")

@@ -71,6 +71,8 @@ std::string verdict_card(const StudyFacts& study, const ScenarioFacts& scenario)
     entries += fold(null_count, "without a shown effect on anybody", null);
     entries += fold(alike_count, "with a setting turned alone, whose finding on EVs is the same", alike);
     if (entries.empty()) entries = "<p>No condition was compared with a baseline.</p>";
+    const std::string mark = coarse_step_sentence(scenario);
+    if (!mark.empty()) entries = fmt::format("<p class=\"note\">(!) {}</p>", escaped(mark)) + entries;
     return fmt::format("<div class=\"card\"><h3>{}</h3><small>{}</small>{}</div>\n", escaped(scenario.name),
                        counted(scenario.replications, "replication"), entries);
 }
@@ -93,6 +95,8 @@ void verdict_section(const StudyFacts& study, Writer& writer) {
         "horizon. Whatever the means are, a condition is not called a help if it loses more EVs than its "
         "baseline, if its EVs collide more often, or if it ran without safety checks. Fewer than five "
         "replications give no interval and no effect: too few seeds.</p>\n");
+    if (const std::string few = few_seeds_sentence(study); !few.empty())
+        writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(few)));
 }
 
 }  // namespace clearway::report::detail
