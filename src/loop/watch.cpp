@@ -15,10 +15,11 @@ namespace {
 
 constexpr timespec look_period{.tv_sec = 0, .tv_nsec = 50'000'000};
 
-sigset_t child_ended() {
+sigset_t watched_signals() {
     sigset_t set;
     sigemptyset(&set);
-    sigaddset(&set, SIGCHLD);
+    for (const int signal : {SIGCHLD, SIGINT, SIGTERM})
+        sigaddset(&set, signal);
     return set;
 }
 
@@ -32,22 +33,30 @@ bool has_ended(pid_t child, int& status) {
 }  // namespace
 
 ChildSignals::ChildSignals() {
-    const sigset_t set = child_ended();
+    const sigset_t set = watched_signals();
     sigprocmask(SIG_BLOCK, &set, nullptr);
 }
 
 ChildSignals::~ChildSignals() {
-    const sigset_t set = child_ended();
+    release();
+}
+
+void ChildSignals::release() {
+    const sigset_t set = watched_signals();
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
 }
 
 WatchedEnd watch(pid_t child, const experiment::RunLimits& limits) {
     const core::Child watched{child, std::chrono::steady_clock::now()};
     const core::ProcessLimits allowed{.wall_s = limits.wall_s, .memory_mib = limits.memory_mib};
-    const sigset_t set = child_ended();
+    const sigset_t set = watched_signals();
     WatchedEnd end;
     while (!has_ended(child, end.status)) {
-        sigtimedwait(&set, nullptr, &look_period);
+        const int signal = sigtimedwait(&set, nullptr, &look_period);
+        if (signal == SIGINT || signal == SIGTERM) {
+            end.interruption = signal;
+            ::kill(child, signal);
+        }
         if (end.by != core::EndedBy::itself) continue;
         end.by = core::limit_passed_by(watched, allowed);
         if (end.by != core::EndedBy::itself) ::kill(child, SIGKILL);

@@ -7,11 +7,15 @@
 
 namespace clearway::loop {
 
-/// Blocks SIGCHLD during its lifetime, so that the end of a child wakes `watch` instead of being lost.
+/// Blocks SIGCHLD, SIGINT and SIGTERM during its lifetime, so that they wake `watch`: the end of a child is
+/// not lost, and an interruption ends the child before this process. Whoever waits for this process then
+/// knows that nothing is written any more.
 class ChildSignals {
   public:
     ChildSignals();
     ~ChildSignals();
+    /// Lets these signals through again: in a child after the fork, and before this process ends by one.
+    static void release();
     ChildSignals(const ChildSignals&) = delete;
     ChildSignals& operator=(const ChildSignals&) = delete;
 };
@@ -19,7 +23,8 @@ class ChildSignals {
 /// How a watched process ended.
 struct WatchedEnd {
     core::EndedBy by = core::EndedBy::itself;
-    int status = 0;  ///< As waitpid reports it.
+    int status = 0;        ///< As waitpid reports it.
+    int interruption = 0;  ///< SIGINT or SIGTERM if one came, else 0. The child got it, too.
 };
 
 /// Waits for the end of `child`, a child of this process forked just before, and kills it (SIGKILL) when it

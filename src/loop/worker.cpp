@@ -131,6 +131,12 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
     _exit(static_cast<int>(code));
 }
 
+/// Ends this process by a signal that `ChildSignals` blocks.
+void end_by(int signal) {
+    ChildSignals::release();
+    std::raise(signal);
+}
+
 /// Runs a condition in its own child. Returns the child's exit code, or ok when an error was recorded.
 core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::ConditionSpec& condition,
                               const std::filesystem::path& folder) {
@@ -139,13 +145,15 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::
     const pid_t child = fork();
     if (child < 0) throw core::EnvironmentError(fmt::format("cannot fork for {}", experiment::to_text(key)));
     if (child == 0) {
+        ChildSignals::release();
         prctl(PR_SET_PDEATHSIG, SIGTERM);
         be_condition(run, unit, condition, folder);
     }
     const WatchedEnd end = watch(child, unit.spec.limits);
+    if (end.interruption != 0) end_by(end.interruption);
     if (WIFEXITED(end.status)) return static_cast<core::ExitCode>(WEXITSTATUS(end.status));
     const int signal = WTERMSIG(end.status);
-    if (signal == SIGINT || signal == SIGTERM) std::raise(signal);  // an interruption, not an error
+    if (signal == SIGINT || signal == SIGTERM) end_by(signal);  // an interruption, not an error
     store_error(unit, key, end, folder);
     return core::ExitCode::ok;
 }

@@ -414,6 +414,33 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     EXPECT_FALSE(folder.store().read_error(key));
 }
 
+/// The child of a process, once it has one.
+pid_t child_of(pid_t parent) {
+    pid_t child = 0;
+    while (child == 0) {
+        std::ifstream(fmt::format("/proc/{0}/task/{0}/children", parent)) >> child;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return child;
+}
+
+TEST(Worker, EndsAnInterruptedRunBeforeItselfSoThatNothingIsWrittenAfterwards) {
+    const test::StudyFolder folder("city", {}, {baseline, perfect});
+    const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
+                                            .arguments = {folder.write(folder.unit(0)).string()},
+                                            .environment = {},
+                                            .output = folder.path() / "worker.log"});
+    const pid_t run = child_of(worker.pid);
+    ::kill(run, SIGSTOP);
+    ::kill(worker.pid, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_FALSE(core::poll(worker)) << "the worker is gone while its run may still write";
+    ::kill(run, SIGCONT);
+    EXPECT_EQ(core::wait(worker).signal, SIGTERM);
+    EXPECT_NE(::kill(run, 0), 0);
+    EXPECT_TRUE(folder.store().complete_runs().empty());
+}
+
 TEST(Worker, EndsARunThatTakesTooLongOrTooMuchMemory) {
     const test::StudyFolder folder("city", {}, {baseline});
     const experiment::RunKey key{"city", "baseline", 0};
