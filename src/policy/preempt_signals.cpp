@@ -1,13 +1,22 @@
 #include "policy/preempt_signals.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "policy/detail/approach.hpp"
+#include "policy/detail/room.hpp"
 
 namespace clearway::policy {
 namespace {
 
 constexpr char policy_name[] = "preempt_signals";
+
+/// Whether every way that the emergency vehicle may take ends at standing vehicles.
+bool leads_into_a_queue(const roads::Signal& signal, const detail::Approach& approach,
+                        const detail::Room& room, double least_m) {
+    return std::ranges::all_of(
+        approach.own_links, [&](std::uint16_t link) { return room.is_blocked(signal.links[link], least_m); });
+}
 
 }  // namespace
 
@@ -18,11 +27,18 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write(policy_name, context_.period, belief.time, leases);
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked;
+    std::optional<detail::Room> room;
+    if (config_.exit_room_m > 0.0) room.emplace(context_.network, belief, config_.halted_mps);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const double slowest_mps = config_.slowest_share * view.allowed_speed(emergency).value;
         const double speed_mps = std::max<double>(emergency.state.speed_mps, slowest_mps);
+        int passed = 0;
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.horizon_m))) {
+            if (config_.signals_ahead > 0 && ++passed > config_.signals_ahead) break;
+            if (room && leads_into_a_queue(context_.network.signal(approach.signal), approach, *room,
+                                           config_.exit_room_m))
+                continue;
             const double arrival_s = approach.distance_m / std::max(speed_mps, 0.1);
             const auto halted = static_cast<double>(
                 detail::queue_ahead(view, emergency, approach.distance_m, config_.halted_mps));

@@ -17,6 +17,8 @@ struct PreemptSignalsConfig {
     double slowest_share = 0.5;
     double horizon_m = 600.0;
     double halted_mps = 0.5;
+    double exit_room_m = 0.0;
+    int signals_ahead = 0;
 
     static constexpr auto fields() {
         using C = PreemptSignalsConfig;
@@ -34,7 +36,15 @@ struct PreemptSignalsConfig {
             Field{"horizon_m", "m", &C::horizon_m, 1.0, 5000.0, "Signals farther away than this are ignored",
                   "assumed: the longest lead at 15 m/s"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
-                  "assumed: walking pace is 1.4 m/s"});
+                  "assumed: walking pace is 1.4 m/s"},
+            Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
+                  "No green is asked for while standing vehicles leave less than this free behind the "
+                  "signal; 0: "
+                  "however full it is",
+                  "0: as all figures were measured that do not name it"},
+            Field{"signals_ahead", "1", &C::signals_ahead, 0.0, 50.0,
+                  "At most so many of the next signals are held for one emergency vehicle; 0: all of them",
+                  "0: as all figures were measured that do not name it"});
     }
 };
 

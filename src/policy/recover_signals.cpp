@@ -1,9 +1,11 @@
 #include "policy/recover_signals.hpp"
 
+#include <optional>
 #include <set>
 #include <unordered_map>
 
 #include "policy/detail/approach.hpp"
+#include "policy/detail/room.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::policy {
@@ -32,15 +34,26 @@ struct Served {
     int vehicles = 0;
 };
 
-Served served_by(const roads::Signal& signal, const std::string& state, const DemandByLane& demand) {
+/// What waits, and whether there is room for it behind the signals.
+struct Demand {
+    DemandByLane by_lane;
+    std::optional<detail::Room> room;
+    double exit_room_m = 0.0;
+
+    bool may_leave(const roads::SignalLink& way) const {
+        return !room || !room->is_blocked({way}, exit_room_m);
+    }
+};
+
+Served served_by(const roads::Signal& signal, const std::string& state, const Demand& demand) {
     Served served;
     std::set<std::uint32_t> lanes;
     for (std::uint16_t link = 0; link < signal.links.size() && link < state.size(); ++link) {
         if (!traffic::is_green(state[link])) continue;
         bool has_demand = false;
         for (const roads::SignalLink& way : signal.links[link]) {
-            const auto found = demand.find(way.from.value);
-            if (found == demand.end()) continue;
+            const auto found = demand.by_lane.find(way.from.value);
+            if (found == demand.by_lane.end() || !demand.may_leave(way)) continue;
             has_demand = true;
             if (lanes.insert(way.from.value).second) served.vehicles += found->second;
         }
@@ -52,7 +65,7 @@ Served served_by(const roads::Signal& signal, const std::string& state, const De
 /// The links with demand of the phase that serves the most vehicles; empty when none wait. The present phase
 /// counts `worth` vehicles more, because a change costs time.
 std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::string& shown,
-                                       const DemandByLane& demand, int worth) {
+                                       const Demand& demand, int worth) {
     Served best;
     for (const roads::Phase& phase : signal.program) {
         Served served = served_by(signal, phase.state, demand);
@@ -65,7 +78,9 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 }  // namespace
 
 RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config)
-    : context_(context), config_(config) {}
+    : context_(context), config_(config) {
+    if (config_.short_block_m > 0.0) blocks_m_ = detail::shortest_blocks_m(context_.network);
+}
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
@@ -73,12 +88,15 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.near_m))) {
-            until_s_[approach.signal] = belief.time.value + config_.lasting_s;
+            const bool is_free =
+                blocks_m_.empty() || blocks_m_[approach.signal.value] >= config_.short_block_m;
+            if (is_free) until_s_[approach.signal] = belief.time.value + config_.lasting_s;
         }
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
-    const DemandByLane demand = demand_by_lane(context_.network, belief, config_);
+    Demand demand{demand_by_lane(context_.network, belief, config_), std::nullopt, config_.exit_room_m};
+    if (config_.exit_room_m > 0.0) demand.room.emplace(context_.network, belief, config_.halted_mps);
     for (const auto& [signal, until] : until_s_) {
         std::vector<std::uint16_t> links =
             most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "core/fields.hpp"
 #include "policy/policy.hpp"
@@ -16,6 +17,8 @@ struct RecoverSignalsConfig {
     int change_vehicles = 4;
     double halted_mps = 0.5;
     double lease_s = 2.0;
+    double exit_room_m = 0.0;
+    double short_block_m = 0.0;
 
     static constexpr auto fields() {
         using C = RecoverSignalsConfig;
@@ -35,13 +38,22 @@ struct RecoverSignalsConfig {
                   "assumed: walking pace is 1.4 m/s"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+                  "assumed: four decisions at the usual period"},
+            Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
+                  "Vehicles do not count whose way behind the signal has less than this free of standing "
+                  "vehicles; "
+                  "0: however full it is",
+                  "0: as all figures were measured that do not name it"},
+            Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
+                  "Signals with another signal nearer than this keep their cycle; 0: none does",
+                  "0: as all figures were measured that do not name it"});
     }
 };
 
 /// Gives time back after a signal was preempted: asks that its background plan resume with the phase that
 /// serves the most vehicles believed to wait there, and that, for a while, greens which serve fewer end
-/// early.
+/// early. Where blocks are short it can stand back: a signal that leaves the cycle of its neighbours fills
+/// the block between them.
 class RecoverSignals : public Policy {
   public:
     explicit RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config = {});
@@ -53,6 +65,7 @@ class RecoverSignals : public Policy {
     PolicyContext context_;
     RecoverSignalsConfig config_;
     std::map<core::SignalIndex, double> until_s_;
+    std::vector<double> blocks_m_;  ///< By signal, the shortest; empty if no block is too short.
 };
 
 }  // namespace clearway::policy

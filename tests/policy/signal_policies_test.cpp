@@ -128,6 +128,53 @@ TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_
     EXPECT_EQ(leases.size(), 1U);
 }
 
+TEST(PreemptSignals, asks_for_no_green_into_a_full_block_where_it_looks_at_the_room) {
+    policy::PreemptSignals looks({two_crossings()}, {.exit_room_m = 8.0});
+    policy::PreemptSignals does_not({two_crossings()});
+    CrossingScene scene = emergency_at(50.0);
+    scene.add({"last", VehicleClass::human, {"A_B", "B_east"}, 0, 12.0, 0.0});
+    EXPECT_EQ(act(looks, scene).size(), 1U) << "the other lane is free";
+    scene.add({"other", VehicleClass::human, {"A_B", "B_east"}, 1, 12.0, 0.0});
+    EXPECT_TRUE(act(looks, scene).empty()) << "7 m behind cars of 5 m on both lanes";
+    EXPECT_EQ(act(does_not, scene).size(), 1U);
+    CrossingScene moving = emergency_at(50.0);
+    moving.add({"last", VehicleClass::human, {"A_B", "B_east"}, 0, 12.0, 3.0});
+    moving.add({"other", VehicleClass::human, {"A_B", "B_east"}, 1, 12.0, 3.0});
+    EXPECT_EQ(act(looks, moving).size(), 1U) << "who drives makes room";
+}
+
+TEST(PreemptSignals, holds_no_more_signals_than_it_may) {
+    policy::PreemptSignals both({two_crossings()}, {.lead_s = 60.0});
+    policy::PreemptSignals next({two_crossings()}, {.lead_s = 60.0, .signals_ahead = 1});
+    CrossingScene scene = emergency_at(50.0);
+    EXPECT_EQ(act(both, scene).size(), 2U);
+    const auto leases = act(next, scene);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), two_crossings().find_signal("A"));
+}
+
+TEST(RecoverSignals, counts_nobody_whose_way_is_full_where_it_looks_at_the_room) {
+    policy::RecoverSignals looks({two_crossings()}, {.exit_room_m = 8.0});
+    policy::RecoverSignals does_not({two_crossings()});
+    CrossingScene scene = emergency_at(100.0, 16.0, {"west_A", "A_north_a"});
+    scene.add({"h1", VehicleClass::human, eastbound, 0, 480.0, 0.0});
+    EXPECT_EQ(act(looks, scene).size(), 1U);
+    for (const std::uint32_t lane : {0U, 1U})
+        for (const char* const exit : {"A_B", "A_south_a", "A_north_a"})
+            scene.add({exit + std::to_string(lane), VehicleClass::human, {exit}, lane, 12.0, 0.0});
+    EXPECT_TRUE(act(looks, scene).empty());
+    EXPECT_EQ(act(does_not, scene).size(), 1U);
+}
+
+TEST(RecoverSignals, leaves_signals_near_others_their_cycle_where_it_is_told_to) {
+    CrossingScene scene = emergency_at(100.0);
+    scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
+    policy::RecoverSignals near({two_crossings()}, {.short_block_m = 250.0});
+    EXPECT_EQ(act(near, scene).size(), 1U) << "the crossings are some 280 m of edge apart";
+    policy::RecoverSignals far({two_crossings()}, {.short_block_m = 300.0});
+    EXPECT_TRUE(act(far, scene).empty());
+}
+
 TEST(GreenWave, opens_each_signal_around_the_planned_arrival_whatever_happens) {
     policy::GreenWave policy({two_crossings()});
     CrossingScene scene = emergency_at(200.0);
