@@ -77,7 +77,8 @@ core::ExitCode import(Arguments& arguments) {
         fmt::print("{}picture: {}/network.svg\nNext: {}\n", scenario_import::to_text(findings),
                    folder.string(), core::shell_text({"clearway", "check", scenario}));
     }
-    return core::ExitCode::ok;
+    return findings.bad_vehicles_share > scenario_import::most_bad_vehicles ? core::ExitCode::fell_short
+                                                                            : core::ExitCode::ok;
 }
 
 }  // namespace

@@ -119,6 +119,19 @@ int NetworkDocument::admit_emergency() {
     return changed;
 }
 
+int NetworkDocument::part_two_way_edges() {
+    const auto edges = document_.document_element().children("edge");
+    std::set<std::string> wide;
+    for (const pugi::xml_node edge : edges)
+        if (edge.attribute("bidi") && edge.child("lane").next_sibling("lane"))
+            wide.insert({edge.attribute("id").value(), edge.attribute("bidi").value()});
+    int parted = 0;
+    for (pugi::xml_node edge : edges)
+        if (wide.contains(edge.attribute("id").value()) && edge.remove_attribute("bidi"))
+            parted += is_internal(edge) ? 0 : 1;
+    return parted;
+}
+
 bool NetworkDocument::has_edges() const {
     return std::ranges::any_of(document_.document_element().children("edge"),
                                [](pugi::xml_node edge) { return !is_internal(edge); });

@@ -26,6 +26,10 @@ class NetworkDocument {
     int repaired_lists() const { return repaired_lists_; }
     /// Opens everything that is open to cars to class `emergency` too. Returns the number of lists changed.
     int admit_emergency();
+    /// Makes edges whose tracks or lanes also lead back (attribute `bidi`) edges of their own where one of
+    /// the two has several lanes: SUMO 1.15 aborts there (assertion in MSLane::getBidiLane). Returns the
+    /// number of edges outside junctions.
+    int part_two_way_edges();
     /// Whether there is an edge outside junctions.
     bool has_edges() const;
     /// Attribute of the root element, such as `version`; empty if there is none.

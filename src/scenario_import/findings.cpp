@@ -37,6 +37,11 @@ std::string to_text(const Findings& findings) {
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
     if (findings.persons > 0) text += fmt::format("  persons          {} walk\n", findings.persons);
+    if (findings.bad_vehicles_share > most_bad_vehicles)
+        text += fmt::format(
+            "  short            {:.0f} % of the vehicles cannot drive their route and are left out: "
+            "the traffic is not that of the files\n",
+            100.0 * findings.bad_vehicles_share);
     text += list_text("Changed:", findings.changes);
     text += list_text("Left out:", findings.left_out);
     return text;
@@ -56,6 +61,8 @@ std::string to_json(const Findings& findings) {
                                    {"emergency_sites", findings.sites},
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},
+                                   {"routed_trips", findings.routed_trips},
+                                   {"bad_vehicles_share", findings.bad_vehicles_share},
                                    {"persons", findings.persons},
                                    {"demand", findings.demand},
                                    {"changes", findings.changes},

@@ -18,6 +18,7 @@
 #include "scenario/picture.hpp"
 #include "scenario_import/detail/context.hpp"
 #include "scenario_import/detail/source.hpp"
+#include "scenario_import/detail/sumo_trial.hpp"
 #include "scenario_import/detail/survey.hpp"
 #include "scenario_import/detail/synthetic_demand.hpp"
 #include "scenario_import/osm/driving_side.hpp"
@@ -41,6 +42,8 @@ struct Sources {
     std::vector<std::filesystem::path> maps;
     std::optional<std::filesystem::path> network;
     SumoFiles demand;
+    double step_length_s = 1.0;  ///< Of the SUMO scenario; SUMO's default.
+    std::optional<double> time_to_teleport_s;
 };
 
 void check_folder(const std::filesystem::path& folder) {
@@ -75,6 +78,8 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
     sources.network = configuration.network;
     sources.demand = {configuration.routes, configuration.additional, configuration.begin_s,
                       configuration.end_s, configuration.scale};
+    sources.step_length_s = configuration.step_length_s;
+    sources.time_to_teleport_s = configuration.time_to_teleport_s;
     if (configuration.scale != 1.0)
         import.findings.changes.push_back(fmt::format(
             "option scale of the configuration: each vehicle occurs {:g} times", configuration.scale));
@@ -155,6 +160,12 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
             fmt::format("{} lists of vehicle classes name classes of a newer netconvert that SUMO 1.15 "
                         "rejects; those classes are removed",
                         document.repaired_lists()));
+    if (const int parted = document.part_two_way_edges(); parted > 0)
+        import.findings.changes.push_back(
+            fmt::format("{} edges of several lanes on which traffic also comes towards (bidirectional rails) "
+                        "are parted, because SUMO 1.15 aborts on them; trains that meet there pass through "
+                        "each other",
+                        parted));
     const int admitted = document.admit_emergency();
     if (admitted > 0)
         import.findings.changes.push_back(
@@ -244,9 +255,9 @@ std::string in_own_words(std::string text, const Import& import) {
     return text;
 }
 
-void try_out_demand(Import& import, scenario::ScenarioConfig& config) {
+detail::Tried try_out_demand(Import& import, scenario::ScenarioConfig& config) {
     try {
-        detail::try_out(import, config);
+        return detail::try_out(import, config);
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
         for (core::Problem& problem : problems) {
@@ -255,6 +266,14 @@ void try_out_demand(Import& import, scenario::ScenarioConfig& config) {
         }
         throw core::InputError(std::move(problems));
     }
+}
+
+/// Steps that are too coarse are not taken over; `compare_steps` says what that changes.
+void take_over_times(const Sources& sources, scenario::ScenarioConfig& config) {
+    constexpr double finest_s = 0.1;
+    if (sources.step_length_s >= finest_s && sources.step_length_s <= scenario::coarsest_trusted_step_s)
+        config.time.step_length_s = sources.step_length_s;
+    config.time.time_to_teleport_s = sources.time_to_teleport_s;
 }
 
 void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
@@ -270,7 +289,8 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     import.on_progress("reading the demand", 0.0);
     if (has_files &&
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
-        try_out_demand(import, config);
+        take_over_times(sources, config);
+        detail::compare_steps(import, try_out_demand(import, config).demand, sources.step_length_s);
         return;
     }
     if (has_files)

@@ -51,8 +51,11 @@ struct Findings {
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
     double vehicles_per_hour = 0.0;       ///< Human and automated vehicles, over the departure window.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
-    std::size_t persons = 0;              ///< Persons of the scenario's own files, in the window.
-    std::string demand;                   ///< Where the demand comes from and how busy it is, in words.
+    std::size_t routed_trips = 0;         ///< Vehicles whose files give only ends; routed at free flow.
+    /// Share of the vehicles in the files that cannot drive their route and were left out, 0 to 1.
+    double bad_vehicles_share = 0.0;
+    std::size_t persons = 0;  ///< Persons of the scenario's own files, in the window.
+    std::string demand;       ///< Where the demand comes from and how busy it is, in words.
     std::vector<std::string> changes;
     std::vector<std::string> left_out;
 };
@@ -60,6 +63,9 @@ struct Findings {
 /// Called often while an import works: what it is doing, and for how long. May throw, which ends the import
 /// and leaves nothing behind.
 using OnProgress = std::function<void(const std::string& stage, double elapsed_s)>;
+
+/// With a larger share of bad vehicles the traffic is not that of the files any more.
+inline constexpr double most_bad_vehicles = 0.1;
 
 /// Makes a scenario folder that `scenario::load` reads: scenario.toml, network.net.xml, network.svg,
 /// import.json with the findings and, for SUMO scenarios, their demand. The folder is made elsewhere and

@@ -25,6 +25,13 @@ TEST_F(BadMap, missing_and_empty_files) {
     EXPECT_THAT(refused("empty.osm", ""), HasSubstr("is empty"));
 }
 
+TEST_F(BadMap, plain_xml_of_netconvert) {
+    for (const char* const root : {"nodes", "edges", "connections", "types"})
+        EXPECT_THAT(refused("plain.xml", fmt::format("<{}/>", root)),
+                    AllOf(HasSubstr(fmt::format("is plain XML (<{}>)", root)),
+                          HasSubstr("netconvert --node-files X.nod.xml --edge-files X.edg.xml")));
+}
+
 TEST_F(BadMap, an_empty_map) {
     EXPECT_THAT(refused("empty.osm", "<osm version='0.6'/>"), HasSubstr("is a map without roads"));
 }
@@ -161,6 +168,20 @@ TEST_F(BadMap, a_network_with_lanes_out_of_order_is_named_as_given) {
         refused("mine.net.xml", text),
         AllOf(HasSubstr(fmt::format("{}:{}: index=\"0\"", (folder() / "mine.net.xml").string(), line)),
               HasSubstr("netconvert --sumo-net-file"), Not(HasSubstr("importing"))));
+}
+
+TEST_F(BadMap, a_network_that_bears_no_level_of_demand) {
+    run_tool("netgenerate",
+             {"--grid", "--grid.number", "3", "--grid.length", "200", "--default-junction-type",
+              "traffic_light", "-o", (folder() / "grid.net.xml").string()});
+    std::string text = core::read_file(folder() / "grid.net.xml");
+    for (std::size_t at = text.find("state=\""); at != std::string::npos; at = text.find("state=\"", at)) {
+        at += 7;
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
+                  text.begin() + static_cast<std::ptrdiff_t>(text.find('"', at)), 'r');
+    }
+    EXPECT_THAT(refused("red.net.xml", text), AllOf(HasSubstr("red.net.xml: takes no level of demand: of "),
+                                                    HasSubstr("SUMO teleports them"), HasSubstr("sumo-gui")));
 }
 
 TEST_F(BadMap, a_network_without_roads_for_cars) {

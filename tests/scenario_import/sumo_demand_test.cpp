@@ -263,9 +263,36 @@ TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
                        "value='off'/><delay value='9'/>"
                        "<tripinfo-output value='x'/>"));
     EXPECT_THAT(findings.left_out,
-                Contains("5 options of the configuration that are not taken over (max-depart-delay = 5, "
-                         "time-to-teleport = 60, lateral-resolution = 1, step-length = 0.5, "
-                         "time-to-teleport.highways = 0)"));
+                Contains("3 options of the configuration that are not taken over (max-depart-delay = 5, "
+                         "lateral-resolution = 1, time-to-teleport.highways = 0)"));
+    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
+    EXPECT_EQ(config.time.time_to_teleport_s, 60.0);
+    EXPECT_EQ(config.time.step_length_s, 0.25);
+    EXPECT_THAT(findings.changes,
+                Contains(AllOf(HasSubstr("steps of 0.25 s instead of 0.5 s; mean time loss"),
+                               HasSubstr(" s at 0.5 s, "), HasSubstr(" s at 0.25 s; --step-length 0.5"))));
+}
+
+TEST_F(SumoDemand, fine_steps_and_no_teleports_are_taken_over) {
+    const Findings findings =
+        run(configured(cars(9), "<step-length value='0.1'/><time-to-teleport value='-1'/>"));
+    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
+    EXPECT_EQ(config.time.step_length_s, 0.1);
+    EXPECT_EQ(config.time.time_to_teleport_s, -1.0);
+    EXPECT_THAT(findings.changes, Not(Contains(HasSubstr("steps of"))));
+}
+
+TEST_F(SumoDemand, trips_that_sumo_would_route_at_departure_are_named) {
+    const Findings findings = run(line_with(cars(2) + "<trip id='t' depart='3' from='first' to='second'/>"));
+    EXPECT_EQ(findings.routed_trips, 1U);
+    EXPECT_THAT(findings.changes,
+                Contains(HasSubstr("1 vehicles without a route take the fastest one at free flow")));
+    EXPECT_THAT(findings.demand, Not(HasSubstr("as the route files say, 60 s")));
+    EXPECT_THAT(findings.demand, HasSubstr("routes of trips from duarouter"));
+    EXPECT_THAT(
+        run(request({line_network(), write("plain.rou.xml", "<routes>" + cars(2) + "</routes>")}, "plain"))
+            .demand,
+        testing::StartsWith("as the route files say"));
 }
 
 TEST_F(SumoDemand, a_scenario_without_cars_has_emergency_vehicles_on_the_routes_of_others) {

@@ -1,4 +1,6 @@
 // Scenarios of SUMO in: configuration, routes, flows, types, additional files.
+#include <csignal>
+
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -132,6 +134,51 @@ TEST_F(SumoScenario, a_missing_file_is_named_with_the_nearest_there_is) {
                                      "<route-files value='line_cars.rou.xml'/></configuration>");
     EXPECT_THAT(refusal(request({configuration})), AllOf(HasSubstr("no file"), HasSubstr("line_cars.rou.xml"),
                                                          HasSubstr("there is line_cars.add.xml")));
+}
+
+TEST_F(SumoScenario, in_place_of_a_missing_network_no_route_file_is_proposed) {
+    line_network();
+    write("town.rou.xml", "<routes/>");
+    const auto missing = [&](const std::string& name) {
+        return refusal(
+            request({write("run.sumocfg", "<configuration><net-file value='" + name +
+                                              "'/><route-files value='town.rou.xml'/></configuration>")}));
+    };
+    EXPECT_THAT(missing("town.net.xml"), Not(HasSubstr("town.rou.xml")));
+    EXPECT_THAT(missing("lime.net.xml"), HasSubstr("there is line.net.xml"));
+}
+
+TEST_F(SumoScenario, rails_of_several_tracks_on_which_trains_come_from_both_sides_are_parted) {
+    const auto nodes = write("rail.nod.xml",
+                             "<nodes><node id='a' x='0' y='0'/><node id='b' x='500' y='0'/>"
+                             "<node id='c' x='1000' y='0'/><node id='n' x='500' y='500'/>"
+                             "<node id='s' x='500' y='-500'/></nodes>");
+    std::string edges = "<edges>";
+    for (const char* const ends : {"ab", "ba", "bc", "cb"})
+        edges += fmt::format(
+            "<edge id='{0}' from='{1}' to='{2}' numLanes='2' spreadType='center' allow='rail' "
+            "speed='20'/>",
+            ends, ends[0], ends[1]);
+    for (const char* const ends : {"nb", "bs", "sb", "bn"})
+        edges += fmt::format("<edge id='{0}' from='{1}' to='{2}' numLanes='1' speed='14'/>", ends, ends[0],
+                             ends[1]);
+    const auto plain = write("rail.edg.xml", edges + "</edges>");
+    const std::string network = (folder() / "rail.net.xml").string();
+    run_tool("netconvert", {"--node-files", nodes.string(), "--edge-files", plain.string(), "-o", network});
+    const std::string train =
+        "<vType id='train' vClass='rail'/><vehicle id='t' type='train' depart='0'>"
+        "<route edges='ab bc'/></vehicle>";
+    const auto routes = write("rail.rou.xml", "<routes>" + train + car("a", 0.0, "nb bs") + "</routes>");
+    // What SUMO does with the network as it is.
+    core::Command sumo{
+        "sumo", {"-n", network, "-r", routes.string(), "--xml-validation", "never"}, {}, "/dev/null"};
+    ASSERT_EQ(core::run(sumo).signal, SIGABRT);
+
+    const Findings findings = run(request({network, routes}));
+    EXPECT_THAT(findings.changes,
+                Contains(HasSubstr("4 edges of several lanes on which traffic also comes towards")));
+    sumo.arguments[1] = (out() / "town" / "network.net.xml").string();
+    EXPECT_TRUE(core::run(sumo).ok());
 }
 
 TEST_F(SumoScenario, newer_class_lists_are_repaired_and_emergency_vehicles_admitted) {

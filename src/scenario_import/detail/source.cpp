@@ -108,6 +108,10 @@ SourceKind kind_of(const std::filesystem::path& file) {
     if (element.starts_with("!doctype html") || element == "html")
         refuse(file, "is a web page (HTML), not a map",
                "the download failed: open the file in a browser to see why, and download it again");
+    if (is_one_of(element, {"nodes", "edges", "connections", "types"}))
+        refuse(file, fmt::format("is plain XML (<{}>), of which netconvert makes a network", element),
+               "make it, and import that: netconvert --node-files X.nod.xml --edge-files X.edg.xml "
+               "--output-file X.net.xml");
     if (element == "osm") return SourceKind::map;
     if (element == "net") return SourceKind::network;
     // SUMO ignores the root element of these files; only its children matter.

@@ -46,6 +46,7 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
     while (!(exit = core::poll(child))) {
         const auto elapsed = std::chrono::steady_clock::now() - child.started;
         on_progress(tool.stage, std::chrono::duration<double>(elapsed).count());
+        if (tool.is_enough && tool.is_enough()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     guard.running = false;

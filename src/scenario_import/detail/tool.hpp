@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,13 @@ struct Tool {
     std::filesystem::path log;  ///< Receives both streams.
     std::string stage;          ///< What it does, for progress reports: `building the network`.
     std::string package;        ///< Debian package that contains it.
+    /// Asked often while it runs; true ends it at once. May be empty.
+    std::function<bool()> is_enough = {};
 };
 
-/// Runs a tool to its end and reports progress. Returns false when it fails; its log says why. Ends the child
-/// when `on_progress` throws. Throws core::EnvironmentError when it cannot be started.
+/// Runs a tool to its end, or until it has done enough, and reports progress. Returns false when it fails;
+/// its log says why. Ends the child when `on_progress` throws. Throws core::EnvironmentError when it cannot
+/// be started.
 bool succeeds(const Tool& tool, const OnProgress& on_progress);
 
 /// The lines of a log that name errors, or its last lines.

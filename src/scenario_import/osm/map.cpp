@@ -1,12 +1,15 @@
 #include "scenario_import/osm/map.hpp"
 
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "scenario_import/detail/source.hpp"
 #include "scenario_import/detail/tool.hpp"
+#include "scenario_import/osm/original_ids.hpp"
 
 namespace clearway::scenario_import::detail {
 
@@ -91,6 +94,32 @@ std::filesystem::path merged(const Osmium& osmium) {
     return whole;
 }
 
+/// The map with its objects numbered from 1: ids of OpenStreetMap reach 10^10, and osmium's sets of ids take
+/// a bit for each possible one, up to a gigabyte for a small town. Nothing for a large map, whose numbers
+/// would take as much, and for one that osmium cannot number. `index` receives the former ids.
+std::optional<std::filesystem::path> numbered_anew(const Osmium& osmium, const std::filesystem::path& map,
+                                                   const std::filesystem::path& index) {
+    constexpr std::uintmax_t largest_bytes = 100'000'000;
+    if (std::filesystem::file_size(map) > largest_bytes) return std::nullopt;
+    std::filesystem::create_directories(index);
+    const std::filesystem::path numbered = osmium.file("numbered.osm.pbf");
+    const auto works_on = [&](const std::filesystem::path& input) {
+        return osmium.works({"renumber", "-i", index.string(), "-o", numbered.string(), input.string()});
+    };
+    if (works_on(map)) return numbered;
+    const std::filesystem::path sorted = osmium.file("sorted.osm.pbf");
+    if (osmium.works({"sort", "-s", "multipass", "-o", sorted.string(), map.string()}) && works_on(sorted))
+        return numbered;
+    return std::nullopt;
+}
+
+/// Filters what an import needs out of a map.
+void filter(const Osmium& osmium, const std::filesystem::path& map, const std::filesystem::path& extract) {
+    osmium.run({"tags-filter", "-o", extract.string(), map.string(), "w/highway", "n/highway",
+                "r/type=restriction", "nwr/amenity=hospital,fire_station", "nwr/emergency=ambulance_station",
+                "nwr/driving_side"});
+}
+
 /// SUMO's road types, then those for towns, which replace its 100 km/h on main roads.
 std::string type_files() {
     const char* const set = std::getenv("SUMO_HOME");
@@ -114,9 +143,14 @@ Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std:
     const Osmium osmium(maps, folder, on_progress);
     const std::filesystem::path whole = maps.size() > 1 ? merged(osmium) : osmium.links().front();
     Extract extract{osmium.file("extract.osm"), {}};
-    osmium.run({"tags-filter", "-o", extract.file.string(), whole.string(), "w/highway", "n/highway",
-                "r/type=restriction", "nwr/amenity=hospital,fire_station", "nwr/emergency=ambulance_station",
-                "nwr/driving_side"});
+    const std::filesystem::path index = osmium.file("ids");
+    if (const auto numbered = numbered_anew(osmium, whole, index)) {
+        const std::filesystem::path found = osmium.file("found.osm");
+        filter(osmium, *numbered, found);
+        restore_ids(found, index, extract.file);
+    } else {
+        filter(osmium, whole, extract.file);
+    }
     extract.contents = read_map(extract.file);
     if (!extract.contents.is_sorted) {
         const std::filesystem::path sorted = osmium.file("sorted.osm");

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "scenario_import/detail/element.hpp"
+#include "scenario_import/detail/source.hpp"
 
 namespace clearway::scenario_import::detail {
 
@@ -77,12 +78,26 @@ std::string expanded(std::string text) {
     return text;
 }
 
-/// The most similar file name in the folder of `file`.
-std::string nearest_file(const std::filesystem::path& file) {
+/// What an option names.
+enum class Wanted : std::uint8_t { network, demand };
+
+bool is_wanted(const std::filesystem::path& file, Wanted wanted) {
+    try {
+        const SourceKind kind = kind_of(file);
+        return wanted == Wanted::network ? kind == SourceKind::network
+                                         : kind == SourceKind::routes || kind == SourceKind::additional;
+    } catch (const core::InputError&) {
+        return false;
+    }
+}
+
+/// The most similar name of a file of that kind in the folder of `file`.
+std::string nearest_file(const std::filesystem::path& file, Wanted wanted) {
     std::vector<std::string> names;
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(file.parent_path(), none))
-        names.push_back(entry.path().filename().string());
+        if (entry.is_regular_file(none) && is_wanted(entry.path(), wanted))
+            names.push_back(entry.path().filename().string());
     return core::nearest(file.filename().string(), names);
 }
 
@@ -98,11 +113,11 @@ class ConfigurationReader {
         if (value.empty()) return;
         const std::string& name = element.name;
         if (name == "net-file" || name == "net" || name == "n")
-            take_network(list(value, element), element);
+            take_network(list(value, element, Wanted::network), element);
         else if (name == "route-files" || name == "routes" || name == "r")
-            configuration_.routes = list(value, element);
+            configuration_.routes = list(value, element, Wanted::demand);
         else if (name == "additional-files" || name == "additional" || name == "a")
-            configuration_.additional = list(value, element);
+            configuration_.additional = list(value, element, Wanted::demand);
         else
             take_option(name, value);
     }
@@ -138,13 +153,17 @@ class ConfigurationReader {
             configuration_.end_s = time_s(value);
         else if (name == "scale" && number(value).value_or(-1.0) >= 0.0)
             configuration_.scale = *number(value);
+        else if (name == "step-length" && time_s(value).value_or(0.0) > 0.0)
+            configuration_.step_length_s = *time_s(value);
+        else if (name == "time-to-teleport" && time_s(value))
+            configuration_.time_to_teleport_s = *time_s(value) > 0.0 ? *time_s(value) : -1.0;
         else if (name == "ignore-route-errors")
             configuration_.ignores_route_errors = is_true(value);
         else if (!is_harmless(name) && (number(value) || !is_false(value)))
             configuration_.other_options.push_back(fmt::format("{} = {}", name, value));
     }
 
-    std::vector<std::filesystem::path> list(const std::string& value, const Element& element) {
+    std::vector<std::filesystem::path> list(const std::string& value, const Element& element, Wanted wanted) {
         // A name with blanks is one name if such a file exists.
         std::vector<std::string> names = words(expanded(value), ",");
         std::vector<std::filesystem::path> files;
@@ -156,7 +175,7 @@ class ConfigurationReader {
                 continue;
             }
             for (const std::string& part : words(name))
-                if (require(place(part), element)) files.push_back(place(part));
+                if (require(place(part), element, wanted)) files.push_back(place(part));
         }
         return files;
     }
@@ -165,9 +184,9 @@ class ConfigurationReader {
         return (file_.parent_path() / name).lexically_normal();
     }
 
-    bool require(const std::filesystem::path& file, const Element& element) {
+    bool require(const std::filesystem::path& file, const Element& element, Wanted wanted) {
         if (std::filesystem::is_regular_file(file)) return true;
-        const std::string near = nearest_file(file);
+        const std::string near = nearest_file(file, wanted);
         problems_.push_back({fmt::format("{}:{}: {}", file_.string(), element.line, element.name),
                              fmt::format("no file {}", file.string()), "an existing file",
                              near.empty()

@@ -14,7 +14,10 @@ struct Configuration {
     std::vector<std::filesystem::path> additional;  ///< In order.
     std::optional<double> begin_s;
     std::optional<double> end_s;
-    double scale = 1.0;  ///< Number of copies of each vehicle.
+    double scale = 1.0;          ///< Number of copies of each vehicle.
+    double step_length_s = 1.0;  ///< SUMO's default where it says nothing.
+    /// After which SUMO teleports a vehicle that stands; -1: never. Nothing: SUMO's default.
+    std::optional<double> time_to_teleport_s;
     bool ignores_route_errors = false;
     std::vector<std::string> other_options;  ///< Set there, but not taken over: `time-to-teleport = 60`.
 };

@@ -180,8 +180,11 @@ scenario::Measured describe_types(Import& import, const Demand& demand) {
 /// with all of them.
 void take_out_bad(Import& import, Demand& demand, const roads::Network& network, const ClassAccess& access,
                   const std::vector<Element>& additional) {
+    const auto all = static_cast<double>(demand.vehicles.size());
     std::vector<core::Problem> problems =
         take_out_bad_vehicles(demand, network, access, additional, import.left_out);
+    if (all > 0.0)
+        import.findings.bad_vehicles_share = 1.0 - static_cast<double>(demand.vehicles.size()) / all;
     const bool has_traffic = !demand.vehicles.empty() || !problems.empty();
     std::vector<core::Problem> of_persons;
     if (has_traffic) of_persons = take_out_bad_persons(demand, network, additional, import.left_out);
@@ -239,9 +242,19 @@ void describe_vehicles(const Import& import, const Demand& demand, const Window&
                         "own are measured",
                         with_blue_lights));
     findings.vehicles_per_hour = static_cast<double>(demand.vehicles.size()) * 3600.0 / window.length_s;
-    findings.demand =
-        fmt::format("as the route files say, {:.0f} s of it; {:.0f} % of the cars are automated",
-                    window.length_s, 100.0 * import.request.automated_share);
+    findings.routed_trips =
+        static_cast<std::size_t>(std::ranges::count_if(demand.vehicles, &RoadUser::is_trip));
+    if (findings.routed_trips > 0)
+        findings.changes.push_back(fmt::format(
+            "{} vehicles without a route take the fastest one at free flow, as duarouter finds it; SUMO "
+            "would choose at departure, by the traffic of the moment, which spreads them over longer "
+            "ways",
+            findings.routed_trips));
+    findings.demand = fmt::format("{}, {:.0f} s of it; {:.0f} % of the cars are automated",
+                                  findings.routed_trips == 0
+                                      ? "as the route files say"
+                                      : "departures as the route files say, routes of trips from duarouter",
+                                  window.length_s, 100.0 * import.request.automated_share);
 }
 
 /// Shifts the signal programs so that the scenario's time 0 is their `begin_s`.
