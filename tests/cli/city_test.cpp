@@ -138,11 +138,13 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     write_line_scenario();
     const Ended fit = clearway({"check", "line"});
     EXPECT_EQ(fit.code, 0) << fit.out << fit.err;
-    EXPECT_THAT(fit.out, HasSubstr("1 EVs with a route, 1 entered"));
+    EXPECT_THAT(fit.out, AllOf(HasSubstr("1 EVs with a route, 1 entered, 1 arrived"),
+                               HasSubstr("note     signals     0 in the network"),
+                               HasSubstr("try: policies at signals have nothing to do here")));
     write_line_scenario("emergency = 1", "emergency = 0");
     const Ended none = clearway({"check", "line"});
     EXPECT_EQ(none.code, 6);
-    EXPECT_THAT(none.out, HasSubstr("0 EVs with a route"));
+    EXPECT_THAT(none.out, AllOf(HasSubstr("0 EVs with a route"), HasSubstr("try: set demand.emergency")));
 }
 
 TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
@@ -163,6 +165,45 @@ TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "runs/check-line/manifest.json"));
     EXPECT_EQ(clearway({"check", "line"}).code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line"));
+}
+
+TEST_F(CityTest, an_import_that_leaves_out_many_vehicles_falls_short) {
+    const core::Command netgenerate{
+        "netgenerate",
+        {"--grid", "--grid.number", "3", "--grid.length", "200", "-o", (folder() / "grid.net.xml").string()},
+        {},
+        folder() / "netgenerate.log"};
+    ASSERT_TRUE(core::run(netgenerate).ok());
+    const auto vehicles = [](int bad) {
+        std::string routes = "<routes>";
+        for (int number = 0; number < 20; ++number)
+            routes += fmt::format("<vehicle id='{0}' depart='{1}'><route edges='{2}'/></vehicle>", number,
+                                  3 * number, number < bad ? "A0A1 C2B2" : "A0A1 A1A2 A2B2");
+        return routes + "</routes>";
+    };
+    write("few.rou.xml", vehicles(2));
+    write("many.rou.xml", vehicles(3));
+    const auto import = [&](const std::string& name) {
+        return clearway(
+            {"import", "grid.net.xml", name + ".rou.xml", "--name", name, "--leave-out-bad-vehicles"});
+    };
+    const Ended few = import("few");
+    EXPECT_EQ(few.code, 0) << few.err;
+    EXPECT_THAT(few.out, Not(HasSubstr("short")));
+    const Ended many = import("many");
+    EXPECT_EQ(many.code, 6) << many.err;
+    EXPECT_THAT(many.out, HasSubstr("short            15 % of the vehicles cannot drive their route"));
+}
+
+TEST_F(CityTest, steps_of_a_second_are_marked) {
+    write_line_scenario();
+    const Ended run =
+        clearway({"run", "line", "--seeds", "1", "--no-solo", "--step-length", "1", "--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("steps of 1 s: only for a comparison"));
+    EXPECT_THAT(read("out/report.html"), HasSubstr("(!) steps of 1 s: only for a comparison"));
+    const Ended usual = clearway({"run", "line", "--seeds", "1", "--no-solo", "--out", "usual"});
+    EXPECT_THAT(usual.out + read("usual/report.html"), Not(HasSubstr("only for a comparison")));
 }
 
 TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {

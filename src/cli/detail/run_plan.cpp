@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -9,6 +10,7 @@
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
+#include "cli/detail/abort_cure.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/programs.hpp"
 #include "core/files.hpp"
@@ -91,11 +93,15 @@ void name_errors(const results::Store& store, const results::Results& results) {
     if (count == 0) return;
     fmt::print(stderr, "clearway: {} of {} runs failed; their logs are in {}\n", count,
                results.manifest.runs().size(), (store.folder() / "logs").string());
+    std::set<std::string> cures;
     for (std::size_t i = 0; i < std::min(count, named_errors); ++i) {
         const results::RunError& error = results.errors[i];
         fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), error.key), error.message,
                    last_words(error.log_tail));
+        if (const std::string cure = cure_of_abort(error); !cure.empty()) cures.insert(cure);
     }
+    for (const std::string& cure : cures)
+        fmt::print(stderr, "  {}\n", cure);
     if (count > named_errors) {
         fmt::print(stderr, "  and {} more, in {}\n", count - named_errors, store.runs_csv().string());
     }
