@@ -175,8 +175,8 @@ TEST_F(BadMap, a_network_that_bears_no_level_of_demand) {
              {"--grid", "--grid.number", "3", "--grid.length", "200", "--default-junction-type",
               "traffic_light", "-o", (folder() / "grid.net.xml").string()});
     std::string text = core::read_file(folder() / "grid.net.xml");
-    for (std::size_t at = text.find("state=\""); at != std::string::npos; at = text.find("state=\"", at)) {
-        at += 7;
+    for (std::size_t at = text.find("<phase "); at != std::string::npos; at = text.find("<phase ", at)) {
+        at = text.find("state=\"", at) + 7;
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
                   text.begin() + static_cast<std::ptrdiff_t>(text.find('"', at)), 'r');
     }
