@@ -414,16 +414,6 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     EXPECT_FALSE(folder.store().read_error(key));
 }
 
-/// The child of a process, once it has one.
-pid_t child_of(pid_t parent) {
-    pid_t child = 0;
-    while (child == 0) {
-        std::ifstream(fmt::format("/proc/{0}/task/{0}/children", parent)) >> child;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return child;
-}
-
 TEST(Worker, EndsAnInterruptedRunBeforeItselfSoThatNothingIsWrittenAfterwards) {
     const test::StudyFolder folder("city", {}, {baseline, perfect});
     const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
