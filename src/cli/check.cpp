@@ -73,10 +73,10 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     const experiment::RunKey key = plan.manifest.runs().front();
     std::vector<Finding> findings;
     if (const auto record = store.read(key)) {
-        const std::filesystem::path folder = store.scenario_folder(scenario.name);
-        const scenario::BuiltNetwork built = scenario::open_network(scenario, folder);
+        const std::filesystem::path& roads = plan.units.front().unit.network_folder;
+        const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         findings = findings_of(*record, {scenario, built.network, arguments.options.density.value_or(1.0),
-                                         folder / "demand" / "0"});
+                                         store.scenario_folder(scenario.name) / "demand" / "0"});
         findings.push_back(
             {"speed", Grade::ok,
              fmt::format("{:.1f} times real time, including loading", record->metrics.simulated_s / wall_s)});
