@@ -118,8 +118,7 @@ class FrozenStudy {
         const double end_s = 60.0 + travel_time_s(key, 0);
         for (const auto& [time_s, distance_m] : {std::pair{60.0, 0.0}, {80.0, 200.0}, {end_s, 900.0}})
             traffic.journeys.push_back({"emergency<0>", "", "", time_s, distance_m});
-        for (const auto& [time_s, distance_m] :
-             {std::pair{60.0, 0.0}, {60.0 + travel_time_s(key, 1), 800.0}})
+        for (const auto& [time_s, distance_m] : {std::pair{60.0, 0.0}, {60.0 + travel_time_s(key, 1), 800.0}})
             traffic.journeys.push_back({"emergency<1>", "", "", time_s, distance_m});
         traffic.journeys.push_back({"emergency<0>", "J<1>", "red", 60.0, 220.0});
         traffic.journeys.push_back({"emergency<0>", "J<1>", "yellow", 88.0, 220.0});

@@ -170,8 +170,8 @@ Figure recovery_figure(const ScenarioFacts& scenario) {
     const double rows = std::ceil(static_cast<double>(numbers.size()) / panel_columns);
     Plot plot(fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
               panels_top + rows * panel_below, {}, {});
-    plot.text(2.0, 14.0, "halted vehicles above the baseline; across: s after an EV",
-              Plot::Anchor::start, "axis");
+    plot.text(2.0, 14.0, "halted vehicles above the baseline; across: s after an EV", Plot::Anchor::start,
+              "axis");
     for (std::size_t panel = 0; panel < numbers.size(); ++panel) {
         const auto [left, top] = panel_place(panel);
         plot.turn_to({offsets, "", left, left + panel_width},
