@@ -68,6 +68,16 @@ std::string agent_greeting(const roads::Network& network) {
 }
 
 struct Agent::State {
+    State(const PolicyContext& run, const python::Channel& shared, AgentScore& kept,
+          std::function<void(python::Bell)> leave)
+        : context(run),
+          channel(shared),
+          score(kept),
+          left(std::move(leave)),
+          sizes(agent_sizes(run.network)),
+          question{shared.outgoing(), detail::agent_columns()},
+          answer{shared.incoming(), detail::agent_answer_columns()} {}
+
     PolicyContext context;
     const python::Channel& channel;
     AgentScore& score;
@@ -153,16 +163,7 @@ struct Agent::State {
 
 Agent::Agent(const PolicyContext& context, const python::Channel& channel, AgentScore& score,
              std::function<void(python::Bell)> left)
-    : state_(std::unique_ptr<State>(new State{context,
-                                              channel,
-                                              score,
-                                              std::move(left),
-                                              agent_sizes(context.network),
-                                              {channel.outgoing(), detail::agent_columns()},
-                                              {channel.incoming(), detail::agent_answer_columns()},
-                                              {},
-                                              0,
-                                              {}})) {}
+    : state_(std::make_unique<State>(context, channel, score, std::move(left))) {}
 
 Agent::~Agent() = default;
 

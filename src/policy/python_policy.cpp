@@ -7,18 +7,20 @@
 namespace clearway::policy {
 
 struct PythonPolicy::State {
+    State(const PolicyContext& context, const std::string& word)
+        : network(context.network),
+          process(*python::part_name_from(python::resolved(word, {}, "policy")),
+                  {.kind = python::PartKind::policy,
+                   .question = detail::belief_columns(),
+                   .network = &context.network,
+                   .period_s = context.period.value}) {}
+
     const roads::Network& network;
     python::PartProcess process;
 };
 
 PythonPolicy::PythonPolicy(const PolicyContext& context, const std::string& word)
-    : name_(&detail::kept_text(python::short_name(word))),
-      state_(std::unique_ptr<State>(new State{context.network,
-                                              {*python::part_name_from(python::resolved(word, {}, "policy")),
-                                               {.kind = python::PartKind::policy,
-                                                .question = detail::belief_columns(),
-                                                .network = &context.network,
-                                                .period_s = context.period.value}}})) {}
+    : name_(&detail::kept_text(python::short_name(word))), state_(std::make_unique<State>(context, word)) {}
 
 PythonPolicy::~PythonPolicy() = default;
 

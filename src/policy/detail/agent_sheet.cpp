@@ -166,7 +166,7 @@ void write_signals(const View& view, const AgentScene& scene, const AgentSizes& 
     const auto states =
         zeros<std::uint8_t>(sheet, column::signal_states, std::size_t{sizes.signals} * sizes.signal_links);
     const std::vector<std::string>& letters = view.belief().signals.state;
-    for (std::uint32_t signal = 0; signal < sizes.signals; ++signal) {
+    for (std::size_t signal = 0; signal < sizes.signals; ++signal) {
         target[3 * signal + 1] = static_cast<float>(sheet_horizon.value);
         if (signal >= letters.size()) continue;
         for (std::size_t link = 0; link < letters[signal].size(); ++link)

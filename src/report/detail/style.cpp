@@ -122,7 +122,7 @@ background:var(--paper)}}
 @media print{:root{color-scheme:light}body{font-size:10.5pt}nav,.save{display:none}h2{break-after:avoid}
 figure,.card,.tile,tr{break-inside:avoid}.scroll,details .scroll{overflow:visible;max-height:none}table{font-size:7.5pt}
 th,td,table.data th,table.data td{padding:.2rem .3rem}thead th{white-space:normal}tbody th{min-width:0}
-td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}
+table.data td,table.data th{white-space:normal}td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}
 details.fold:not([open]){display:block}details.fold::details-content{display:block;content-visibility:visible}
 .figures,.figures.pair{grid-template-columns:1fr 1fr}}
 )css";

@@ -140,7 +140,7 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, std::size_t seri
     }
     plot.band(bounds, series);
     plot.line(means, series);
-    plot.text(plot.x().from, plot.y().to - 19.0, shortened(condition.label(), 19), Plot::Anchor::start,
+    plot.text(plot.x().from, plot.y().to - 19.0, shortened(condition.label(), 15), Plot::Anchor::start,
               "heading");
     plot.text(plot.x().from, plot.y().to - 6.0,
               condition.recovered_after_s
