@@ -84,12 +84,12 @@ void add_pair(const metrics::TrafficTables& without, const metrics::TrafficTable
 
 void fill(const Sums& sums, ScenarioMap& map) {
     for (auto [edge, times] : sums.times) {
-        const double passages = static_cast<double>(times.passages);
+        const auto passages = static_cast<double>(times.passages);
         times.baseline_s /= passages;
         times.condition_s /= passages;
         map.times.push_back(times);
     }
-    const double runs = static_cast<double>(sums.runs);
+    const auto runs = static_cast<double>(sums.runs);
     for (std::size_t signal = 0; signal < map.roads.signals.size(); ++signal) {
         const auto held = sums.holds.find(map.roads.signals[signal].id);
         if (held != sums.holds.end())
