@@ -23,7 +23,7 @@ double delay_of(const RoadMap& map, const std::vector<EdgeTimes>& times, double 
     double needed_s = 0.0;
     double at_limit_s = 0.0;
     for (const EdgeTimes& time : times) {
-        const double passages = static_cast<double>(time.passages);
+        const auto passages = static_cast<double>(time.passages);
         needed_s += passages * (time.*seconds);
         at_limit_s += passages * map.edges[time.edge].free_flow_s();
     }

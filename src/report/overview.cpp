@@ -157,12 +157,18 @@ std::string joined(std::string words, const std::string& more) {
     return words.empty() ? more : words + "; " + more;
 }
 
-Tile time_tile(const char* subject, const ConditionFacts& condition, Measure measure, const char* better,
-               const char* worse, Script script) {
+/// How a tile speaks of its figure.
+struct TileWords {
+    const char* subject;
+    const char* better;
+    const char* worse;
+};
+
+Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure measure, Script script) {
     const Estimate& difference = difference_of(condition, measure);
     const Effect effect = effect_of(condition, measure);
-    Tile tile{subject, difference.mean ? signed_seconds(*difference.mean, script) : missing(script),
-              words_of(effect, better, worse), tone_of(effect)};
+    Tile tile{words.subject, difference.mean ? signed_seconds(*difference.mean, script) : missing(script),
+              words_of(effect, words.better, words.worse), tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
     return tile;
 }
@@ -218,7 +224,7 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
 }
 
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    Tile tile = time_tile("Emergency vehicles", condition, primary, "faster trips", "slower trips", script);
+    Tile tile = time_tile({"Emergency vehicles", "faster trips", "slower trips"}, condition, primary, script);
     const std::optional<double> percent = percent_of_baseline(scenario, condition);
     if (percent) tile.figure += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
     if (condition.objections.on_emergency()) {
@@ -229,8 +235,8 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
 }
 
 Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condition, Script script) {
-    Tile tile = time_tile("Other drivers", condition, Measure::other_time_loss, "lose less time each",
-                          "lose more time each", script);
+    Tile tile = time_tile({"Other drivers", "lose less time each", "lose more time each"}, condition,
+                          Measure::other_time_loss, script);
     if (condition.objections.on_others()) {
         const std::string objections = analysis::other_objections(condition.objections);
         if (!objections.empty()) tile.tone = Tile::Tone::worse;

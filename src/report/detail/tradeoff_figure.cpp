@@ -34,7 +34,8 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
         if (condition.is_compared() && point.time().mean && point.others().mean) points.push_back(point);
     }
     // The small ones first, so that none hides a number.
-    std::ranges::stable_partition(points, [](const Point& point) { return point.turned_alone; });
+    std::stable_partition(points.begin(), points.end(),
+                          [](const Point& point) { return point.turned_alone; });
     return points;
 }
 
