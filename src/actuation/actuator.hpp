@@ -29,7 +29,7 @@ namespace clearway::actuation {
 ///
 /// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
 ///   `no_such_signal`, `wrong_target`;
-/// - `unreachable`: commands do not reach it now;
+/// - `unreachable`: commands do not reach it now; `unheard`: the message with the request was lost;
 /// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
 /// - human drivers take no leases, only emergency vehicles pass red: `not_controllable`,
 ///   `not_an_emergency_vehicle`;
@@ -60,6 +60,9 @@ class Actuator {
     /// running ones expire there.
     void accept(std::span<const traffic::Lease> leases, core::Seconds now,
                 std::span<const core::VehicleKey> unreachable = {});
+
+    /// Counts leases that never came to their targets, for a reason with static storage.
+    void refuse(std::span<const traffic::Lease> leases, const char* reason);
 
     /// Appends the commands for this step: vehicles by key, then signals. `snapshot` and `self` are what
     /// vehicles know about themselves. Call once per step, in order of time.

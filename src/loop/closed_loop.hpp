@@ -11,6 +11,7 @@
 #include "experiment/loop_config.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
+#include "pipeline/requests.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
 
@@ -21,6 +22,7 @@ using experiment::LoopConfig;
 /// What implements a condition, ready to run.
 struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
+    std::unique_ptr<pipeline::Requests> requests;
     std::unique_ptr<actuation::Actuator> actuator;
     std::unique_ptr<drivers::Siren> siren;  ///< Null if no driver reacts to a siren.
 };
@@ -62,7 +64,7 @@ class ClosedLoop {
     void step();
     /// Returns whether a decision was made.
     bool decide(const truth::Snapshot& snapshot);
-    void act(const truth::Snapshot& snapshot);
+    void act(const truth::Snapshot& snapshot, bool decided);
     void score(const truth::Snapshot& snapshot);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
 

@@ -16,7 +16,7 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked;
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const double slowest_mps = config_.slowest_share * view.allowed_speed(emergency).value;
@@ -31,10 +31,8 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
             const std::pair request{emergency.key, approach.signal};
             if (arrival_s > lead_s && !asked_.contains(request)) continue;
             asked.insert(request);
-            // The next vehicle waits for the end of this lease, so it is short.
             write.add(approach.signal, traffic::HoldGreen{approach.links, approach.own_links},
-                      "an emergency vehicle arrives", emergency.key,
-                      detail::LeaseWriter::two_periods(context_.period));
+                      "an emergency vehicle arrives", emergency.key);
         }
     }
     asked_ = std::move(asked);

@@ -17,6 +17,7 @@ struct PreemptSignalsConfig {
     double slowest_share = 0.5;
     double horizon_m = 600.0;
     double halted_mps = 0.5;
+    double lease_s = 0.0;
 
     static constexpr auto fields() {
         using C = PreemptSignalsConfig;
@@ -34,7 +35,11 @@ struct PreemptSignalsConfig {
             Field{"horizon_m", "m", &C::horizon_m, 1.0, 5000.0, "Signals farther away than this are ignored",
                   "assumed: the longest lead at 15 m/s"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
-                  "assumed: walking pace is 1.4 m/s"});
+                  "assumed: walking pace is 1.4 m/s"},
+            Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,
+                  "Lifetime of a request that is not renewed; 0: two periods",
+                  "short, because the next emergency vehicle waits for its end; longer where messages are "
+                  "lost"});
     }
 };
 

@@ -69,7 +69,12 @@ bool has_failure_curves(const StudyFacts& study) {
     return !study.failure_curves.empty();
 }
 
-constexpr std::array<Section, 15> all_sections = {{
+bool has_plan(const StudyFacts& study) {
+    return study.plan.has_value();
+}
+
+constexpr std::array<Section, 16> all_sections = {{
+    {"plan", "What the plan set out to show", has_plan, plan_section},
     {"verdict", "Verdict", always, verdict_section},
     {"sensitivity", "Sensitivity to each setting", has_sensitivities, sensitivity_section},
     {"tables", "Tables", always, tables_section},

@@ -24,6 +24,7 @@ std::string tables_section(const StudyFacts& study);
 std::string forest_section(const StudyFacts& study);
 std::string distribution_section(const StudyFacts& study);
 std::string failure_section(const StudyFacts& study);
+std::string plan_section(const StudyFacts& study);
 std::string sensitivity_section(const StudyFacts& study);
 std::string cost_section(const StudyFacts& study);
 std::string safety_section(const StudyFacts& study);
