@@ -10,9 +10,10 @@
 namespace clearway::cli {
 namespace {
 
-const std::vector<std::string> every_verb = {
-    "reproduce", "run",     "study", "status", "submit", "merge",  "report", "compare", "results", "replay",
-    "verify",    "dataset", "train", "list",   "init",   "doctor", "links",  "import",  "check",   "attach"};
+const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit", "merge",
+                                             "report",    "compare", "results", "replay", "live",   "verify",
+                                             "dataset",   "train",   "list",    "init",   "doctor", "links",
+                                             "import",    "check",   "attach"};
 
 class HelpTest : public UserTest {};
 
