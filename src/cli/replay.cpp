@@ -15,11 +15,11 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/names.hpp"
+#include "cli/detail/recorded_network.hpp"
+#include "cli/detail/replay_page.hpp"
 #include "cli/verb.hpp"
-#include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "results/run_name.hpp"
-#include "scenario/config.hpp"
 #include "trace/failure_log.hpp"
 #include "trace/recording_tables.hpp"
 
@@ -43,7 +43,10 @@ std::vector<std::string> table_names() {
 }
 
 struct Arguments {
-    std::string file;
+    std::vector<std::string> runs;
+    bool is_viewed = false;
+    std::string page;
+    std::string file;  ///< The recording of the only run.
     std::string network;
     std::optional<std::string> failure;
     std::optional<std::string> predictor;
@@ -55,33 +58,6 @@ struct Arguments {
     std::optional<double> to_s;
     Printing printing = Printing::text;
 };
-
-/// In a run folder the copy of the scenario is above its network; it names the files with signal programs.
-std::vector<std::filesystem::path> signal_programs_beside(const std::filesystem::path& network_file) {
-    const std::filesystem::path scenario = network_file.parent_path().parent_path() / "scenario.toml";
-    if (!std::filesystem::exists(scenario)) return {};
-    return scenario::additional_files(scenario::load(scenario.string()));
-}
-
-/// The network of a recording: `--network`, or that of the run folder in which the recording lies. Throws
-/// core::InputError when it is another one.
-roads::Network network_of(const trace::RecordingInfo& info, const Arguments& arguments) {
-    std::filesystem::path file = arguments.network;
-    if (file.empty()) {
-        const std::filesystem::path recording = std::filesystem::absolute(arguments.file).lexically_normal();
-        const std::filesystem::path run_folder =
-            recording.parent_path().parent_path().parent_path().parent_path();
-        file = run_folder / "scenarios" / info.key.scenario / "network" / "network.net.xml";
-    }
-    const std::string where = arguments.network.empty() ? file.string() : "--network " + file.string();
-    if (!std::filesystem::exists(file))
-        throw core::InputError({where, "is not there", "the network on which the recording was made",
-                                "Name it with --network, or leave the recording in its run folder"});
-    if (core::content_hash(core::read_file(file)) != info.settings.network_hash)
-        throw core::InputError({where, "is not the network on which the recording was made",
-                                "content hash " + info.settings.network_hash, "Name it with --network"});
-    return roads::Network::read(file, signal_programs_beside(file));
-}
 
 /// Drops the settings of policies and predictors that the replay replaces.
 void drop_what_is_gone(const experiment::ConditionSpec& recorded, experiment::ConditionSpec& condition) {
@@ -170,7 +146,7 @@ core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arg
 }
 
 core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& arguments) {
-    const roads::Network network = network_of(recording.info(), arguments);
+    const roads::Network network = recorded_network(recording.info(), arguments.file, arguments.network);
     if (arguments.table == failures_table) {
         trace::FailureLogger logger(recording.info(), condition_of(recording.info(), arguments).failure,
                                     network);
@@ -225,7 +201,7 @@ nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
 
 /// The run's name; without the folder if the recording is not in a run folder.
 std::string run_of(const std::filesystem::path& recording, const experiment::RunKey& key) {
-    const std::filesystem::path folder = recording.parent_path().parent_path().parent_path().parent_path();
+    const std::filesystem::path folder = run_folder_of(recording);
     if (!std::filesystem::exists(folder / "manifest.json")) return experiment::to_text(key);
     return results::run_name(std::filesystem::proximate(folder), key);
 }
@@ -314,16 +290,22 @@ bool is_same(const trace::ReplayResult& result) {
 }
 
 core::ExitCode replay_file(Arguments arguments) {
-    const results::NamedRecording named = results::recording_named(arguments.file, "RUN");
+    if (arguments.is_viewed)
+        return write_replay_page(
+            {arguments.runs, arguments.network, arguments.page, {arguments.from_s, arguments.to_s}});
+    if (arguments.runs.size() != 1)
+        throw core::InputError(
+            {"RUN", fmt::format("{} runs are named", arguments.runs.size()), "one run; two with --view", ""});
+    const results::NamedRecording named = results::recording_named(arguments.runs.front(), "RUN");
     arguments.file = named.file;
     trace::RecordingReader& recording = *named.reader;
     if (!arguments.table.empty()) return print_table(recording, arguments);
     if (arguments.from_s || arguments.to_s)
-        throw core::InputError(
-            {"--from, --to", "work only with --csv", "", "A replay needs the recording from its beginning"});
+        throw core::InputError({"--from, --to", "work only with --csv and --view", "",
+                                "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
     const experiment::ConditionSpec condition = condition_of(info, arguments);
-    const roads::Network network = network_of(info, arguments);
+    const roads::Network network = recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result = trace::replay(recording, condition, network);
     const std::string run = run_of(arguments.file, info.key);
     arguments.printing == Printing::json ? print_json(run, info, condition, result)
@@ -337,6 +319,20 @@ core::ExitCode replay_file(Arguments arguments) {
     return core::ExitCode::fell_short;
 }
 
+/// Returns what cannot be combined with another replay.
+CLI::Option* add_view_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+    const char* const group = "Watch, instead of a replay";
+    CLI::Option* const view =
+        app.add_flag("--view", arguments->is_viewed,
+                     "Write a page that plays the run, or two side by side, in a browser [off]")
+            ->group(group);
+    app.add_option("--out", arguments->page, "The page to write")
+        ->option_text("FILE [SCENARIO-CONDITION-N.html]")
+        ->needs(view)
+        ->group(group);
+    return view;
+}
+
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
     const char* const group = "Export as CSV, instead of a replay";
@@ -346,10 +342,10 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                                  ->group(group);
     for (CLI::Option* const other : others)
         csv->excludes(other);
-    app.add_option("--from", arguments->from_s, "First simulation time of the table, s")
+    app.add_option("--from", arguments->from_s, "First simulation time of the table or page, s")
         ->option_text("SECONDS [beginning]")
         ->group(group);
-    app.add_option("--to", arguments->to_s, "Last simulation time of the table, s")
+    app.add_option("--to", arguments->to_s, "Last simulation time of the table or page, s")
         ->option_text("SECONDS [end]")
         ->group(group);
 }
@@ -358,11 +354,15 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
 
 Action configure_replay(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.footer(app.get_footer() + "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n\n" +
+    app.footer(app.get_footer() +
+               "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n"
+               "  clearway replay runs/mine/city/baseline/0 runs/mine/city/mine/0 --view\n\n" +
                "Tables: " + core::listed(table_names()) + "\n\n" + open_loop);
-    app.add_option("run", arguments->file,
-                   fmt::format("{} of a recorded run, or a recording", results::run_name_form))
+    app.add_option(
+           "run", arguments->runs,
+           fmt::format("{} of a recorded run, or a recording; two with --view", results::run_name_form))
         ->required()
+        ->expected(1, 2)
         ->option_text("RUN (required)");
     std::vector<CLI::Option*> thinking;
     thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
@@ -379,6 +379,10 @@ Action configure_replay(CLI::App& app) {
     thinking.push_back(app.add_flag_callback(
         "--json", [arguments] { arguments->printing = Printing::json; },
         "Print the figures as JSON, with units in the field names [text]"));
+    CLI::Option* const view = add_view_options(app, arguments);
+    for (CLI::Option* const other : thinking)
+        view->excludes(other);
+    thinking.push_back(view);
     add_csv_options(app, arguments, thinking);
     return [arguments](const Invocation&) { return replay_file(*arguments); };
 }

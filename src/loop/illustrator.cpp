@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "view/dark_vehicles.hpp"
+
 namespace clearway::loop {
 namespace {
 
@@ -81,7 +83,8 @@ std::vector<sumo::Spot> ring_around(const roads::Signal& signal, const roads::Ne
 
 const sumo::Drawing& Illustrator::draw(const trace::RecordedStep& step) {
     const truth::Snapshot& snapshot = *step.snapshot;
-    if (step.observation != nullptr && step.observation->is_report) take_dark(snapshot, *step.observation);
+    if (step.observation != nullptr && step.observation->is_report)
+        dark_ = view::dark_vehicles(snapshot, *step.observation);
     if (step.belief != nullptr) take_links(*step.belief);
     take_held(step.commands);
     colour_vehicles(snapshot);
@@ -90,18 +93,6 @@ const sumo::Drawing& Illustrator::draw(const trace::RecordedStep& step) {
     draw_links(snapshot, *step.roster);
     choose_followed(snapshot);
     return drawing_;
-}
-
-void Illustrator::take_dark(const truth::Snapshot& snapshot, const traffic::Observation& observation) {
-    dark_.clear();
-    auto seen = observation.vehicles.begin();
-    for (const core::VehicleKey key : snapshot.key) {
-        seen = std::find_if(seen, observation.vehicles.end(),
-                            [key](const traffic::ObservedVehicle& each) { return !(each.key < key); });
-        const bool is_fresh = seen != observation.vehicles.end() && seen->key == key &&
-                              seen->freshness == traffic::Freshness::fresh;
-        if (!is_fresh) dark_.push_back(key);
-    }
 }
 
 bool Illustrator::is_dark(core::VehicleKey vehicle) const {

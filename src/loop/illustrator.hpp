@@ -35,8 +35,6 @@ class Illustrator {
         core::VehicleKey other;
     };
 
-    /// Finds the vehicles on the road that did not report in the latest round.
-    void take_dark(const truth::Snapshot& snapshot, const traffic::Observation& observation);
     bool is_dark(core::VehicleKey vehicle) const;
     void take_links(const traffic::BelievedGraph& belief);
     void take_held(std::span<const traffic::Command> commands);

@@ -1,0 +1,108 @@
+// Speed and way of the followed vehicle over time, one line for each run.
+
+import uPlot from "uplot";
+import type { Journey, Track } from "./track";
+
+const colours = ["#8a8f98", "#0a7d4f"];
+
+interface Curve {
+  title: string;
+  unit: string;
+  of(journey: Journey): number[];
+}
+const curves: Curve[] = [
+  { title: "Speed", unit: "km/h", of: (journey) => journey.speed_mps.map((speed) => speed * 3.6) },
+  { title: "Distance travelled", unit: "m", of: (journey) => journey.distance_m },
+];
+
+export class Curves {
+  readonly element = document.createElement("div");
+  private plots: uPlot[] = [];
+  private time_s = 0;
+
+  constructor(private readonly chosen: (time_s: number) => void) {
+    this.element.className = "curves";
+  }
+
+  show(tracks: Track[], slots: (number | undefined)[]): void {
+    this.end();
+    this.element.replaceChildren();
+    const journeys = tracks.map((track, i) => {
+      const slot = slots[i];
+      return slot === undefined ? { time_s: [], speed_mps: [], distance_m: [] } : track.journey(slot);
+    });
+    if (journeys.every((journey) => journey.time_s.length === 0)) return;
+    for (const curve of curves) this.plots.push(this.plot(curve, tracks, journeys));
+  }
+
+  /** Marks the present moment. */
+  at(time_s: number): void {
+    if (Math.abs(time_s - this.time_s) < 0.2) return;
+    this.time_s = time_s;
+    for (const plot of this.plots) plot.redraw(false);
+  }
+
+  resize(): void {
+    for (const plot of this.plots) plot.setSize({ width: this.width(), height: 150 });
+  }
+
+  end(): void {
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+  }
+
+  private width(): number {
+    const full = this.element.clientWidth || 320;
+    return full < 640 ? full : Math.floor((full - 16) / 2);
+  }
+
+  private plot(curve: Curve, tracks: Track[], journeys: Journey[]): uPlot {
+    const tables = journeys.map((journey) => [journey.time_s, curve.of(journey)] as [number[], number[]]);
+    const figure = document.createElement("figure");
+    const caption = document.createElement("figcaption");
+    caption.textContent = `${curve.title} of the emergency vehicle, ${curve.unit}`;
+    figure.append(caption);
+    this.element.append(figure);
+    const ink = getComputedStyle(this.element).color;
+    const axis = { stroke: ink, grid: { stroke: "rgba(128,128,128,0.25)" }, ticks: { stroke: "rgba(128,128,128,0.4)" } };
+    const plot = new uPlot(
+      {
+        width: this.width(),
+        height: 150,
+        scales: { x: { time: false } },
+        cursor: { drag: { x: false, y: false }, points: { show: false } },
+        legend: { show: false },
+        axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) }, { ...axis, size: 46 }],
+        series: [
+          {},
+          ...tracks.map((track, i) => ({
+            label: track.about.condition,
+            stroke: colours[i % colours.length] as string,
+            width: 2,
+            spanGaps: true,
+          })),
+        ],
+        hooks: { draw: [(drawn) => this.drawNow(drawn, ink)] },
+      },
+      uPlot.join(tables),
+      figure,
+    );
+    plot.over.addEventListener("click", () => {
+      const { left } = plot.cursor;
+      if (left !== undefined && left !== null && left >= 0) this.chosen(plot.posToVal(left, "x"));
+    });
+    return plot;
+  }
+
+  private drawNow(plot: uPlot, ink: string): void {
+    const x = plot.valToPos(this.time_s, "x", true);
+    if (x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) return;
+    plot.ctx.save();
+    plot.ctx.strokeStyle = ink;
+    plot.ctx.beginPath();
+    plot.ctx.moveTo(x, plot.bbox.top);
+    plot.ctx.lineTo(x, plot.bbox.top + plot.bbox.height);
+    plot.ctx.stroke();
+    plot.ctx.restore();
+  }
+}

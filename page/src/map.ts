@@ -1,0 +1,129 @@
+// Draws one or two panes into one canvas with deck.gl.
+
+import { Deck, type Layer, OrthographicView, type OrthographicViewState } from "@deck.gl/core";
+import { PathLayer } from "@deck.gl/layers";
+import type { Drawing, DrawnLane } from "./drawing";
+import { Pane, type Shown } from "./pane";
+import { dark, light, type Theme } from "./theme";
+import type { Moment } from "./track";
+
+export interface Camera {
+  x: number;
+  y: number;
+  /** Binary logarithm of pixels per metre. */
+  zoom: number;
+}
+
+export class MapCanvas {
+  private readonly deck: Deck<OrthographicView[]>;
+  private theme: Theme = light;
+  private roads: Layer | undefined;
+  private stacked = false;
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly drawing: Drawing,
+    readonly panes: Pane[],
+    private readonly events: { moved(camera: Camera): void; drawn(): void; failed(why: string): void },
+  ) {
+    this.deck = new Deck<OrthographicView[]>({
+      parent: place as HTMLDivElement,
+      views: this.views(),
+      controller: { scrollZoom: false, keyboard: false, dragRotate: false },
+      touchAction: "pan-y",
+      useDevicePixels: true,
+      deviceProps: { type: "webgl", webgl: { preserveDrawingBuffer: true } },
+      layerFilter: ({ layer, viewport }) => !layer.id.includes(":") || layer.id.startsWith(`${viewport.id}:`),
+      onViewStateChange: ({ viewState, interactionState }) => {
+        const { isDragging, isPanning, isZooming } = interactionState as Record<string, boolean | undefined>;
+        if (isDragging !== true && isPanning !== true && isZooming !== true) return viewState;
+        const [x, y] = viewState.target as [number, number];
+        this.events.moved({ x, y, zoom: viewState.zoom as number });
+        return viewState;
+      },
+      onAfterRender: () => this.events.drawn(),
+      onError: (error) => this.events.failed(error.message),
+      layers: [],
+    });
+    this.recolour();
+  }
+
+  /** Takes the colours of the page: light or dark. */
+  recolour(): void {
+    this.theme = matchMedia("(prefers-color-scheme: dark)").matches && !matchMedia("print").matches ? dark : light;
+    this.roads = this.roadLayer();
+    this.place.style.background = `rgb(${this.theme.background.slice(0, 3).join(",")})`;
+  }
+
+  /** Pane size in CSS pixels. */
+  paneSize(): [number, number] {
+    const { clientWidth, clientHeight } = this.place;
+    const count = this.panes.length;
+    return this.stacked ? [clientWidth, clientHeight / count] : [clientWidth / count, clientHeight];
+  }
+
+  /** The camera that shows the whole network. */
+  whole(): Camera {
+    const [width_m, height_m] = this.drawing.size_m;
+    const [width, height] = this.paneSize();
+    const scale = Math.min(width / (width_m + 20), height / (height_m + 20));
+    return { x: width_m / 2, y: height_m / 2, zoom: Math.log2(Math.max(scale, 1e-3)) };
+  }
+
+  draw(moments: Moment[], cameras: Camera[], shown: Shown): void {
+    const layers: Layer[] = this.roads === undefined ? [] : [this.roads];
+    const viewState: Record<string, OrthographicViewState> = {};
+    this.panes.forEach((pane, i) => {
+      const camera = cameras[i] as Camera;
+      layers.push(...pane.layers(moments[i] as Moment, shown, this.theme, 2 ** -camera.zoom));
+      viewState[String(i)] = { target: [camera.x, camera.y, 0], zoom: camera.zoom };
+    });
+    this.deck.setProps({ layers, viewState } as never);
+  }
+
+  /** Stacks the panes where they would be too narrow side by side. */
+  layOut(): void {
+    const stacked = this.panes.length > 1 && this.place.clientWidth < 640;
+    if (stacked === this.stacked) return;
+    this.stacked = stacked;
+    this.place.classList.toggle("stacked", stacked);
+    this.deck.setProps({ views: this.views() } as never);
+  }
+
+  end(): void {
+    this.deck.finalize();
+  }
+
+  private views(): OrthographicView[] {
+    const count = this.panes.length;
+    const share = (i: number, along: boolean) => (along ? `${(100 * i) / count}%` : "0%");
+    const size = (along: boolean) => (along ? `${100 / count}%` : "100%");
+    return this.panes.map(
+      (_, i) =>
+        new OrthographicView({
+          id: String(i),
+          flipY: false,
+          x: share(i, !this.stacked),
+          y: share(i, this.stacked),
+          width: size(!this.stacked),
+          height: size(this.stacked),
+        } as never),
+    );
+  }
+
+  private roadLayer(): Layer {
+    const order = { walk: 0, junction: 1, road: 2 };
+    const lanes = [...this.drawing.lanes].sort((one, other) => order[one.kind] - order[other.kind]);
+    return new PathLayer<DrawnLane>({
+      id: "roads",
+      data: lanes,
+      getPath: (lane) => lane.path as never,
+      positionFormat: "XY",
+      getColor: (lane) => this.theme.lanes[lane.kind],
+      getWidth: (lane) => lane.width_m * 0.94,
+      widthUnits: "common",
+      widthMinPixels: 1,
+      updateTriggers: { getColor: this.theme },
+    });
+  }
+}

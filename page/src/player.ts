@@ -1,0 +1,375 @@
+// One play: its map, its clock and what one can do with them.
+
+import { button, choice, element, LeaseList, legend, toggle } from "./controls";
+import { Curves } from "./curves";
+import type { Drawing } from "./drawing";
+import { type Camera, MapCanvas } from "./map";
+import { Pane, type Shown } from "./pane";
+import { describe, TimeLine } from "./timeline";
+import type { Moment, Track } from "./track";
+
+const speeds = [0.25, 0.5, 1, 2, 5, 10, 30];
+const followZoom = 2.2;
+/** Seconds that an arrow key moves the clock; with Shift ten times that. */
+const keyStep_s = 1;
+
+/** What a server allows, where the run happens now. */
+export interface LiveControl {
+  allowed: boolean;
+  pause(): void;
+  go(): void;
+  step(): void;
+  speed(times: number): void;
+}
+
+export interface PlayOptions {
+  note: string;
+  followed: string;
+  live?: LiveControl;
+}
+
+export class Player {
+  readonly element = element("div", "play");
+  private readonly map: MapCanvas;
+  private readonly timeLine: TimeLine;
+  private readonly curves: Curves;
+  private readonly leaseLists: LeaseList[];
+  private readonly captions: HTMLElement[];
+  private readonly clock = element("output", "clock");
+  private readonly playButton: HTMLButtonElement;
+  private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
+  private readonly shown: Shown = { links: [false, false, true], ghosts: true, leases: true };
+  private readonly followBox: HTMLInputElement;
+  private followed: (number | undefined)[] = [];
+  private camera: Camera = { x: 0, y: 0, zoom: 0 };
+  private time_s: number;
+  private speed = 5;
+  private playing = false;
+  private following = true;
+  private last_ms = 0;
+  private pending = 0;
+  private drawn = 0;
+  private journeysAt_s = Number.NEGATIVE_INFINITY;
+  private readonly ends: (() => void)[] = [];
+
+  constructor(
+    private readonly drawing: Drawing,
+    private readonly tracks: Track[],
+    private readonly options: PlayOptions,
+  ) {
+    this.time_s = options.live === undefined ? this.firstTime() : this.end_s;
+    this.timeLine = new TimeLine((time_s) => this.show(time_s));
+    this.curves = new Curves((time_s) => this.show(time_s));
+    this.leaseLists = tracks.map((track) => new LeaseList(track, (signal) => drawing.signals[signal]?.id ?? "?"));
+    this.captions = tracks.map(() => element("div", "caption"));
+    this.playButton = button("▶", "Play or pause (space)", () => this.togglePlay());
+    const follow = toggle("follow the emergency vehicle", true, (on) => this.setFollowing(on));
+    this.followBox = follow.querySelector("input") as HTMLInputElement;
+    const place = this.build(follow);
+    this.map = new MapCanvas(place, drawing, tracks.map((track, i) => new Pane(i, track, drawing)), {
+      moved: (camera) => this.moveTo(camera),
+      drawn: () => (this.element.dataset.drawn = String(++this.drawn)),
+      failed: (why) => this.fail(why),
+    });
+    this.listen(place);
+  }
+
+  /** To be called once the element is in the page. */
+  start(): void {
+    this.map.layOut();
+    this.camera = this.map.whole();
+    this.chooseFollowed();
+    if (this.followed.some((slot) => slot !== undefined)) this.camera.zoom = Math.max(this.camera.zoom, followZoom);
+    this.refreshCurves(true);
+    this.draw();
+    if (this.options.live !== undefined) this.play(true);
+  }
+
+  end(): void {
+    cancelAnimationFrame(this.pending);
+    for (const end of this.ends) end();
+    this.curves.end();
+    this.map.end();
+    this.element.remove();
+  }
+
+  /** Shows a moment, and nothing else moves. */
+  show(time_s: number): void {
+    this.play(false);
+    this.time_s = this.clamped(time_s);
+    this.draw();
+  }
+
+  /** Shows a place; the view follows nobody any more. */
+  look(camera: Camera): void {
+    this.setFollowing(false);
+    this.camera = camera;
+    this.draw();
+  }
+
+  private get begin_s(): number {
+    return Math.min(...this.tracks.map((track) => track.begin_s));
+  }
+  private get end_s(): number {
+    return Math.max(...this.tracks.map((track) => track.end_s));
+  }
+
+  private firstTime(): number {
+    const departures = this.tracks.flatMap((track) =>
+      track.marks.filter((mark) => mark.kind === "departure").map((mark) => mark.time_s),
+    );
+    return departures.length === 0 ? this.begin_s : Math.max(this.begin_s, Math.min(...departures));
+  }
+
+  private clamped(time_s: number): number {
+    return Math.min(Math.max(time_s, this.begin_s), this.end_s);
+  }
+
+  private build(follow: HTMLElement): HTMLElement {
+    const panes = element("div", `panes of-${this.tracks.length}`);
+    const place = element("div", "map");
+    place.tabIndex = 0;
+    place.setAttribute("role", "application");
+    place.setAttribute(
+      "aria-label",
+      "Map of the run. Space plays, arrows move the time, plus and minus zoom, F follows the emergency vehicle.",
+    );
+    panes.append(place, ...this.captions);
+    this.element.append(panes, this.controls(follow), this.timeLine.element, this.layerSwitches());
+    this.element.append(this.curves.element);
+    const leases = element("div", "lease-lists");
+    leases.append(...this.leaseLists.map((list) => list.element));
+    this.element.append(leases, legend());
+    if (this.options.note !== "") this.element.append(element("p", "note", this.options.note));
+    return place;
+  }
+
+  private controls(follow: HTMLElement): HTMLElement {
+    const row = element("div", "controls");
+    const { live } = this.options;
+    row.append(this.playButton);
+    row.append(button("‹", "One frame back (comma)", () => this.step(-1)));
+    row.append(button("›", "One frame on (full stop)", () => this.step(1)));
+    const options = speeds.map((times) => ({ text: `${times}×`, value: String(times) }));
+    if (live === undefined || live.allowed)
+      row.append(choice("Speed", options, String(this.speed), (value) => this.setSpeed(Number(value))));
+    row.append(this.clock, follow);
+    row.append(button("+", "Nearer (plus)", () => this.zoom(0.5)), button("−", "Farther (minus)", () => this.zoom(-0.5)));
+    row.append(button("whole", "The whole network (W)", () => this.look(this.map.whole())));
+    if (live !== undefined && !live.allowed)
+      row.append(element("span", "hint", "This page only watches: the server was started without --allow-control."));
+    return row;
+  }
+
+  private layerSwitches(): HTMLElement {
+    const row = element("div", "layers");
+    const texts = ["true links", "observed links", "believed links"];
+    for (const kind of [0, 1, 2] as const) {
+      row.append(
+        toggle(texts[kind] as string, this.shown.links[kind], (on) => {
+          this.shown.links[kind] = on;
+          this.draw();
+        }),
+      );
+    }
+    for (const [text, what] of [["ghosts", "ghosts"], ["leases", "leases"]] as const) {
+      row.append(
+        toggle(text, this.shown[what], (on) => {
+          this.shown[what] = on;
+          this.draw();
+        }),
+      );
+    }
+    return row;
+  }
+
+  private listen(place: HTMLElement): void {
+    const on = (target: EventTarget, name: string, act: (event: Event) => void, options?: AddEventListenerOptions) => {
+      target.addEventListener(name, act, options);
+      this.ends.push(() => target.removeEventListener(name, act, options));
+    };
+    on(place, "keydown", (event) => this.key(event as KeyboardEvent));
+    on(place, "wheel", (event) => this.wheel(event as WheelEvent), { passive: false });
+    const again = () => {
+      this.map.recolour();
+      this.refreshCurves(true);
+      this.draw();
+    };
+    on(matchMedia("(prefers-color-scheme: dark)"), "change", again);
+    on(matchMedia("print"), "change", again);
+    const sizes = new ResizeObserver(() => {
+      this.map.layOut();
+      this.curves.resize();
+      this.draw();
+    });
+    sizes.observe(this.element);
+    this.ends.push(() => sizes.disconnect());
+  }
+
+  private key(event: KeyboardEvent): void {
+    const far = event.shiftKey ? 10 : 1;
+    const acts: Record<string, () => void> = {
+      " ": () => this.togglePlay(),
+      ArrowLeft: () => this.show(this.time_s - far * keyStep_s),
+      ArrowRight: () => this.show(this.time_s + far * keyStep_s),
+      Home: () => this.show(this.begin_s),
+      End: () => this.show(this.end_s),
+      ",": () => this.step(-1),
+      ".": () => this.step(1),
+      "+": () => this.zoom(0.5),
+      "=": () => this.zoom(0.5),
+      "-": () => this.zoom(-0.5),
+      f: () => this.setFollowing(!this.following),
+      w: () => this.look(this.map.whole()),
+    };
+    const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : acts[event.key];
+    if (act === undefined) return;
+    event.preventDefault();
+    act();
+  }
+
+  /** A page scrolls over its maps; with Ctrl or after a click into the map the wheel zooms. */
+  private wheel(event: WheelEvent): void {
+    if (!event.ctrlKey && document.activeElement !== event.currentTarget) return;
+    event.preventDefault();
+    this.zoom(event.deltaY < 0 ? 0.25 : -0.25);
+  }
+
+  private zoom(by: number): void {
+    this.camera = { ...this.camera, zoom: Math.min(6, Math.max(-8, this.camera.zoom + by)) };
+    this.draw();
+  }
+
+  private moveTo(camera: Camera): void {
+    this.setFollowing(false);
+    this.camera = camera;
+    this.draw();
+  }
+
+  private setFollowing(on: boolean): void {
+    this.following = on;
+    this.followBox.checked = on;
+    this.draw();
+  }
+
+  private setSpeed(times: number): void {
+    this.speed = times;
+    this.options.live?.speed(times);
+  }
+
+  private step(direction: -1 | 1): void {
+    if (this.options.live?.allowed === true && direction > 0 && this.time_s >= this.end_s - 1e-6) this.options.live.step();
+    const times = this.tracks.map((track) => track.beside(this.time_s, direction));
+    this.show(direction < 0 ? Math.max(...times.filter((time) => time < this.time_s), this.begin_s) : this.nextOf(times));
+  }
+
+  private nextOf(times: number[]): number {
+    const later = times.filter((time) => time > this.time_s + 1e-6);
+    return later.length === 0 ? this.end_s : Math.min(...later);
+  }
+
+  private togglePlay(): void {
+    const { live } = this.options;
+    if (live?.allowed === true) this.playing ? live.pause() : live.go();
+    if (!this.playing && live === undefined && this.time_s >= this.end_s - 1e-6) this.time_s = this.begin_s;
+    this.play(!this.playing);
+  }
+
+  private play(on: boolean): void {
+    this.playing = on;
+    this.playButton.textContent = on ? "⏸" : "▶";
+    this.last_ms = performance.now();
+    cancelAnimationFrame(this.pending);
+    if (on) this.pending = requestAnimationFrame(() => this.tick());
+  }
+
+  private tick(): void {
+    const now_ms = performance.now();
+    const passed_s = ((now_ms - this.last_ms) / 1000) * this.speed;
+    if (this.options.live !== undefined) {
+      this.time_s = this.end_s;
+      this.chooseFollowed();
+      this.refreshCurves(false);
+      this.last_ms = now_ms;
+      this.draw();
+    } else if (!this.calm.matches || passed_s >= 1) {
+      // With reduced motion the picture changes once a simulated second and nothing glides.
+      this.time_s = this.clamped(this.time_s + (this.calm.matches ? Math.floor(passed_s) : passed_s));
+      this.last_ms = now_ms;
+      this.draw();
+    }
+    if (this.options.live === undefined && this.time_s >= this.end_s) return this.play(false);
+    this.pending = requestAnimationFrame(() => this.tick());
+  }
+
+  /** The named vehicle, or the first emergency vehicle that is on the road. */
+  private chooseFollowed(): void {
+    this.followed = this.tracks.map((track, i) => {
+      const named = track.emergency.find((slot) => track.names.vehicles[slot]?.id === this.options.followed);
+      if (named !== undefined) return named;
+      const present = track.emergency.find((slot) => track.at(this.time_s).now.rowOf(slot) >= 0);
+      return present ?? this.followed[i] ?? track.emergency[0];
+    });
+  }
+
+  /** In a live run the curves grow: they are drawn anew every five seconds of it. */
+  private refreshCurves(always: boolean): void {
+    if (!always && this.end_s < this.journeysAt_s + 5) return;
+    this.journeysAt_s = this.end_s;
+    this.curves.show(this.tracks, this.followed);
+  }
+
+  private draw(): void {
+    const moments = this.tracks.map((track) => track.at(this.time_s));
+    if (this.calm.matches) moments.forEach((moment) => (moment.share = 0));
+    this.map.draw(moments, this.cameras(moments), this.shown);
+    this.timeLine.show(this.time_s, this.begin_s, this.end_s, this.tracks);
+    this.curves.at(this.time_s);
+    this.clock.value = `${this.time_s.toFixed(2)} s`;
+    this.tracks.forEach((track, i) => this.captionOf(track, i, moments[i] as Moment));
+    this.element.dataset.time = this.time_s.toFixed(3);
+  }
+
+  private cameras(moments: Moment[]): Camera[] {
+    return this.tracks.map((_, i) => {
+      const at = this.following ? this.placeOfFollowed(i, moments[i] as Moment) : undefined;
+      return at === undefined ? this.camera : { ...this.camera, x: at[0], y: at[1] };
+    });
+  }
+
+  private placeOfFollowed(i: number, { now, next, share }: Moment): [number, number] | undefined {
+    const slot = this.followed[i];
+    if (slot === undefined) return undefined;
+    const { quantum_m } = this.drawing;
+    const row = now.rowOf(slot);
+    if (row < 0) return this.lastPlaces[i];
+    const then = next.rowOf(slot);
+    const x = now.x[row] as number;
+    const y = now.y[row] as number;
+    const to = then < 0 ? [x, y] : [next.x[then] as number, next.y[then] as number];
+    this.lastPlaces[i] = [
+      (x + ((to[0] as number) - x) * share) * quantum_m,
+      (y + ((to[1] as number) - y) * share) * quantum_m,
+    ];
+    return this.lastPlaces[i];
+  }
+  private readonly lastPlaces: ([number, number] | undefined)[] = [];
+
+  private captionOf(track: Track, i: number, { now }: Moment): void {
+    const slot = this.followed[i];
+    const row = slot === undefined ? -1 : now.rowOf(slot);
+    const speed = row < 0 ? "" : `, ${(((now.speed[row] as number) / 10) * 3.6).toFixed(0)} km/h`;
+    const state = row >= 0 ? "" : now.time_s >= track.end_s - 1e-6 ? ", run over" : ", not on the road";
+    const id = slot === undefined ? "no emergency vehicle" : (track.names.vehicles[slot]?.id ?? "?");
+    const caption = this.captions[i] as HTMLElement;
+    const text = `${track.about.condition}: ${id}${speed}${state}; ${now.count} vehicles`;
+    if (caption.textContent !== text) caption.textContent = text;
+    caption.title = describe(track);
+    (this.leaseLists[i] as LeaseList).show(now);
+  }
+
+  private fail(why: string): void {
+    if (this.element.querySelector(".failure") !== null) return;
+    this.element.prepend(element("p", "failure", `The map cannot be drawn: ${why}. It needs WebGL 2.`));
+  }
+}

@@ -1,0 +1,264 @@
+// A replay in a real browser: what is on the screen is what was recorded.
+
+import assert from "node:assert/strict";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { alike, clearway, folder, grouped, openPage, patience_ms, pixelsOf, rows, settled, startBrowser } from "./browser.mjs";
+
+const options = { timeout: 4 * patience_ms };
+const run = "runs/mine/city/corridor/0";
+const baseline = "runs/mine/city/baseline/0";
+const single = join(folder, "single.html");
+const pair = join(folder, "pair.html");
+const address = (file) => pathToFileURL(file).href;
+let browser;
+
+before(async () => {
+  clearway("run", "city", "--seeds", "1", "--no-solo", "--record", "--out", "runs/mine");
+  clearway("replay", run, "--view", "--out", single);
+  clearway("replay", baseline, run, "--view", "--out", pair);
+  browser = await startBrowser();
+}, options);
+after(() => browser?.close());
+
+const classColours = { human: [214, 154, 0], automated: [32, 110, 235], emergency: [225, 0, 40] };
+const signalColours = {
+  G: [0, 165, 80], g: [130, 200, 60], y: [250, 190, 0], Y: [250, 190, 0], u: [250, 190, 0],
+  r: [200, 30, 30], R: [200, 30, 30], s: [200, 30, 30],
+};
+
+/** Lanes and signal links of SUMO's network file, read here a second time. */
+function readNetwork() {
+  const text = readFileSync(join(folder, "runs/mine/scenarios/city/network/network.net.xml"), "utf8");
+  const attribute = (tag, name) => new RegExp(` ${name}="([^"]*)"`).exec(tag)?.[1];
+  const shapes = new Map();
+  let left = Infinity;
+  let low = Infinity;
+  for (const [tag] of text.matchAll(/<lane [^>]*>/g)) {
+    const points = attribute(tag, "shape").split(" ").map((point) => point.split(",").map(Number));
+    shapes.set(attribute(tag, "id"), points);
+    for (const [x, y] of points) {
+      left = Math.min(left, x);
+      low = Math.min(low, y);
+    }
+  }
+  const lanes = new Map();
+  for (const [tag] of text.matchAll(/<connection [^>]*>/g)) {
+    const signal = attribute(tag, "tl");
+    if (signal === undefined) continue;
+    const lane = `${attribute(tag, "from")}_${attribute(tag, "fromLane")}`;
+    const links = lanes.get(lane) ?? { signal, shape: shapes.get(lane), links: new Set() };
+    lanes.set(lane, { ...links, links: links.links.add(Number(attribute(tag, "linkIndex"))) });
+  }
+  const stopLines = [...lanes.values()].map((lane) => ({ ...lane, at: lane.shape.at(-1) }));
+  return { origin: [Math.floor(left), Math.floor(low)], stopLines };
+}
+
+/** Where a place of the network is on the screen. */
+function onScreen(picture, camera, [x, y]) {
+  const scale = 2 ** camera.zoom;
+  return [picture.width / 2 + (x - camera.x) * scale, picture.height / 2 - (y - camera.y) * scale];
+}
+
+function isInside(picture, [x, y]) {
+  return x > 12 && y > 48 && x < picture.width - 12 && y < picture.height - 12;
+}
+
+function middleOf(vehicle) {
+  const half_m = vehicle.class === "emergency" ? 3 : 2;
+  const heading = Number(vehicle.heading_rad);
+  return [Number(vehicle.x_m) - half_m * Math.cos(heading), Number(vehicle.y_m) - half_m * Math.sin(heading)];
+}
+
+test("at ten moments vehicles and signals are on the screen where the recording has them", options, async () => {
+  const { origin, stopLines } = readNetwork();
+  const snapshot = grouped(rows(clearway("replay", run, "--csv", "snapshot")), "time_s");
+  const signals = grouped(rows(clearway("replay", run, "--csv", "signals")), "time_s");
+  const times = [...snapshot.keys()].filter((time) => snapshot.get(time).some((row) => row.class === "emergency"));
+  const { page, faults, close } = await openPage(browser, address(single));
+  for (const name of ["ghosts", "leases", "believed links"]) await page.getByLabel(name).uncheck();
+  const count = { vehicles: 0, displaced: 0, signals: 0, states: new Set() };
+  for (let i = 0; i < 10; ++i) {
+    const time = times[Math.floor((i * (times.length - 1)) / 9)];
+    const present = snapshot.get(time);
+    const state = new Map(signals.get(time).map((row) => [row.signal, row.state]));
+    const line = stopLines[(i * 37) % stopLines.length].at;
+    const near = (one) => present.filter((row) => Math.hypot(row.x_m - one.x_m, row.y_m - one.y_m) < 90).length;
+    const vehicle = present.reduce((best, row) => (near(row) > near(best) ? row : best));
+    const [x, y] = i % 2 === 0 ? [Number(vehicle.x_m), Number(vehicle.y_m)] : line;
+    const camera = { x: x - origin[0], y: y - origin[1], zoom: i % 2 === 0 ? 2 : 2.5 };
+    await page.evaluate(({ time_s, camera }) => {
+      location.hash = `time=${time_s}&x=${camera.x}&y=${camera.y}&zoom=${camera.zoom}`;
+    }, { time_s: time, camera });
+    await settled(page);
+    assert.equal(Number(await page.locator(".play").getAttribute("data-time")), Number(time));
+    const picture = await pixelsOf(page, page.locator(".map"));
+    const place = ([px, py]) => onScreen(picture, camera, [px - origin[0], py - origin[1]]);
+    const middles = present.map(middleOf);
+    present.forEach((row, k) => {
+      const at = place(middles[k]);
+      // Where two overlap on the screen, the upper one counts.
+      if (!isInside(picture, at) || middles.some((other, j) => j !== k && Math.hypot(other[0] - middles[k][0], other[1] - middles[k][1]) < 7)) return;
+      ++count.vehicles;
+      const colour = picture.at(...at);
+      assert.ok(alike(colour, classColours[row.class]), `${row.vehicle} at ${time} s is ${colour} on the screen`);
+      if (alike(picture.at(at[0] + 25, at[1] + 25), classColours[row.class])) ++count.displaced;
+    });
+    for (const { signal, at, shape, links } of stopLines) {
+      if (!isInside(picture, place(at)) || middles.some((other) => Math.hypot(other[0] - at[0], other[1] - at[1]) < 8)) continue;
+      const [x, y] = shape.at(-2);
+      const length = Math.hypot(at[0] - x, at[1] - y);
+      const left = [(y - at[1]) / length, (at[0] - x) / length];
+      [...links].sort((one, other) => one - other).forEach((link, k) => {
+        // Links that begin on one lane share its stop line, from right to left.
+        const aside_m = ((k + 0.5) / links.size - 0.5) * 3.2;
+        const colour = picture.at(...place([at[0] + left[0] * aside_m, at[1] + left[1] * aside_m]));
+        const letter = state.get(signal)[link];
+        ++count.signals;
+        count.states.add(letter);
+        assert.ok(
+          alike(colour, signalColours[letter] ?? [128, 128, 128]),
+          `link ${link} of ${signal} at ${time} s shows ${letter} and is ${colour} on the screen`,
+        );
+      });
+    }
+  }
+  assert.ok(count.vehicles >= 25, `${count.vehicles} vehicles were compared`);
+  assert.ok(count.signals >= 40, `${count.signals} stop lines were compared`);
+  assert.ok(count.states.has("r") && (count.states.has("G") || count.states.has("g")), [...count.states].join(""));
+  assert.ok(count.displaced < count.vehicles / 5, "a place beside a vehicle is not its colour");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+for (const width of [360, 768, 1440]) {
+  for (const colorScheme of ["light", "dark"]) {
+    test(`every control works at ${width} px, ${colorScheme}`, options, async () => {
+      const { page, faults, close } = await openPage(browser, address(pair), {
+        viewport: { width, height: 800 }, colorScheme, reducedMotion: width === 768 ? "reduce" : "no-preference",
+      });
+      const time = async () => Number(await page.locator(".play").getAttribute("data-time"));
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is too wide");
+      const begin_s = await time();
+      await page.getByRole("button", { name: "One frame on" }).click();
+      assert.ok(Math.abs((await time()) - begin_s - 0.25) < 1e-6);
+      await page.getByRole("button", { name: "One frame back" }).click();
+      assert.ok(Math.abs((await time()) - begin_s) < 1e-6);
+      await page.getByLabel("Speed").selectOption("30");
+      await page.getByRole("button", { name: "Play or pause" }).click();
+      await page.waitForFunction((from) => Number(document.querySelector(".play").dataset.time) > from + 2, begin_s);
+      await page.getByRole("button", { name: "Play or pause" }).click();
+      const paused_s = await time();
+      for (const name of ["true links", "observed links", "believed links", "ghosts", "leases"]) {
+        const box = page.getByLabel(name, { exact: true });
+        await box.setChecked(!(await box.isChecked()));
+      }
+      for (const name of ["Nearer", "Farther", "The whole network"]) await page.getByRole("button", { name }).click();
+      assert.equal(await page.getByLabel("follow the emergency vehicle").isChecked(), false);
+      assert.equal(await time(), paused_s, "only the clock moves the time");
+      await page.getByLabel("follow the emergency vehicle").check();
+      const captions = await page.locator(".caption").allTextContents();
+      assert.match(captions[0], /^baseline: /);
+      assert.match(captions[1], /^corridor: /);
+      const field = await page.evaluate(() => getComputedStyle(document.querySelector(".caption")).backgroundColor);
+      assert.equal(field, colorScheme === "dark" ? "rgb(34, 38, 45)" : "rgb(255, 255, 255)");
+      await keepPicture(page, `${width}-${colorScheme}`);
+      assert.deepEqual(faults, []);
+      await close();
+    });
+  }
+}
+
+/** Pictures to look at, where CLEARWAY_PICTURES names a folder. */
+async function keepPicture(page, name) {
+  if (process.env.CLEARWAY_PICTURES === undefined) return;
+  await settled(page);
+  await page.screenshot({ path: join(process.env.CLEARWAY_PICTURES, `replay-${name}.png`), fullPage: true });
+}
+
+test("the keyboard alone does everything", options, async () => {
+  const { page, faults, close } = await openPage(browser, address(pair));
+  const time = async () => Number(await page.locator(".play").getAttribute("data-time"));
+  const reach = async (selector) => {
+    for (let presses = 0; presses < 40; ++presses) {
+      await page.keyboard.press("Tab");
+      if (await page.evaluate((wanted) => document.activeElement?.matches(wanted), selector)) return;
+    }
+    assert.fail(`${selector} is not reached with Tab`);
+  };
+  await reach(".map");
+  const begin_s = await time();
+  await page.keyboard.press("ArrowRight");
+  assert.ok(Math.abs((await time()) - begin_s - 1) < 1e-6);
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.ok(Math.abs((await time()) - begin_s - 11) < 1e-6);
+  await page.keyboard.press("Space");
+  await page.waitForFunction((from) => Number(document.querySelector(".play").dataset.time) > from, begin_s + 12);
+  await page.keyboard.press("Space");
+  await page.keyboard.press("f");
+  assert.equal(await page.getByLabel("follow the emergency vehicle").isChecked(), false);
+  await page.keyboard.press("Home");
+  const first_s = await time();
+  await page.keyboard.press("End");
+  assert.ok((await time()) > first_s + 100);
+  await reach("input[type=range]");
+  await page.keyboard.press("Home");
+  assert.ok(Math.abs((await time()) - first_s) < 0.06);
+  await reach(".layers input");
+  await page.keyboard.press("Space");
+  assert.equal(await page.getByLabel("true links").isChecked(), true);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("both runs show the same moment, and the marks are those of the recording", options, async () => {
+  const { page, close } = await openPage(browser, address(pair));
+  const events = rows(clearway("replay", run, "--csv", "events"));
+  const labels = await page.locator(".marks").getAttribute("aria-label");
+  const counted = (kind) => Number(new RegExp(`corridor: .*?(\\d+) ${kind}`).exec(labels)?.[1]);
+  assert.equal(counted("braking"), events.filter((row) => row.event === "emergency_braking").length);
+  assert.equal(counted("collision"), events.filter((row) => row.event.startsWith("collision")).length);
+  assert.ok(counted("request") > 0 && counted("grant") > 0, labels);
+  assert.match(labels, /baseline: 0 requests, 0 grants/);
+  await close();
+});
+
+test("printed, the page keeps its maps and drops its controls", options, async () => {
+  const { page, close } = await openPage(browser, address(pair));
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await page.getByRole("button", { name: "Play or pause" }).isVisible(), false);
+  assert.equal(await page.locator(".map canvas").first().isVisible(), true);
+  const pdf = await page.pdf();
+  assert.ok(pdf.length > 20_000);
+  await close();
+});
+
+test("one page is small, whole and asks for nothing", options, () => {
+  assert.ok(statSync(pair).size < 4e6, `${statSync(pair).size} bytes`);
+  const text = readFileSync(pair, "utf8");
+  assert.match(text, /default-src 'none'; script-src 'sha256-[A-Za-z0-9+/=]+'; style-src/);
+});
+
+test("data that was cut short, or of another format, is told", options, async () => {
+  const whole = readFileSync(single, "utf8");
+  const data = /(<script type="application\/json"[^>]*>)(.*?)(<\/script>)/s.exec(whole);
+  const changed = (change) => {
+    const json = JSON.parse(data[2]);
+    change(json);
+    const file = join(folder, "damaged.html");
+    writeFileSync(file, whole.replace(data[2], () => JSON.stringify(json)));
+    return file;
+  };
+  const cases = [
+    [(json) => (json.format = 99), /format 99, this page reads 1/],
+    [(json) => (json.plays[0].runs[0].stream = json.plays[0].runs[0].stream.slice(0, 4000)), /cannot be shown/],
+    [(json) => (json.plays[0].runs[0].stream = "AAAA"), /cannot be shown/],
+  ];
+  for (const [change, told] of cases) {
+    const { page, close } = await openPage(browser, address(changed(change)));
+    assert.match(await page.locator(".failure").textContent(), told);
+    await close();
+  }
+});

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "view/recorded_run.hpp"
+
+namespace clearway::cli {
+
+/// What `clearway replay --view` was asked for.
+struct ReplayPage {
+    std::vector<std::string> runs;  ///< One or two, by name or file.
+    std::filesystem::path network;  ///< Empty: that of their run folder.
+    std::filesystem::path file;     ///< Empty: named after the runs, in the present folder.
+    view::Window window;
+};
+
+/// Writes a page that plays the runs side by side, and says where it is. Throws core::InputError for runs
+/// that are not recorded, or not on one network.
+core::ExitCode write_replay_page(const ReplayPage& page);
+
+}  // namespace clearway::cli

@@ -1,0 +1,44 @@
+#include "view/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+
+namespace clearway::view {
+
+std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
+    const core::Json words = {{"run", experiment::to_text(key)}, {"scenario", key.scenario},
+                              {"condition", key.condition},      {"replication", key.replication},
+                              {"policies", condition.policies},  {"failure", condition.failure},
+                              {"predictor", condition.predictor}};
+    return words.dump(-1, ' ', false, core::Json::error_handler_t::replace);
+}
+
+RunView view_of(trace::RecordingReader& recording, const roads::Network& network, const Window& window,
+                StreamConfig config) {
+    const trace::RecordingInfo& info = recording.info();
+    RunView view;
+    view.about = about(info.key, info.condition);
+    RunStream stream(origin_of(network), trace::loop_of(info).rules(), std::move(config));
+    std::optional<double> first_s;
+    double last_s = 0.0;
+    while (const auto step = recording.next()) {
+        last_s = step->snapshot->time.value;
+        if (!first_s) first_s = last_s;
+        const bool is_before = window.from_s && last_s < *window.from_s - core::clock_tolerance_s;
+        if (is_before) {
+            stream.skip(*step);
+        } else if (!window.to_s || last_s <= *window.to_s + core::clock_tolerance_s) {
+            if (stream.frames() == 0) view.begin_s = last_s;
+            stream.step(*step, view.stream);
+            view.end_s = last_s;
+        }
+    }
+    if (stream.frames() == 0)
+        throw core::InputError({experiment::to_text(info.key), "no recorded step lies in the window",
+                                first_s ? fmt::format("{} to {} s", *first_s, last_s) : "a step", ""});
+    return view;
+}
+
+}  // namespace clearway::view

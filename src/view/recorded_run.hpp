@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "trace/recording.hpp"
+#include "view/run_stream.hpp"
+
+namespace clearway::view {
+
+/// What a page shows of one run.
+struct RunView {
+    std::string about;   ///< JSON: run, scenario, condition, replication, policies, failure, predictor.
+    std::string stream;  ///< Blocks.
+    double begin_s = 0.0, end_s = 0.0;
+};
+
+/// The words about a run that a page shows (`RunView::about`).
+std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition);
+
+/// Times of a recording that are shown, s; without them from its first, to its last step.
+struct Window {
+    std::optional<double> from_s, to_s;
+};
+
+/// Reads a recording to its end. `network` is that of the recording; this is not checked here. Throws as
+/// trace::RecordingReader, and core::InputError when no step lies in the window.
+RunView view_of(trace::RecordingReader& recording, const roads::Network& network, const Window& window,
+                StreamConfig config);
+
+}  // namespace clearway::view

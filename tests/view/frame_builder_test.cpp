@@ -1,0 +1,152 @@
+#include "view/frame_builder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/ascii_scene.hpp"
+#include "view/dark_vehicles.hpp"
+
+namespace clearway::view {
+namespace {
+
+using support::Scene;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+/// 10 m a cell: e1 at 25 m, a1 at 65 m, h1 at 105 m on one lane, then a signal at 150 m.
+constexpr const char* street = R"(
+    10 m per cell, limit 20 m/s, speed 15 m/s
+    ..e...a...h....|r.....
+)";
+
+class FrameBuilderTest : public ::testing::Test {
+  protected:
+    FrameBuilderTest() : scene_(street), builder_(origin_of(scene_.network()), graph::LinkRules{}) {}
+
+    trace::RecordedStep step() {
+        return {&scene_.snapshot(), &scene_.roster(), &events_, nullptr, nullptr, {}};
+    }
+    const Frame& frame(const trace::RecordedStep& step) {
+        builder_.look(step);
+        const Frame& frame = builder_.frame(step);
+        names_ = builder_.take_names();
+        ids_.insert(ids_.end(), names_.vehicles.begin(), names_.vehicles.end());
+        return frame;
+    }
+    std::string id(Slot slot) const { return ids_.at(slot).id; }
+    traffic::Lease hold(std::vector<std::uint16_t> links, double until_s) const {
+        return {.target = core::SignalIndex{0},
+                .action = traffic::HoldGreen{std::move(links), {}},
+                .expiry = core::Seconds(until_s),
+                .policy = "green_wave",
+                .reason = "the ambulance comes",
+                .beneficiary = scene_.key("e1")};
+    }
+    std::vector<std::pair<std::string, std::string>> ends(const std::vector<Link>& links) const {
+        std::vector<std::pair<std::string, std::string>> named;
+        for (const Link& link : links)
+            named.emplace_back(std::minmax(id(link.one), id(link.other)));
+        std::ranges::sort(named);
+        return named;
+    }
+
+    Scene scene_;
+    truth::Events events_;
+    FrameBuilder builder_;
+    Names names_;
+    std::vector<NamedVehicle> ids_;
+};
+
+TEST_F(FrameBuilderTest, vehicles_are_where_they_are_to_five_centimetres) {
+    const Origin origin = origin_of(scene_.network());
+    const Frame& shown = frame(step());
+    ASSERT_THAT(shown.vehicles, SizeIs(3));
+    for (const SeenVehicle& vehicle : shown.vehicles) {
+        const core::VehicleIndex row = scene_.row(id(vehicle.slot));
+        EXPECT_NEAR(origin.x_m + vehicle.x * quantum_m, scene_.snapshot().x_m[row], 0.051);
+        EXPECT_NEAR(origin.y_m + vehicle.y * quantum_m, scene_.snapshot().y_m[row], 0.051);
+        EXPECT_EQ(vehicle.speed, 150);
+        EXPECT_EQ(vehicle.heading, 0);
+        EXPECT_FALSE(vehicle.dark);
+    }
+    EXPECT_EQ(shown.signals.at(0).at(0), 'r');
+}
+
+TEST_F(FrameBuilderTest, links_are_those_that_are_true_observed_and_believed) {
+    traffic::Observation observation = support::perfect_observation(scene_);
+    observation.is_report = true;
+    for (traffic::ObservedVehicle& vehicle : observation.vehicles) {
+        if (vehicle.key == scene_.key("h1")) vehicle.freshness = traffic::Freshness::stale;
+    }
+    const traffic::BelievedGraph belief = support::perfect_belief(scene_);
+    trace::RecordedStep now = step();
+    now.observation = &observation;
+    now.belief = &belief;
+    const Frame& shown = frame(now);
+    using Ends = std::pair<std::string, std::string>;
+    EXPECT_THAT(ends(shown.links[0]), ElementsAre(Ends("a1", "e1"), Ends("a1", "h1")));
+    EXPECT_THAT(ends(shown.links[1]), ElementsAre(Ends("a1", "e1")));
+    EXPECT_THAT(ends(shown.links[2]), ElementsAre(Ends("a1", "e1"), Ends("a1", "h1")));
+    ASSERT_THAT(shown.ghosts, SizeIs(1));
+    EXPECT_EQ(id(shown.ghosts[0].slot), "h1");
+    for (const SeenVehicle& vehicle : shown.vehicles)
+        EXPECT_EQ(vehicle.dark, id(vehicle.slot) == "h1");
+}
+
+TEST_F(FrameBuilderTest, a_hold_is_marked_when_it_is_asked_for_and_when_it_is_granted) {
+    const std::vector<traffic::Lease> leases = {hold({0}, 110.0)};
+    trace::RecordedStep now = step();
+    now.leases = leases;
+    const Frame& asked = frame(now);
+    ASSERT_THAT(asked.marks, SizeIs(1));
+    EXPECT_EQ(asked.marks[0].kind, MarkKind::request);
+    EXPECT_EQ(id(asked.marks[0].vehicle - 1), "e1");
+    EXPECT_EQ(asked.marks[0].other, 1U);
+    ASSERT_THAT(asked.leases, SizeIs(1));
+    EXPECT_EQ(names_.texts.at(asked.leases[0].reason), "the ambulance comes");
+
+    scene_.pass(core::Seconds(1.0));
+    EXPECT_THAT(frame(now).marks, SizeIs(0)) << "a renewal is no request";
+
+    scene_.snapshot().signals.state[0][0] = 'G';
+    const Frame& granted = frame(now);
+    ASSERT_THAT(granted.marks, SizeIs(1));
+    EXPECT_EQ(granted.marks[0].kind, MarkKind::grant);
+
+    scene_.pass(core::Seconds(20.0));
+    const Frame& over = frame(step());
+    EXPECT_THAT(over.leases, SizeIs(0)) << "it ended by itself";
+}
+
+TEST_F(FrameBuilderTest, marks_between_two_frames_are_kept_for_the_next) {
+    events_.emergency_brakings = {{scene_.key("h1"), 8.0F}};
+    truth::Collision collision;
+    collision.collider = scene_.key("a1");
+    collision.victim = scene_.key("h1");
+    events_.collisions = {collision};
+    builder_.look(step());
+    events_.clear();
+    scene_.pass(core::Seconds(0.25));
+    const Frame& shown = frame(step());
+    ASSERT_THAT(shown.marks, SizeIs(2));
+    EXPECT_EQ(shown.marks[0].kind, MarkKind::braking);
+    EXPECT_EQ(shown.marks[0].time_s, 100.0);
+    EXPECT_EQ(shown.marks[1].kind, MarkKind::collision);
+    EXPECT_EQ(id(shown.marks[1].vehicle - 1), "a1");
+    EXPECT_EQ(id(shown.marks[1].other - 1), "h1");
+}
+
+TEST_F(FrameBuilderTest, outside_the_area_only_emergency_vehicles_are_shown) {
+    FrameBuilder cut(origin_of(scene_.network()), graph::LinkRules{},
+                     [](double x_m, double) { return x_m > 100.0; });
+    cut.look(step());
+    const Frame& shown = cut.frame(step());
+    const Names names = cut.take_names();
+    std::vector<std::string> ids;
+    for (const SeenVehicle& vehicle : shown.vehicles)
+        ids.push_back(names.vehicles.at(vehicle.slot).id);
+    EXPECT_THAT(ids, ::testing::UnorderedElementsAre("e1", "h1"));
+}
+
+}  // namespace
+}  // namespace clearway::view
