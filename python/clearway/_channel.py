@@ -64,8 +64,13 @@ class Sheet:
         self.columns = {name: (np.dtype(kind), unit, doc) for name, kind, unit, doc in columns}
         self._number = {name: number for number, name in enumerate(self.columns)}
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def place(self, name: str) -> tuple[int, int]:
+        """Offset and number of elements of an array."""
         offset, count = self._directory[self._number[name]].tolist()
+        return offset, count
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        offset, count = self.place(name)
         return np.frombuffer(self._memory, self.columns[name][0], count, offset)
 
     def write(self, name: str, values: np.ndarray) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import collections
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -66,6 +67,17 @@ def environment() -> dict[str, str]:
     return values
 
 
+def _owned() -> list[str]:
+    """Words before a command that ends it (SIGTERM) when this process is killed, so that no study goes on without it.
+
+    The signal comes at the end of the *thread* that started the command; ``call`` waits for the command in that thread.
+    """
+    setpriv = shutil.which("setpriv")
+    if setpriv is None:
+        raise EnvironmentFault("setpriv is not in PATH (Debian: util-linux); without it, a study would go on when this process is killed")
+    return [setpriv, "--pdeathsig", "TERM", "--"]
+
+
 def _listen(stream: IO[str], said: collections.deque[str], progress: bool) -> None:
     for line in stream:
         said.append(line)
@@ -77,10 +89,11 @@ def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[i
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
 
     ``progress`` passes its progress on to this process's standard error. Exit codes other than 0 that are not accepted are
-    raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and can continue.
+    raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and can continue. So does
+    the end of this process, however it comes.
     """
     said: collections.deque[str] = collections.deque(maxlen=60)
-    with subprocess.Popen([str(programs() / "clearway"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    with subprocess.Popen([*_owned(), str(programs() / "clearway"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           stdin=subprocess.DEVNULL, env=environment(), text=True, errors="replace") as process:
         assert process.stdout is not None and process.stderr is not None
         listener = threading.Thread(target=_listen, args=(process.stderr, said, progress), daemon=True)

@@ -2,12 +2,15 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+import struct
 import subprocess
 import tempfile
 import weakref
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -56,7 +59,9 @@ class Worker:
         self.greeting: dict[str, Any] = json.loads(self._channel.read_text())
         self._question = Sheet(self._channel.incoming, self.greeting["question"])
         self._answer = Sheet(self._channel.outgoing, self.greeting["answer"])
-        self._views: dict[str, np.ndarray] = {}
+        self._layout: list[tuple[str, tuple[int, ...], np.dtype, int]] = []
+        self._block = slice(0, 0)
+        self._numbers: list[tuple[struct.Struct, int]] = []
         self._actions: np.ndarray | None = None
 
     def _hear(self, *expected: bytes) -> bytes:
@@ -93,11 +98,32 @@ class Worker:
     def receive(self) -> bytes:
         return self._hear(DECIDE, ENDED)
 
-    def view(self, name: str) -> np.ndarray:
-        """An array of the present decision. Arrays stay in their places, because their sizes do."""
-        if name not in self._views:
-            self._views[name] = self._question[name]
-        return self._views[name]
+    def copied(self, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, np.ndarray]:
+        """Arrays of the present decision, the caller's to keep: one copy of the memory that holds them, and a view for each.
+
+        They stay in their places, because their sizes do, so these are looked up once.
+        """
+        if not self._layout:
+            places = {name: self._question.place(name)[0] for name in shapes}
+            first = min(places.values())
+            kinds = {name: self._question.columns[name][0] for name in shapes}
+            last = max(places[name] + kinds[name].itemsize * math.prod(shape) for name, shape in shapes.items())
+            self._block = slice(first, last)
+            self._layout = [(name, shape, kinds[name], places[name] - first) for name, shape in shapes.items()]
+        assert self._channel is not None
+        block = bytearray(self._channel.incoming[self._block])
+        return {name: np.ndarray(shape, kind, block, offset) for name, shape, kind, offset in self._layout}
+
+    def numbers(self) -> tuple[float, float, float, int, int]:
+        """Time, s; delay of emergency vehicles and of others since the last decision, s; whether all emergency vehicles have
+        come and gone; illegal actions of the last decision."""
+        if not self._numbers:
+            self._numbers = [(struct.Struct(form), self._question.place(name)[0])
+                             for name, form in (("time_s", "<d"), ("score_s", "<2d"), ("flags", "<2I"))]
+        assert self._channel is not None
+        memory = self._channel.incoming
+        (time, time_at), (score, score_at), (flags, flags_at) = self._numbers
+        return time.unpack_from(memory, time_at) + score.unpack_from(memory, score_at) + flags.unpack_from(memory, flags_at)
 
     def end(self) -> dict[str, Any]:
         """What the worker says at the end of a run."""

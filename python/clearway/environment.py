@@ -136,8 +136,8 @@ class Env(_Base):
             self._workers.pop(seed, None)
             raise
         self._state, self._seed = "running", seed
-        self._last = self._observation()
-        return self._last, self._info()
+        self._last = self._worker.copied(self._shapes)
+        return self._last, self._info(*self._worker.numbers())
 
     def _seed_generator(self, seed: int) -> None:
         self._np_random, self._np_random_seed = np.random.Generator(np.random.PCG64(seed)), seed
@@ -156,7 +156,7 @@ class Env(_Base):
         self._worker.send(self._checked(action))
 
     def _checked(self, action: Any) -> np.ndarray:
-        actions = np.asarray(action)
+        actions = action if type(action) is np.ndarray else np.asarray(action)
         if actions.shape != self._nvec.shape or actions.dtype.kind not in "iu":
             raise _program.InputError(f"an action of shape {actions.shape} and type {actions.dtype} (allowed: {len(self._nvec)} whole "
                                       "numbers, one for each signal, then one for each automated vehicle)")
@@ -175,12 +175,13 @@ class Env(_Base):
             raise
         if bell == ENDED:
             return self._last_step(self._worker.end())
-        emergency_s, others_s = self._worker.view("score_s").tolist()
-        self._last = self._observation()
-        terminated = self.until == "emergency" and bool(self._worker.view("flags")[0])
+        numbers = self._worker.numbers()
+        _, emergency_s, others_s, all_gone, _ = numbers
+        self._last = self._worker.copied(self._shapes)
+        terminated = self.until == "emergency" and bool(all_gone)
         if terminated:
             self._state = "over"
-        return self._last, self._reward(emergency_s, others_s), terminated, False, self._info()
+        return self._last, self._reward(emergency_s, others_s), terminated, False, self._info(*numbers)
 
     def _last_step(self, end: dict[str, Any]) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
         self._state = "over"
@@ -193,19 +194,14 @@ class Env(_Base):
     def _reward(self, emergency_s: float, others_s: float) -> float:
         return -(emergency_s + self.others_weight * others_s)
 
-    def _observation(self) -> dict[str, np.ndarray]:
-        view = self._worker.view
-        return {name: view(name).reshape(shape).copy() for name, shape in self._shapes.items()}
+    def _info(self, time_s: float, emergency_s: float, others_s: float, _: int, illegal: int) -> dict[str, Any]:
+        self._time_s = time_s
+        return {"seed": self._seed, "time_s": time_s, "emergency_delay_s": emergency_s, "others_delay_s": others_s,
+                "illegal_actions": illegal}
 
-    def _info(self) -> dict[str, Any]:
-        view = self._worker.view
-        emergency_s, others_s = view("score_s").tolist()
-        return {"seed": self._seed, "time_s": view("time_s").item(), "emergency_delay_s": emergency_s, "others_delay_s": others_s,
-                "illegal_actions": view("flags")[1].item()}
-
-    def action_masks(self) -> list[np.ndarray]:
-        """Legal choices of each part of the present action, as ``action_space.sample(mask)`` of newer Gymnasium takes it."""
-        return np.split(self._last["action_mask"].astype(np.int8), np.cumsum(self._choices)[:-1])
+    def action_masks(self) -> tuple[np.ndarray, ...]:
+        """Legal choices of each part of the present action, as ``action_space.sample(mask)`` takes it."""
+        return tuple(np.split(self._last["action_mask"].astype(np.int8), np.cumsum(self._choices)[:-1]))
 
     def render(self) -> str | None:
         """One line about the EV, with ``render_mode="ansi"``."""
@@ -213,7 +209,7 @@ class Env(_Base):
             return None
         present, speed, allowed, lane, _, line = self._last["emergency"].tolist()
         place = f"EV at {speed:.1f} of {allowed:.1f} m/s on lane {lane:.0f}, next stop line in {line:.0f} m" if present else "no EV"
-        return f"{self._info()['time_s']:.2f} s: {place}, {int(self._last['vehicle_mask'].sum())} vehicles near"
+        return f"{self._time_s:.2f} s: {place}, {int(self._last['vehicle_mask'].sum())} vehicles near"
 
     def close(self) -> None:
         """Ends the processes. May be called again."""
@@ -238,6 +234,7 @@ class Env(_Base):
 if _Base is object:
     Env.unwrapped = property(lambda self: self)
     Env.np_random = property(lambda self: self._np_random)
+    Env.np_random_seed = property(lambda self: self._np_random_seed)
 
 
 def _remove(folder: str, owner: int) -> None:

@@ -24,16 +24,16 @@ class VectorEnv(_Base):
     ``step``, which ignores its action and gives it reward 0 (Gymnasium's ``NEXT_STEP``).
     """
 
-    metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
+    metadata: dict[str, Any] = {"render_modes": []}
     render_mode = None
 
     def __init__(self, scenario: str | Path, count: int, *, seeds: Sequence[int] = range(8), **arguments: Any) -> None:
+        self.envs: list[Env] = []
+        self.closed = False
         if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(seeds):
             raise _program.InputError(f"count is {count!r} (allowed: 1 to {len(seeds)}, the number of seeds)")
-        if _Base is not object:
-            self.metadata = {**self.metadata, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+        self.metadata = {**self.metadata, "autoreset_mode": _next_step()}
         self.num_envs = count
-        self.envs: list[Env] = []
         try:
             for number in range(count):
                 self.envs.append(Env(scenario, seeds=list(seeds)[number::count], **arguments))
@@ -74,14 +74,22 @@ class VectorEnv(_Base):
         return _stacked(observations), np.array(rewards), np.array(terminated), np.array(truncated), _infos(infos)
 
     def close(self, **_: Any) -> None:
+        """Closes all. May be called again."""
         for one in self.envs:
             one.close()
+        self.closed = True
 
     def __enter__(self) -> "VectorEnv":
         return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()
+
+
+def _next_step() -> Any:
+    """How Gymnasium says that an ended episode begins anew at the next step: a word before 1.1, an enumeration since."""
+    modes = None if _Base is object else getattr(gymnasium.vector, "AutoresetMode", None)
+    return "NextStep" if modes is None else modes.NEXT_STEP
 
 
 def _stacked(observations: Sequence[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:

@@ -1,4 +1,4 @@
-"""Environments: the interface, seeds, equality with runs, and ends. Where gymnasium and pettingzoo are installed, their own checks too."""
+"""Environments: the interface, seeds, equality with runs, and ends. What checkers of others assert: conformance_test."""
 import gc
 import multiprocessing
 import os
@@ -11,7 +11,6 @@ from pathlib import Path
 
 import clearway
 import numpy as np
-from clearway import _spaces
 from support import FolderCase
 
 
@@ -155,12 +154,6 @@ class InterfaceTest(FolderCase):
         self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
         self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
 
-    def test_gymnasium_accepts_it(self) -> None:
-        if not _spaces.installed("gymnasium"):
-            self.skipTest("gymnasium is not installed (it is in no Debian package)")
-        from gymnasium.utils.env_checker import check_env
-        check_env(self.env, skip_render_check=False)
-
 
 def space_choice(mask: np.ndarray) -> int:
     return int(np.flatnonzero(mask)[-1])
@@ -196,6 +189,12 @@ class EndTest(FolderCase):
         self.assertTrue(wait_until(lambda: set(children(os.getpid())) <= before))
         self.assertFalse(folder.exists())
         self.assertIn("is closed", self.message_of(clearway.ClearwayError, env.reset))
+        self.assertIn("is closed", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
+        self.assertIsNone(env.render())
+
+    def test_a_step_before_the_first_reset_is_refused(self) -> None:
+        with clearway.env("intersection", seeds=[0]) as env:
+            self.assertIn("call reset() first", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
 
     def test_a_forgotten_environment_ends(self) -> None:
         before = set(children(os.getpid()))
@@ -212,15 +211,19 @@ class EndTest(FolderCase):
         queue = multiprocessing.get_context("fork").Queue()
 
         def use() -> None:
-            try:
-                env.reset()
-            except clearway.ClearwayError as error:
-                queue.put(str(error))
+            for call in (env.reset, lambda: env.step(no_action(env))):
+                try:
+                    call()
+                except clearway.ClearwayError as error:
+                    queue.put(str(error))
+            env.close()  # of no effect on the parent's
 
         child = multiprocessing.get_context("fork").Process(target=use)
         child.start()
-        self.assertIn("make one in this process", queue.get(timeout=60))
+        for _ in range(2):
+            self.assertIn("make one in this process", queue.get(timeout=60))
         child.join()
+        self.assertEqual(child.exitcode, 0)
         env.step(no_action(env))  # the parent's goes on
 
     def test_killed_parents_leave_no_process(self) -> None:
@@ -281,14 +284,6 @@ class ParallelTest(FolderCase):
         self.assertIn("call reset()", self.message_of(clearway.ClearwayError, lambda: env.step({})))
         env.reset()
         self.assertIn("there is no agent", self.message_of(clearway.InputError, lambda: env.step({"signal:x": 0})))
-
-    def test_pettingzoo_accepts_it(self) -> None:
-        if not _spaces.installed("pettingzoo"):
-            self.skipTest("pettingzoo is not installed (it is in no Debian package)")
-        from pettingzoo.test import parallel_api_test
-        env = clearway.parallel_env("intersection", seeds=[0])
-        self.addCleanup(env.close)
-        parallel_api_test(env, num_cycles=50)
 
 
 class VectorTest(FolderCase):

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 import clearway
-from support import FolderCase, SOURCE, program
+from support import FolderCase, PROGRAMS, SOURCE, program
 
 GALLERY = SOURCE / "examples/python"
 
@@ -23,11 +23,16 @@ class GalleryTest(FolderCase):
 
     def test_study_with_plot_draws_each_condition(self) -> None:
         said = self.example("study_with_plot.py", "runs", "1")
+        gains = {one.condition: -one.difference for one in clearway.open("runs").paired_differences("emergency_travel_time_s")}
+        self.assertEqual(set(gains), {"signals", "lanes", "mine"})
+        self.assertGreater(gains["signals"], 10.0)
+        self.assertGreater(gains["mine"], 10.0)
+        self.assertNotEqual(gains["lanes"], 0.0)  # automated vehicles did leave the lane
         if importlib.util.find_spec("matplotlib"):
             self.assertGreater((self.folder / "runs/study.png").stat().st_size, 5000)
         else:
-            for condition in ("signals", "lanes", "mine"):
-                self.assertRegex(said, rf"{condition} +[-+]\d+\.\d s")
+            for condition, gain in gains.items():
+                self.assertIn(f"{condition:>8} {-gain:+7.1f} s", said)
 
     def test_the_policy_and_the_predictor_run_together(self) -> None:
         program("run", "intersection", "--policy", f"{GALLERY}/yield_policy.py:Yield", "--failure", "B10", "--predictor",
@@ -37,9 +42,8 @@ class GalleryTest(FolderCase):
         self.assertIn("hold_green", set(leases["action"]))
         self.assertGreater(results.runs.where(condition="mine")["dark_links_true_positive"][0], 0)
 
+    @unittest.skipUnless(importlib.util.find_spec("torch"), "torch is not installed (Debian: python3-torch)")
     def test_a_policy_is_trained_and_scored(self) -> None:
-        if not importlib.util.find_spec("torch"):
-            self.skipTest("torch is not installed (Debian: python3-torch)")
         said = self.example("train_signals.py", "--steps", "512", "--seeds", "1", "--out", "ppo")
         for condition in ("corridor", "signals", "ppo"):
             self.assertIn(f"intersection: {condition} - baseline, others_time_loss_s", said)
@@ -66,10 +70,24 @@ class GalleryTest(FolderCase):
         self.assertGreater(space["lost_s"], 0.0)
 
 
-class TorchScriptTest(FolderCase):
+def has_torch() -> bool:
+    return importlib.util.find_spec("torch") is not None
+
+
+class TorchTest(FolderCase):
+    def test_weights_of_the_dissertations_net_are_a_predictor(self) -> None:
+        subprocess.run([sys.executable, str(SOURCE / "tests/prediction/write_pth.py"), "."], check=True)
+        results = clearway.run("intersection", [
+            clearway.Condition("net", policy="dissertation", failure="B10", predictor="graphsage_corrected",
+                               model="good.pth")], seeds=1, out="runs")
+        self.assertEqual(results.errors.row_count, 0)
+        self.assertIn(f"{self.folder}/good.pth", (self.folder / "runs/manifest.json").read_text())
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--predictor", "good.pth", "--policy", "corridor", "--out", "other"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("--predictor graphsage_corrected --model", ended.stderr)
+
+    @unittest.skipUnless(has_torch(), "torch is not installed (Debian: python3-torch)")
     def test_a_torch_script_is_a_predictor(self) -> None:
-        if not importlib.util.find_spec("torch"):
-            self.skipTest("torch is not installed (Debian: python3-torch)")
         import torch
 
         class Near(torch.nn.Module):
@@ -87,8 +105,8 @@ class TorchScriptTest(FolderCase):
         self.assertEqual(script["dark_links_true_positive"][0], plain["dark_links_true_positive"][0])
         self.assertGreater(plain["dark_links_true_positive"][0], 0)
         (self.folder / "no.pt").write_bytes(b"nothing")
-        ended = program("run", "intersection", "--predictor", "no.pt", "--policy", "corridor", "--out", "other", code=3)
-        self.assertEqual(ended, "")
+        self.assertIn("is not a TorchScript file", self.message_of(clearway.InputError, lambda: clearway.run(
+            "intersection", [clearway.Condition("no", policy="corridor", predictor="no.pt")], seeds=1, out="other")))
 
 
 if __name__ == "__main__":
