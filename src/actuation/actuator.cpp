@@ -58,6 +58,7 @@ struct Actuator::State {
     std::vector<detail::LinkHistory> histories;  ///< By signal; empty where clearance is fixed.
     std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
+    std::vector<core::VehicleKey> heeding;
 
     bool keeps_clearance() const { return config.clearance != ClearanceRule::fixed; }
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
@@ -140,7 +141,7 @@ struct Actuator::State {
 };
 
 Actuator::Actuator(const roads::Network& network, Config config)
-    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, {}, {}, std::nullopt})) {}
+    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, {}, {}, std::nullopt, {}})) {}
 
 Actuator::~Actuator() = default;
 
@@ -161,6 +162,10 @@ void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now,
     }
 }
 
+void Actuator::heed(std::span<const core::VehicleKey> drivers) {
+    state_->heeding.assign(drivers.begin(), drivers.end());
+}
+
 void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                     const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
     State& state = *state_;
@@ -168,7 +173,8 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     const core::Seconds step = state.last_step ? now - *state.last_step : core::Seconds(0.0);
     state.last_step = now;
     const detail::VehicleContext around{
-        state.network, snapshot, roster, self, state.config.safety_checks, state.config.lateral_model, step,
+        state.network, snapshot,      roster, self, state.config.safety_checks, state.config.lateral_model,
+        step,          state.heeding,
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);

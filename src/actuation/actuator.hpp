@@ -31,14 +31,14 @@ namespace clearway::actuation {
 ///   `no_such_signal`, `wrong_target`;
 /// - `unreachable`: commands do not reach it now;
 /// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
-/// - human drivers take no leases, only emergency vehicles pass red: `not_controllable`,
+/// - human drivers take no leases unless they heed them, only emergency vehicles pass red:
+/// `not_controllable`,
 ///   `not_an_emergency_vehicle`;
 /// - `above_allowed_speed`: faster than the road limit or the vehicle allows;
 /// - `cannot_stop_comfortably`: a stop that needs more than the vehicle's usual deceleration;
 /// - there is no such lane for this vehicle: `on_a_junction`, `no_such_lane`, `lane_not_allowed`;
 /// - `lane_does_not_continue`: neither a best lane for its route nor drivable for over 300 m;
 /// - `no_room_beside`: the vehicle itself would not change now;
-/// - `needs_sublane_model`: lateral positions without the sublane model;
 /// - `outranked`, `hold_cap`, `lockout`: see Config;
 /// - a green that cannot be granted: `no_phase_serves`, `unknown_program` (the signal runs a program other
 ///   than its initial one).
@@ -60,6 +60,9 @@ class Actuator {
     /// running ones expire there.
     void accept(std::span<const traffic::Lease> leases, core::Seconds now,
                 std::span<const core::VehicleKey> unreachable = {});
+
+    /// Human drivers who take leases from now on, ordered by key. At first there are none.
+    void heed(std::span<const core::VehicleKey> drivers);
 
     /// Appends the commands for this step: vehicles by key, then signals. `snapshot` and `self` are what
     /// vehicles know about themselves. Call once per step, in order of time.

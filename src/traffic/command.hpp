@@ -32,11 +32,18 @@ struct RequestLane {
 struct ReleaseLane {
     core::VehicleKey vehicle;
 };
-/// Where a vehicle drives within its lane (sublane model only).
-enum class LateralAlignment : std::uint8_t { usual, right, left };
+/// Where a vehicle drives within its lane (sublane model only). `free`: anywhere, also across the line
+/// between two lanes.
+enum class LateralAlignment : std::uint8_t { usual, right, left, free };
 struct SetLateralAlignment {
     core::VehicleKey vehicle;
     LateralAlignment alignment = LateralAlignment::usual;
+};
+/// Move sideways by `shift` as soon as the vehicle can, positive to the left (sublane model only). A new one
+/// replaces the former.
+struct SteerSideways {
+    core::VehicleKey vehicle;
+    core::Metres shift;
 };
 /// What a vehicle may do at junctions beyond the usual: `pass_red` drives through red slowly and yielding.
 enum class JunctionPrivilege : std::uint8_t { none, pass_red };
@@ -63,13 +70,17 @@ struct SetSafetyChecks {
     core::VehicleKey vehicle;
     SafetyChecks checks = SafetyChecks::on;
 };
+/// Where a vehicle stands that stops: in its lane, or beside the road, where it is in nobody's way.
+enum class StopPlace : std::uint8_t { on_lane, beside_road };
 /// Stop at `position` on the present lane, or as soon after it as the usual deceleration allows. Has no
 /// effect, and is counted, if that is beyond the end of the lane.
 struct StopOnLane {
     core::VehicleKey vehicle;
     core::Metres position;
     core::Seconds duration;
+    StopPlace place = StopPlace::on_lane;
 };
+/// Ends a StopOnLane, also before it is reached. A vehicle beside the road returns when there is room.
 struct ResumeFromStop {
     core::VehicleKey vehicle;
 };
@@ -88,6 +99,6 @@ struct RestoreProgram {
 
 using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks,
                              StopOnLane, ResumeFromStop, SetSignalState, RestoreProgram, ReleaseLane,
-                             SetLateralAlignment, SetJunctionPrivilege>;
+                             SetLateralAlignment, SetJunctionPrivilege, SteerSideways>;
 
 }  // namespace clearway::traffic

@@ -22,7 +22,8 @@ struct ChangeLane {
 };
 /// Do not change lanes except where the route demands it.
 struct HoldLane {};
-/// Stand at the side of the road: sublane model only, towards the right or the left edge of the lane.
+/// Make room at the side: in the sublane model drive at the right or the left edge of the lane; without it
+/// stop beside the road, until the lease ends.
 enum class Side : std::uint8_t { right, left };
 struct PullAside {
     Side side = Side::right;

@@ -264,22 +264,73 @@ TEST(PassRedLease, is_for_emergency_vehicles_only) {
     EXPECT_EQ(bench.counts("policy/pass_red").refused.at("not_an_emergency_vehicle"), 1U);
 }
 
-TEST(PullAsideLease, needs_the_sublane_model) {
-    ActuationBench without;
-    const auto vehicle = without.add(automated("a"));
-    without.offer(vehicle, traffic::PullAside{traffic::Side::left});
-    EXPECT_TRUE(without.step().empty());
-    EXPECT_EQ(without.counts("policy/pull_aside").refused.at("needs_sublane_model"), 1U);
-
+TEST(PullAsideLease, keeps_to_an_edge_of_the_lane_in_the_sublane_model) {
     actuation::Actuator::Config config;
     config.lateral_model = traffic::LateralModel::sublane;
-    ActuationBench with(0.25, config);
-    with.add(automated("a"));
-    with.offer(vehicle, traffic::PullAside{traffic::Side::left}, 1.0);
-    const auto set = with.only<traffic::SetLateralAlignment>(with.run_until(2.0));
+    ActuationBench bench(0.25, config);
+    const auto vehicle = bench.add(automated("a"));
+    bench.offer(vehicle, traffic::PullAside{traffic::Side::left}, 1.0);
+    const auto commands = bench.run_until(2.0);
+    const auto set = bench.only<traffic::SetLateralAlignment>(commands);
     ASSERT_EQ(set.size(), 2U);
     EXPECT_EQ(set[0].alignment, traffic::LateralAlignment::left);
     EXPECT_EQ(set[1].alignment, traffic::LateralAlignment::usual);
+    EXPECT_TRUE(bench.only<traffic::StopOnLane>(commands).empty());
+}
+
+TEST(PullAsideLease, stops_beside_the_road_without_the_sublane_model_and_returns_when_it_ends) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a"));
+    bench.offer(vehicle, traffic::PullAside{}, 5.0);
+    const auto stopping = bench.run_until(2.0);
+    ASSERT_EQ(bench.only<traffic::StopOnLane>(stopping).size(), 1U);
+    EXPECT_EQ(bench.only<traffic::StopOnLane>(stopping)[0].place, traffic::StopPlace::beside_road);
+    EXPECT_EQ(stopping.size(), 1U);
+    bench.on_road.erase(vehicle);  // it stands beside the road now
+    EXPECT_TRUE(bench.run_until(4.75).empty());
+    EXPECT_EQ(bench.only<traffic::ResumeFromStop>(bench.run_until(8.0)).size(), 1U);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+    EXPECT_EQ(bench.counts("policy/pull_aside").acted, 1U);
+    EXPECT_EQ(bench.counts("policy/pull_aside").expired, 1U);
+    EXPECT_TRUE(bench.counts("policy/pull_aside").refused.empty());
+}
+
+TEST(PullAsideLease, that_is_renewed_keeps_the_vehicle_beside_the_road) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a"));
+    bench.offer(vehicle, traffic::PullAside{}, 2.0);
+    bench.run_until(1.0);
+    bench.on_road.erase(vehicle);
+    for (const double second : {2.0, 3.0, 4.0}) {
+        bench.offer(vehicle, traffic::PullAside{}, 2.0);
+        EXPECT_TRUE(bench.run_until(second).empty());
+    }
+    EXPECT_EQ(bench.only<traffic::ResumeFromStop>(bench.run_until(6.0)).size(), 1U);
+}
+
+TEST(PullAsideLease, of_a_vehicle_beside_the_road_is_given_back_by_restore_all) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a"));
+    bench.offer(vehicle, traffic::PullAside{}, 60.0);
+    bench.step();
+    bench.on_road.erase(vehicle);
+    bench.step();
+    std::vector<traffic::Command> commands;
+    bench.actuator.restore_all(commands);
+    ASSERT_EQ(commands.size(), 1U);
+    EXPECT_EQ(bench.only<traffic::ResumeFromStop>(commands)[0].vehicle, vehicle);
+}
+
+TEST(PullAsideLease, is_refused_on_a_junction_and_where_the_lane_is_too_short_to_stop) {
+    ActuationBench bench;
+    const auto late = bench.add(automated("late", 480.0, 16.0));
+    const auto crossing = bench.add(automated("crossing"));
+    bench.on_road.at(crossing).lane = two_crossings().find_lane(":A_13_0").value();
+    bench.offer(late, traffic::PullAside{});
+    bench.offer(crossing, traffic::PullAside{});
+    EXPECT_TRUE(bench.step().empty());
+    EXPECT_EQ(bench.counts("policy/pull_aside").refused.at("cannot_stop_comfortably"), 1U);
+    EXPECT_EQ(bench.counts("policy/pull_aside").refused.at("on_a_junction"), 1U);
 }
 
 TEST(SafetyChecks, switched_off_are_off_for_controlled_vehicles_and_come_back_with_the_last_lease) {

@@ -63,6 +63,7 @@ TEST(Commands, WhatSumoWouldSwallowThrows) {
         traffic::StopOnLane{a, core::Metres(5000.0), core::Seconds(2.0)},
         traffic::StopOnLane{a, core::Metres(100.0), core::Seconds(infinity)},
         traffic::SetLateralAlignment{a, traffic::LateralAlignment::right},
+        traffic::SteerSideways{a, core::Metres(1.0)},
         traffic::SetSignalState{c, std::string(links - 1, 'r')},
         traffic::SetSignalState{c, std::string(links + 1, 'r')},
         traffic::SetSignalState{c, std::string(links, 'x')},
@@ -208,6 +209,49 @@ TEST(Commands, AlignmentMovesAVehicleWithinItsLaneAndBack) {
     apply(session, traffic::SetLateralAlignment{key("a"), traffic::LateralAlignment::usual});
     step_until(session, 18.0);
     EXPECT_NEAR(across(session, "a"), usual_m, 0.1F);
+}
+
+TEST(Commands, AVehicleBesideTheRoadIsInNobodysWayAndReturnsWhenItResumes) {
+    const Scene scene;
+    Session session(
+        scene.config(scene.straight_road(),
+                     one_vehicle() + vehicle("b", "hv", 30, "in out", R"(departSpeed="10" departLane="0")")));
+    session.step();
+    apply(session, traffic::StopOnLane{key("a"), core::Metres(100.0), core::Seconds(500.0),
+                                       traffic::StopPlace::beside_road});
+    step_until(session, 25.0);
+    EXPECT_FALSE(session.snapshot().row_of(key("a"))) << "beside the road";
+    apply(session, traffic::SetLaneChangeFreedom{key("b"), traffic::LaneChangeFreedom::none});
+    step_until(session, 60.0);
+    EXPECT_GT(place(session, "b"), 150.0F) << "passed on the same lane";
+    apply(session, traffic::ResumeFromStop{key("a")});
+    step_until(session, 70.0);
+    ASSERT_TRUE(session.snapshot().row_of(key("a")));
+    EXPECT_GT(speed(session, "a"), 5.0F);
+    step_until(session, 200.0);
+    EXPECT_FALSE(session.snapshot().row_of(key("a"))) << "arrived";
+    EXPECT_EQ(session.skipped_commands(), 0U);
+}
+
+TEST(Commands, AVehicleSteersAcrossTheLineBetweenTwoLanesAndBack) {
+    const Scene scene;
+    auto config = scene.config(scene.straight_road(), one_vehicle());
+    config.extra_arguments = {"--lateral-resolution", "0.5"};
+    Session session(config);
+    step_until(session, 2.0);
+    const float usual_m = across(session, "a");
+    apply(session, traffic::SetLaneChangeFreedom{key("a"), traffic::LaneChangeFreedom::none});
+    apply(session, traffic::SetLateralAlignment{key("a"), traffic::LateralAlignment::free});
+    const auto steer_to = [&](float target_m, double until_s) {
+        while (session.time().value < until_s) {
+            apply(session, traffic::SteerSideways{key("a"), core::Metres(target_m - across(session, "a"))});
+            session.step();
+        }
+    };
+    steer_to(usual_m + 1.6F, 12.0);
+    EXPECT_NEAR(across(session, "a"), usual_m + 1.6F, 0.2F) << "on the line";
+    steer_to(usual_m, 22.0);
+    EXPECT_NEAR(across(session, "a"), usual_m, 0.2F);
 }
 
 TEST(Commands, PrivilegedVehiclePassesRedSlowlyAndTheOthersDoNot) {

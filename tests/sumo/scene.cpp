@@ -44,6 +44,20 @@ std::filesystem::path Scene::straight_road() const {
     return folder() / "road.net.xml";
 }
 
+std::filesystem::path Scene::two_way_road() const {
+    const auto nodes = write("two_way.nod.xml",
+                             R"(<nodes><node id="w" x="0" y="0"/><node id="e" x="2000" y="0"/></nodes>)");
+    const auto one_lane = [](const char* id, const char* from, const char* to, const char* beside) {
+        return fmt::format(
+            R"(<edge id="{}" from="{}" to="{}" numLanes="1" speed="27.78"><lane index="0"><neigh lane="{}_0"/></lane></edge>)",
+            id, from, to, beside);
+    };
+    const auto edges = write("two_way.edg.xml", "<edges>" + one_lane("east", "w", "e", "west") +
+                                                    one_lane("west", "e", "w", "east") + "</edges>");
+    netconvert(nodes, edges, folder() / "two_way.net.xml");
+    return folder() / "two_way.net.xml";
+}
+
 std::filesystem::path Scene::crossing() const {
     const auto nodes = write("crossing.nod.xml",
                              R"(<nodes><node id="c" x="0" y="0" type="traffic_light"/>)"

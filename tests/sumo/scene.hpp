@@ -20,6 +20,8 @@ class Scene {
 
     /// Two edges of two lanes eastward, `in` (0 to 500 m) and `out` (500 to 1000 m), 13.89 m/s, no signal.
     std::filesystem::path straight_road() const;
+    /// Edges `east` and `west` of one lane, 2 km, 27.78 m/s; each may overtake on the other's lane.
+    std::filesystem::path two_way_road() const;
     /// A crossing at (0, 0) with a signal, `c`, and four arms of 200 m and two lanes: edges `west_in`,
     /// `east_out` and so on.
     std::filesystem::path crossing() const;

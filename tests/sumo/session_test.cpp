@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,6 +27,32 @@ using ::testing::Not;
 
 std::uint32_t row_of(const std::vector<std::string>& names, const std::string& name) {
     return static_cast<std::uint32_t>(std::ranges::find(names, name) - names.begin());
+}
+
+TEST(Session, VehicleThatOvertakesOnTheOncomingLaneCountsAsOnItsOwn) {
+    const Scene scene;
+    const auto config = scene.config(
+        scene.two_way_road(), vehicle("slow", "hv", 0, "east", R"(departPos="100" departSpeed="10")") +
+                                  vehicle("fast", "ev", 1, "east", R"(departSpeed="20")"));
+    Session session(config);
+    session.step();
+    const traffic::Command crawl = traffic::SetSpeed{key("slow"), core::MetresPerSecond(10.0)};
+    session.apply(std::span(&crawl, 1));
+    bool was_beside = false;
+    float place_m = 0.0F;
+    while (session.time().value < 60.0) {
+        session.step();
+        const auto row = session.snapshot().row_of(key("fast"));
+        if (!row) continue;
+        const truth::Snapshot& now = session.snapshot();
+        was_beside = was_beside || now.y_m[*row] > 0.5F;
+        ASSERT_EQ(config.names.lanes.at(now.lane[*row].value), "east_0");
+        EXPECT_NEAR(now.lane_position_m[*row], now.x_m[*row], 0.5F);
+        EXPECT_GE(now.lane_position_m[*row], place_m);
+        EXPECT_EQ(now.route_edge[*row], 0U);
+        place_m = now.lane_position_m[*row];
+    }
+    EXPECT_TRUE(was_beside) << "it did not overtake, so the test shows nothing";
 }
 
 TEST(Session, VehiclesDepartDriveAndArrive) {

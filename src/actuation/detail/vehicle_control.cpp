@@ -18,6 +18,8 @@ constexpr double speed_resolution_mps = 1e-3;
 constexpr double longest_lane_request_s = 3.0;
 /// A lane request is renewed when it has less than this left, s: longer than the longest step (1 s).
 constexpr double prolong_lane_request_s = 1.5;
+/// Longest stop beside the road, s, if its end should get lost by a fault; longer than any lease.
+constexpr double longest_stop_s = 600.0;
 /// A vehicle off the road for longer than this does not come back, s.
 constexpr double longest_absence_s = 600.0;
 
@@ -37,7 +39,7 @@ double braking_speed(double distance_m, double deceleration_mps2, double step_s)
 bool VehicleSettings::is_default() const {
     return !speed && !lane && freedom == traffic::LaneChangeFreedom::normal &&
            alignment == traffic::LateralAlignment::usual && privilege == traffic::JunctionPrivilege::none &&
-           checks == traffic::SafetyChecks::on;
+           checks == traffic::SafetyChecks::on && !beside_road;
 }
 
 VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action) {
@@ -76,13 +78,26 @@ void VehicleControl::step(const VehicleContext& around, Ledger& ledger,
     const auto row = around.snapshot.row_of(vehicle_);
     const traffic::VehicleInfo* info = around.roster.find(vehicle_);
     if (!row || info == nullptr) {
+        wait_off_road(now, ledger, commands);
+        return;
+    }
+    away_since_.reset();
+    if (info->vehicle_class == traffic::VehicleClass::human &&
+        !std::ranges::binary_search(around.heeding, vehicle_))
+        drop_all("not_controllable", ledger);
+    apply(judge(around, {*row, *info}, ledger), now, commands);
+}
+
+void VehicleControl::wait_off_road(core::Seconds now, Ledger& ledger,
+                                   std::vector<traffic::Command>& commands) {
+    if (!applied_.beside_road) {
         drop_all("vehicle_gone", ledger);
         if (!away_since_) away_since_ = now;
         return;
     }
-    away_since_.reset();
-    if (info->vehicle_class == traffic::VehicleClass::human) drop_all("not_controllable", ledger);
-    apply(judge(around, {*row, *info}, ledger), now, commands);
+    HeldLease* const held = queues_[lateral].best();
+    if (held == nullptr || !std::holds_alternative<traffic::PullAside>(held->lease.action))
+        apply_stop(VehicleSettings{}, commands);
 }
 
 VehicleSettings VehicleControl::judge(const VehicleContext& around, const Place& place, Ledger& ledger) {
@@ -170,21 +185,38 @@ void VehicleControl::judge_lateral(const VehicleContext& around, const Place& pl
     if (std::holds_alternative<traffic::HoldLane>(held->lease.action)) {
         settings.freedom = traffic::LaneChangeFreedom::strategic_only;
         LeaseQueue::act(*held, ledger);
-    } else if (const auto* aside = std::get_if<traffic::PullAside>(&held->lease.action)) {
-        if (around.lateral_model == traffic::LateralModel::lane) {
-            LeaseQueue::refuse(*held, "needs_sublane_model", ledger);
-            return;
-        }
-        settings.freedom = traffic::LaneChangeFreedom::none;
-        settings.alignment = aside->side == traffic::Side::right ? traffic::LateralAlignment::right
-                                                                 : traffic::LateralAlignment::left;
-        LeaseQueue::act(*held, ledger);
+    } else if (std::holds_alternative<traffic::PullAside>(held->lease.action)) {
+        judge_aside(around, place, settings, *held, ledger);
     } else if (has_left_edge(around, place, *held)) {
         queues_[lateral].end_best(ledger);
     } else {
         settings.lane = judge_lane(around, place, *held, ledger);
         if (settings.lane) LeaseQueue::act(*held, ledger);
     }
+}
+
+/// In the sublane model the vehicle keeps to an edge of its lane. Without it, it stops beside the road, if it
+/// can before the end of its lane; once it has begun to, it goes on.
+void VehicleControl::judge_aside(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                                 HeldLease& held, Ledger& ledger) const {
+    if (around.lateral_model == traffic::LateralModel::sublane) {
+        settings.freedom = traffic::LaneChangeFreedom::none;
+        settings.alignment = std::get<traffic::PullAside>(held.lease.action).side == traffic::Side::right
+                                 ? traffic::LateralAlignment::right
+                                 : traffic::LateralAlignment::left;
+        return LeaseQueue::act(held, ledger);
+    }
+    const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
+    const double speed_mps = around.snapshot.speed_mps[place.row];
+    const double room_m = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
+    const double braking_m =
+        speed_mps * speed_mps / (2.0 * place.info.deceleration_mps2) + speed_mps * around.step.value;
+    if (!applied_.beside_road && around.network.edge(lane.edge).internal)
+        return LeaseQueue::refuse(held, "on_a_junction", ledger);
+    if (!applied_.beside_road && braking_m > room_m)
+        return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+    settings.beside_road = true;
+    LeaseQueue::act(held, ledger);
 }
 
 std::optional<LaneRequest> VehicleControl::judge_lane(const VehicleContext& around, const Place& place,
@@ -241,7 +273,19 @@ void VehicleControl::apply(const VehicleSettings& wanted, core::Seconds now,
     applied_.freedom = wanted.freedom;
     applied_.alignment = wanted.alignment;
     applied_.privilege = wanted.privilege;
+    apply_stop(wanted, commands);
     apply_lane(wanted, now, commands);
+}
+
+/// A stop at the start of the lane means as soon as the usual deceleration allows.
+void VehicleControl::apply_stop(const VehicleSettings& wanted, std::vector<traffic::Command>& commands) {
+    if (wanted.beside_road == applied_.beside_road) return;
+    applied_.beside_road = wanted.beside_road;
+    if (wanted.beside_road)
+        commands.push_back(traffic::StopOnLane{vehicle_, core::Metres(0.0), core::Seconds(longest_stop_s),
+                                               traffic::StopPlace::beside_road});
+    else
+        commands.push_back(traffic::ResumeFromStop{vehicle_});
 }
 
 void VehicleControl::apply_lane(const VehicleSettings& wanted, core::Seconds now,

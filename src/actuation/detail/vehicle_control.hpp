@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "actuation/actuator_config.hpp"
@@ -22,7 +23,8 @@ struct VehicleContext {
     const truth::SelfKnowledge& self;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
-    core::Seconds step;  ///< Time since the last step; 0 at the first.
+    core::Seconds step;                         ///< Time since the last step; 0 at the first.
+    std::span<const core::VehicleKey> heeding;  ///< Human drivers who take leases, ordered.
 };
 
 /// A lane that a vehicle is kept on.
@@ -39,6 +41,7 @@ struct VehicleSettings {
     traffic::LateralAlignment alignment = traffic::LateralAlignment::usual;
     traffic::JunctionPrivilege privilege = traffic::JunctionPrivilege::none;
     traffic::SafetyChecks checks = traffic::SafetyChecks::on;
+    bool beside_road = false;  ///< Stands beside the road, or is about to.
 
     bool is_default() const;
 };
@@ -67,6 +70,8 @@ class VehicleControl {
     static Channel channel_of(const traffic::Action& action);
 
     void drop_all(const char* reason, Ledger& ledger);
+    /// For a vehicle that is not on the road: it may stand beside it because of a lease.
+    void wait_off_road(core::Seconds now, Ledger& ledger, std::vector<traffic::Command>& commands);
     VehicleSettings judge(const VehicleContext& around, const Place& place, Ledger& ledger);
     void judge_speed(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                      Ledger& ledger);
@@ -75,9 +80,12 @@ class VehicleControl {
                                                     HeldLease& held, Ledger& ledger) const;
     void judge_lateral(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                        Ledger& ledger);
+    void judge_aside(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                     HeldLease& held, Ledger& ledger) const;
     std::optional<LaneRequest> judge_lane(const VehicleContext& around, const Place& place, HeldLease& held,
                                           Ledger& ledger) const;
     void apply(const VehicleSettings& wanted, core::Seconds now, std::vector<traffic::Command>& commands);
+    void apply_stop(const VehicleSettings& wanted, std::vector<traffic::Command>& commands);
     void apply_lane(const VehicleSettings& wanted, core::Seconds now,
                     std::vector<traffic::Command>& commands);
 

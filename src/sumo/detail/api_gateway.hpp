@@ -35,6 +35,7 @@ inline constexpr int change_to_right = 1 << 2;
 inline constexpr int change_unknown = 1 << 30;
 inline constexpr int change_blocked =
     (1 << 9) | (1 << 10) | (1 << 11) | (1 << 12) | (1 << 14) | (1 << 28);  // vehicles, space, speed
+inline constexpr int parking_flag = 1;                                     // bit 0 of the flags of setStop
 inline constexpr int stopped_flag = 1;                                     // bit 0 of the stop state
 
 inline constexpr int above_vehicles = 200;  // a layer of sumo-gui
@@ -274,9 +275,15 @@ class ApiGateway : public Sumo {
         call([&] { api::Vehicle::setLateralAlignment(vehicle, alignment); });
     }
 
+    void change_sublane(const std::string& vehicle, double shift_m) override {
+        call([&] { api::Vehicle::changeSublane(vehicle, shift_m); });
+    }
+
     void stop(const std::string& vehicle, const Stop& stop) override {
         call([&] {
-            api::Vehicle::setStop(vehicle, stop.edge, stop.position_m, stop.lane_number, stop.duration_s);
+            const int flags = stop.place == traffic::StopPlace::beside_road ? parking_flag : 0;
+            api::Vehicle::setStop(vehicle, stop.edge, stop.position_m, stop.lane_number, stop.duration_s,
+                                  flags);
         });
     }
 

@@ -103,7 +103,18 @@ void Commander::run(const traffic::SetLateralAlignment& command) {
             return sumo_.set_lateral_alignment(vehicle->id, "right");
         case traffic::LateralAlignment::left:
             return sumo_.set_lateral_alignment(vehicle->id, "left");
+        case traffic::LateralAlignment::free:
+            return sumo_.set_lateral_alignment(vehicle->id, "arbitrary");
     }
+}
+
+void Commander::run(const traffic::SteerSideways& command) {
+    require(lateral_ == traffic::LateralModel::sublane,
+            "steering sideways has no effect without the sublane model (--lateral-resolution)");
+    require(std::isfinite(command.shift.value),
+            fmt::format("a shift of {} m sideways is not a finite number", command.shift.value));
+    if (const Vehicle* vehicle = on_road(command.vehicle))
+        sumo_.change_sublane(vehicle->id, command.shift.value);
 }
 
 void Commander::run(const traffic::SetJunctionPrivilege& command) {
@@ -159,12 +170,13 @@ void Commander::run(const traffic::StopOnLane& command) {
     sumo_.stop(vehicle->id, {.edge = sumo_.edge_of(vehicle->id),
                              .lane_number = sumo_.lane_number(vehicle->id),
                              .position_m = position_m,
-                             .duration_s = command.duration.value});
+                             .duration_s = command.duration.value,
+                             .place = command.place});
     vehicle->controls.own_stop = sumo_.next_stop(vehicle->id);
 }
 
 void Commander::run(const traffic::ResumeFromStop& command) {
-    Vehicle* vehicle = on_road(command.vehicle);
+    Vehicle* vehicle = present(command.vehicle);  // one beside the road is not on it
     if (vehicle == nullptr || !vehicle->controls.own_stop) return;
     const bool is_ours = sumo_.next_stop(vehicle->id) == vehicle->controls.own_stop;
     vehicle->controls.own_stop.reset();

@@ -38,6 +38,7 @@ class Commander {
     void run(const traffic::RequestLane& command);
     void run(const traffic::ReleaseLane& command);
     void run(const traffic::SetLateralAlignment& command);
+    void run(const traffic::SteerSideways& command);
     void run(const traffic::SetJunctionPrivilege& command);
     void run(const traffic::SetLaneChangeFreedom& command);
     void run(const traffic::SetSafetyChecks& command);

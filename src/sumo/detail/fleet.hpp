@@ -41,6 +41,7 @@ struct Vehicle {
     float lane_position_m = 0.0F;
     float speed_mps = 0.0F;
     std::uint32_t route_edge = 0;
+    std::optional<double> opposite_of_m;  ///< On the lane of oncoming traffic: its length.
     bool braking_hard = false;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/units.hpp"
 #include "sumo/drawing.hpp"
+#include "traffic/command.hpp"
 
 // Every call to SUMO, in plain types. Each function turns whatever SUMO throws (TraCIException,
 // FatalTraCIError, or an undeclared ProcessError) into core::SimulatorError with SUMO's text; the caller adds
@@ -68,6 +69,7 @@ struct Stop {
     int lane_number = 0;
     double position_m = 0.0;
     double duration_s = 0.0;
+    traffic::StopPlace place = traffic::StopPlace::on_lane;
 };
 
 /// SUMO, wherever it runs. One simulation; single-threaded.
@@ -141,6 +143,8 @@ class Sumo {
     virtual void change_lane(const std::string& vehicle, int lane_number, double duration_s) = 0;
     virtual std::string lateral_alignment(const std::string& vehicle) = 0;
     virtual void set_lateral_alignment(const std::string& vehicle, const std::string& alignment) = 0;
+    /// To the left where it is positive.
+    virtual void change_sublane(const std::string& vehicle, double shift_m) = 0;
     virtual void stop(const std::string& vehicle, const Stop& stop) = 0;
     virtual bool is_stopped(const std::string& vehicle) = 0;
     /// Lane and end position of the next planned or running stop.

@@ -195,8 +195,10 @@ void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
         vehicle.lane = names_.lane(reading_.lane);
         vehicle.lane_id = reading_.lane;
         vehicle.route_edge = sumo_.route_index(vehicle.id);
+        look_for_oncoming_lane(vehicle);
     }
-    vehicle.lane_position_m = static_cast<float>(reading_.lane_position_m);
+    vehicle.lane_position_m = static_cast<float>(
+        vehicle.opposite_of_m ? *vehicle.opposite_of_m - reading_.lane_position_m : reading_.lane_position_m);
     vehicle.speed_mps = static_cast<float>(reading_.speed_mps);
     const std::uint32_t row = vehicle.row;
     snapshot.key[row] = vehicle.key;
@@ -209,6 +211,22 @@ void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
     snapshot.lane[row] = vehicle.lane;
     snapshot.lane_position_m[row] = vehicle.lane_position_m;
     snapshot.route_edge[row] = vehicle.route_edge;
+}
+
+/// A vehicle that overtakes on the lane of oncoming traffic counts as on the lane beside it, in its own
+/// direction: lanes and positions mean the way it drives. Its point on the plane is where it is.
+void Observer::look_for_oncoming_lane(Vehicle& vehicle) {
+    vehicle.opposite_of_m.reset();
+    if (is_internal(vehicle.lane_id)) return;
+    const std::vector<core::EdgeIndex>& known = roster_.route(roster_.find(vehicle.key)->route);
+    const std::string edge = vehicle.lane_id.substr(0, vehicle.lane_id.rfind('_'));
+    if (vehicle.route_edge < known.size() && names_.names().edges[known[vehicle.route_edge].value] == edge)
+        return;
+    const std::vector<std::string> route = sumo_.route_edges(vehicle.id);
+    if (vehicle.route_edge >= route.size() || route[vehicle.route_edge] == edge) return;
+    const std::string& own = route[vehicle.route_edge];
+    vehicle.lane = names_.lane(own + "_" + std::to_string(sumo_.lane_count(own) - 1));
+    vehicle.opposite_of_m = sumo_.lane_length_m(vehicle.lane_id);
 }
 
 void Observer::note_braking(Vehicle& vehicle, truth::Events& events) const {

@@ -60,6 +60,7 @@ class Observer {
     void take_parked();
     void read_vehicles(truth::Snapshot& snapshot, truth::Events& events);
     void store(Vehicle& vehicle, truth::Snapshot& snapshot);
+    void look_for_oncoming_lane(Vehicle& vehicle);
     void note_braking(Vehicle& vehicle, truth::Events& events) const;
     void follow_route(Vehicle& vehicle);
 
