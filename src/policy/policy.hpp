@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,6 +36,12 @@ struct PolicyContext {
     core::Seconds period{0.5};  ///< Time between two calls of `act`.
 };
 
+/// What a policy cannot do without.
+enum class Need : std::uint8_t {
+    sublane_model,  ///< Vehicles have a lateral position within their lane.
+    shoulder,       ///< The network has shoulders.
+};
+
 /// A registered policy.
 struct PolicyEntry {
     std::string name;
@@ -46,6 +53,7 @@ struct PolicyEntry {
     /// Settings are named with their component, `preempt_signals.lead_s`; those of other components are
     /// ignored.
     std::function<std::unique_ptr<Policy>(const PolicyContext& context, const core::Settings& settings)> make;
+    std::vector<Need> needs = {};
 };
 
 /// All registered policies.

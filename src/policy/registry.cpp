@@ -7,13 +7,18 @@
 #include "policy/corridor.hpp"
 #include "policy/dissertation.hpp"
 #include "policy/green_wave.hpp"
+#include "policy/hold_cross.hpp"
 #include "policy/line_of_sight.hpp"
 #include "policy/listing_5_5.hpp"
 #include "policy/policy.hpp"
 #include "policy/preempt_signals.hpp"
+#include "policy/pull_aside.hpp"
+#include "policy/pull_over.hpp"
 #include "policy/python_policy.hpp"
 #include "policy/recover_signals.hpp"
 #include "policy/red_privilege.hpp"
+#include "policy/rescue_lane.hpp"
+#include "policy/vacate_lane.hpp"
 
 namespace clearway::policy {
 namespace {
@@ -38,6 +43,11 @@ PolicyEntry entry(const std::string& name, const char* summary, Reads reads = Re
                     },
                     config);
             }};
+}
+
+PolicyEntry needing(PolicyEntry entry, Need need) {
+    entry.needs = {need};
+    return entry;
 }
 
 /// A policy that combines others and has no settings of its own.
@@ -77,6 +87,19 @@ const std::vector<PolicyEntry>& policies() {
             "line_of_sight", "Opponent: an optical emitter calls green while the signal is in its beam"),
         entry<RedPrivilege, RedPrivilegeConfig>(
             "red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding"),
+        entry<VacateLane, VacateLaneConfig>(
+            "vacate_lane", "Vehicles leave the emergency vehicle's way, planned round those who will not"),
+        entry<PullAside, PullAsideConfig>(
+            "pull_aside", "Vehicles of a queue pull aside until the emergency vehicle has passed"),
+        entry<HoldCross, HoldCrossConfig>("hold_cross",
+                                          "Cross traffic stops at its line although it has green"),
+        needing(entry<RescueLane, RescueLaneConfig>(
+                    "rescue_lane", "Slow traffic keeps to the edges of its lanes, a lane between them opens"),
+                Need::sublane_model),
+        needing(entry<PullOver, PullOverConfig>(
+                    "pull_over",
+                    "Slower vehicles ahead stop on the shoulder until the emergency vehicle has passed"),
+                Need::shoulder),
     };
     return entries;
 }

@@ -49,17 +49,18 @@ core::VehicleKey emergency_key() {
     return core::vehicle_key("e");
 }
 
-void add_helpful_scene(ActuationBench& bench) {
+void add_helpful_scene(ActuationBench& bench, double to_line_m) {
     const auto add = [&](const std::string& id, VehicleClass kind, std::vector<std::string> route,
                          std::uint32_t lane, double position_m, double speed_mps) {
         bench.add({id, kind, std::move(route), lane, position_m, speed_mps});
     };
-    add("e", VehicleClass::emergency, eastbound, 1, 370.0, 12.0);
+    add("e", VehicleClass::emergency, eastbound, 1, 490.0 - to_line_m, 12.0);
     add("a1", VehicleClass::automated, eastbound, 1, 400.0, 10.0);
     add("a2", VehicleClass::automated, eastbound, 0, 366.0, 12.0);
     add("h1", VehicleClass::human, eastbound, 1, 480.0, 0.0);
     add("h2", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0);
     add("h3", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 277.0, 0.0);
+    add("a4", VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 255.0, 6.0);
 }
 
 void add_needless_scene(ActuationBench& bench) {
@@ -130,10 +131,15 @@ void expect_all_given_back(const std::vector<traffic::Command>& commands) {
     std::set<core::VehicleKey> speeds;
     std::map<core::VehicleKey, int> odd;
     std::set<std::uint32_t> signals;
+    std::set<core::VehicleKey> aside;
     for (const traffic::Command& command : commands) {
         if (const auto* set = std::get_if<traffic::SetSpeed>(&command)) speeds.insert(set->vehicle);
         if (const auto* release = std::get_if<traffic::ReleaseSpeed>(&command)) {
             EXPECT_EQ(speeds.erase(release->vehicle), 1U) << "released what was not set";
+        }
+        if (const auto* stop = std::get_if<traffic::StopOnLane>(&command)) aside.insert(stop->vehicle);
+        if (const auto* resume = std::get_if<traffic::ResumeFromStop>(&command)) {
+            EXPECT_EQ(aside.erase(resume->vehicle), 1U) << "resumed what did not stop";
         }
         if (const auto* freedom = std::get_if<traffic::SetLaneChangeFreedom>(&command))
             odd[freedom->vehicle] = freedom->freedom != traffic::LaneChangeFreedom::normal;
@@ -146,6 +152,7 @@ void expect_all_given_back(const std::vector<traffic::Command>& commands) {
         }
     }
     EXPECT_TRUE(speeds.empty()) << "a set speed was left behind";
+    EXPECT_TRUE(aside.empty()) << "a vehicle was left beside the road";
     EXPECT_TRUE(signals.empty()) << "a signal was left behind";
     for (const auto& [vehicle, is_odd] : odd)
         EXPECT_FALSE(is_odd) << "a freedom was left behind";

@@ -51,6 +51,13 @@ class View {
     std::vector<VehicleAhead> vehicles_ahead(const traffic::BelievedVehicle& vehicle,
                                              core::Metres horizon) const;
 
+    /// Whether a place lies ahead on the route of `vehicle`, within `horizon`.
+    bool is_ahead(const traffic::BelievedVehicle& vehicle, const traffic::MotionState& place,
+                  core::Metres horizon) const {
+        return roads::distance_ahead(network_, route_of(vehicle.key), vehicle.state, place, horizon)
+            .has_value();
+    }
+
     /// Whether lane `number` of the present edge exists, is open to the vehicle, and continues along its
     /// route for over 300 m or to the route's end. Actuation applies the same rule.
     bool may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const;
@@ -66,10 +73,14 @@ class View {
 class LeaseWriter {
   public:
     /// `policy` has static storage; `period` is the time between two decisions. A lease that is not renewed
-    /// lives `lease_s`, or two periods if those are longer.
+    /// lives `lease_s`, or two periods if those are longer. See traffic::Lease for `priority`.
     LeaseWriter(const char* policy, core::Seconds period, core::Seconds now,
-                std::vector<traffic::Lease>& leases, double lease_s = 0.0)
-        : policy_(policy), usual_(std::max(lease_s, two_periods(period).value)), now_(now), leases_(leases) {}
+                std::vector<traffic::Lease>& leases, double lease_s = 0.0, int priority = 0)
+        : policy_(policy),
+          usual_(std::max(lease_s, two_periods(period).value)),
+          now_(now),
+          leases_(leases),
+          priority_(priority) {}
 
     /// Just long enough for a lease that every decision renews.
     static core::Seconds two_periods(core::Seconds period) { return core::Seconds(2.0 * period.value); }
@@ -77,8 +88,8 @@ class LeaseWriter {
     /// `reason` has static storage; `beneficiary` is the emergency vehicle served.
     void add(traffic::Target target, traffic::Action action, const char* reason, core::VehicleKey beneficiary,
              std::optional<core::Seconds> lasting = std::nullopt) {
-        leases_.push_back(
-            {target, std::move(action), now_ + lasting.value_or(usual_), 0, policy_, reason, beneficiary});
+        leases_.push_back({target, std::move(action), now_ + lasting.value_or(usual_), priority_, policy_,
+                           reason, beneficiary});
     }
 
   private:
@@ -86,6 +97,7 @@ class LeaseWriter {
     core::Seconds usual_;
     core::Seconds now_;
     std::vector<traffic::Lease>& leases_;
+    int priority_;
 };
 
 }  // namespace clearway::policy::detail

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy::detail {
+
+/// Whom a part asks; members of its settings.
+struct Asking {
+    int ask_humans = 0;
+
+    /// Whether the vehicle is asked at all.
+    bool asks(const traffic::BelievedVehicle& vehicle) const {
+        if (vehicle.vehicle_class == traffic::VehicleClass::human) return ask_humans != 0;
+        return vehicle.vehicle_class == traffic::VehicleClass::automated;
+    }
+
+    static constexpr auto fields() {
+        return std::make_tuple(
+            core::Field{"ask_humans", "1", &Asking::ask_humans, 0, 1,
+                        "1: human drivers are asked, too; those who comply (requests.compliance) do it",
+                        "0: automated vehicles alone"});
+    }
+};
+
+/// Pulling aside goes before changing lanes: who stands in a queue cannot do the latter.
+inline constexpr int aside_priority = 1;
+
+/// A lifetime, the same field in every part that makes room.
+template <class Config>
+constexpr auto lifetime_field() {
+    return core::Field{"lease_s",
+                       "s",
+                       &Config::lease_s,
+                       1.0,
+                       60.0,
+                       "Lifetime of a request that is not renewed; at least two periods",
+                       "assumed: four decisions at the usual period"};
+}
+
+/// Vehicles that were asked to stop beside the road for an emergency vehicle. There, nobody sees them any
+/// more, so the part remembers where it asked them, and renews the request until the emergency vehicle has
+/// passed.
+class AsideMemory {
+  public:
+    /// Forgets those asked for emergency vehicles that are no longer believed.
+    void keep_only(const std::vector<traffic::BelievedVehicle>& emergencies);
+    void note(const traffic::BelievedVehicle& emergency, const traffic::BelievedVehicle& asked);
+    /// Renews the requests to vehicles that are not believed any more as long as they are still in the way,
+    /// by where they were asked; forgets the others.
+    void renew(const View& view, const traffic::BelievedVehicle& emergency,
+               const std::function<bool(const traffic::MotionState&)>& in_the_way, LeaseWriter& write);
+
+  private:
+    std::map<core::VehicleKey, std::map<core::VehicleKey, traffic::MotionState>> asked_;
+};
+
+}  // namespace clearway::policy::detail

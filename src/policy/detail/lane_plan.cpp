@@ -1,0 +1,106 @@
+#include "policy/detail/lane_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clearway::policy::detail {
+namespace {
+
+constexpr double slowest_limit_mps = 1.0;
+
+std::size_t cell_of(double distance_m) {
+    return static_cast<std::size_t>(std::max(0.0, distance_m) / plan_cell_m);
+}
+
+}  // namespace
+
+LanePlan::LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
+                   const std::vector<VehicleAhead>& ahead, const LanePlanConfig& config, double horizon_m) {
+    find_columns(view, emergency, horizon_m);
+    plan_.resize(cell_of(horizon_m) + 1, own_);
+    choose(costs(view, emergency, ahead, config), config.change_s);
+}
+
+void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m) {
+    const roads::Lane& lane = view.network().lane(emergency.state.lane);
+    const roads::Edge& edge = view.network().edge(lane.edge);
+    const roads::Route route = view.route_of(emergency.key);
+    std::vector<roads::RouteStep> steps;
+    for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+        const bool is_own = number == lane.number;
+        if (!is_own && (edge.internal || !view.may_use_lane(emergency, number))) continue;
+        if (is_own) own_ = numbers_.size();
+        traffic::MotionState start = emergency.state;
+        start.lane = edge.internal ? emergency.state.lane : view.network().lane_of(lane.edge, number);
+        roads::lanes_ahead(view.network(), route, start, core::Metres(horizon_m), steps);
+        for (const roads::RouteStep& step : steps)
+            column_of_.try_emplace(step.lane, numbers_.size());
+        numbers_.push_back(number);
+    }
+}
+
+std::vector<std::vector<double>> LanePlan::costs(const View& view, const traffic::BelievedVehicle& emergency,
+                                                 const std::vector<VehicleAhead>& ahead,
+                                                 const LanePlanConfig& config) const {
+    std::vector<std::vector<double>> cost(plan_.size(), std::vector<double>(numbers_.size(), 0.0));
+    const double free_mps = std::max(view.allowed_speed(emergency).value, slowest_limit_mps);
+    for (const VehicleAhead& other : ahead) {
+        const auto column = column_of_.find(other.vehicle->state.lane);
+        const std::size_t cell = cell_of(other.distance_m);
+        if (column == column_of_.end() || cell >= cost.size()) continue;
+        const double speed_mps = other.vehicle->state.speed_mps;
+        double delay_s = config.slow_s * std::max(0.0, 1.0 - speed_mps / free_mps);
+        if (speed_mps < config.halted_mps) delay_s = config.blocked_s;
+        cost[cell][column->second] +=
+            config.asks(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
+    }
+    return cost;
+}
+
+/// From the far end back: the least delay from each cell and column on.
+void LanePlan::choose(const std::vector<std::vector<double>>& cost, double change_s) {
+    const std::size_t columns = numbers_.size();
+    std::vector<std::vector<double>> rest(cost.size() + 1, std::vector<double>(columns, 0.0));
+    std::vector<std::vector<std::size_t>> next(cost.size(), std::vector<std::size_t>(columns, 0));
+    for (std::size_t cell = cost.size(); cell-- > 0;) {
+        for (std::size_t from = 0; from < columns; ++from) {
+            double best = std::numeric_limits<double>::infinity();
+            for (const std::size_t to : {from, from - 1, from + 1}) {
+                if (to >= columns) continue;  // from - 1 wraps round
+                const double total = (to == from ? 0.0 : change_s) + cost[cell][to] + rest[cell + 1][to];
+                if (total >= best) continue;
+                best = total;
+                next[cell][from] = to;
+            }
+            rest[cell][from] = best;
+        }
+    }
+    std::size_t column = own_;
+    for (std::size_t cell = 0; cell < cost.size(); ++cell) {
+        column = next[cell][column];
+        plan_[cell] = column;
+    }
+}
+
+std::optional<std::uint32_t> LanePlan::column_at(double distance_m) const {
+    const std::size_t cell = cell_of(distance_m);
+    if (cell >= plan_.size()) return std::nullopt;
+    return numbers_[plan_[cell]];
+}
+
+std::optional<std::uint32_t> LanePlan::column_of(core::LaneIndex lane) const {
+    const auto found = column_of_.find(lane);
+    if (found == column_of_.end()) return std::nullopt;
+    return numbers_[found->second];
+}
+
+std::optional<std::uint32_t> LanePlan::change_within(double distance_m) const {
+    const std::size_t last = std::min(cell_of(distance_m), plan_.size() - 1);
+    for (std::size_t cell = 0; cell <= last; ++cell) {
+        if (plan_[cell] != own_) return numbers_[plan_[cell]];
+    }
+    return std::nullopt;
+}
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "policy/detail/cooperation.hpp"
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy::detail {
+
+/// How an emergency vehicle's way through the lanes is chosen; members of the settings of parts that clear
+/// it.
+struct LanePlanConfig : Asking {
+    double blocked_s = 15.0;
+    double slow_s = 4.0;
+    double clears_s = 0.5;
+    double change_s = 1.0;
+    double halted_mps = 0.5;
+
+    static constexpr auto fields() {
+        using C = LanePlanConfig;
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{"blocked_s", "s", &C::blocked_s, 0.0, 120.0,
+                  "Delay by a vehicle that stands ahead and is not asked", "assumed: a third of a red phase"},
+            Field{"slow_s", "s", &C::slow_s, 0.0, 60.0,
+                  "Delay by a vehicle that is not asked, times the share by which it is slower than the "
+                  "emergency vehicle may drive",
+                  "assumed"},
+            Field{"clears_s", "s", &C::clears_s, 0.0, 60.0, "Delay by a vehicle that is asked to make room",
+                  "assumed: it is gone in time, mostly"},
+            Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"},
+            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
+                  "assumed: walking pace is 1.4 m/s"});
+        return std::tuple_cat(own, Asking::fields());
+    }
+};
+
+/// The way of an emergency vehicle through the lanes ahead, round those who will not make room: the cheapest
+/// sequence of lanes over cells of 10 m, by dynamic programming. So one vehicle that does not cooperate costs
+/// two lane changes and not the lane. Refers to the view; use it within one `act`.
+class LanePlan {
+  public:
+    LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
+             const std::vector<VehicleAhead>& ahead, const LanePlanConfig& config, double horizon_m);
+
+    /// Lane number on the present edge from whose way the plan is at this distance; nothing beyond the plan.
+    std::optional<std::uint32_t> column_at(double distance_m) const;
+    /// The column that a lane belongs to: the lane number on the present edge from which one gets there
+    /// without a lane change. Nothing for lanes off the emergency vehicle's way.
+    std::optional<std::uint32_t> column_of(core::LaneIndex lane) const;
+    /// The neighbouring lane to change to now, if the plan changes within `distance_m`.
+    std::optional<std::uint32_t> change_within(double distance_m) const;
+
+  private:
+    void find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m);
+    std::vector<std::vector<double>> costs(const View& view, const traffic::BelievedVehicle& emergency,
+                                           const std::vector<VehicleAhead>& ahead,
+                                           const LanePlanConfig& config) const;
+    void choose(const std::vector<std::vector<double>>& cost, double change_s);
+
+    std::size_t own_ = 0;                 ///< Row of the present lane in `numbers_`.
+    std::vector<std::uint32_t> numbers_;  ///< Lane numbers of the columns, ascending.
+    std::map<core::LaneIndex, std::size_t> column_of_;
+    std::vector<std::size_t> plan_;  ///< Column by cell.
+};
+
+/// Length of a cell of a plan, m: a car and its gap, and a little.
+inline constexpr double plan_cell_m = 10.0;
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <tuple>
+
+#include "policy/detail/cooperation.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of HoldCross.
+struct HoldCrossConfig : detail::Asking {
+    double lead_s = 6.0;
+    double horizon_m = 200.0;
+    double near_m = 80.0;
+    double slowest_mps = 5.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = HoldCrossConfig;
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{"lead_s", "s", &C::lead_s, 0.0, 60.0,
+                  "Cross traffic is held from this long before the emergency vehicle's arrival",
+                  "assumed: a car crosses a junction in 3 s"},
+            Field{"horizon_m", "m", &C::horizon_m, 1.0, 2000.0, "Signals farther away than this are ignored",
+                  "assumed: 6 s at 120 km/h"},
+            Field{"near_m", "m", &C::near_m, 1.0, 500.0,
+                  "Vehicles closer than this to their stop line are asked",
+                  "assumed: more than the usual braking distance in towns"},
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0,
+                  "Arrival is estimated with at least this speed",
+                  "assumed: an emergency vehicle passes red with 20 km/h"},
+            detail::lifetime_field<C>());
+        return std::tuple_cat(own, Asking::fields());
+    }
+};
+
+/// Cross traffic gives way: vehicles that have green and would cross the emergency vehicle's way stop at
+/// their line until it has passed, and with them everybody behind them.
+class HoldCross : public Policy {
+  public:
+    explicit HoldCross(const PolicyContext& context, HoldCrossConfig config = {});
+
+    std::string_view name() const override { return "hold_cross"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    PolicyContext context_;
+    HoldCrossConfig config_;
+};
+
+}  // namespace clearway::policy

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <tuple>
+
+#include "policy/detail/lane_plan.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of PullAside.
+struct PullAsideConfig : detail::LanePlanConfig {
+    double horizon_m = 120.0;
+    double slow_share = 0.6;
+    double change_ahead_s = 4.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = PullAsideConfig;
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "Vehicles this far ahead pull aside",
+                  "first trials: the length of a queue"},
+            Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
+                  "Only those slower than this share of the emergency vehicle's allowed speed",
+                  "assumed: others are not in its way, or can change lanes"},
+            Field{"change_ahead_s", "s", &C::change_ahead_s, 0.0, 30.0,
+                  "The emergency vehicle begins a planned lane change this long before its place",
+                  "as vacate_lane"},
+            detail::lifetime_field<C>());
+        return std::tuple_cat(own, detail::LanePlanConfig::fields());
+    }
+};
+
+/// Queues make room: vehicles that stand or crawl on the emergency vehicle's way pull aside until it has
+/// passed. The way leads round those who will not (detail::LanePlan). Without the sublane model the vehicles
+/// stop beside the road, from whichever lane, which is more generous than a real queue; with it they keep to
+/// the edge of their lane.
+class PullAside : public Policy {
+  public:
+    explicit PullAside(const PolicyContext& context, PullAsideConfig config = {});
+
+    std::string_view name() const override { return "pull_aside"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    PolicyContext context_;
+    PullAsideConfig config_;
+    detail::AsideMemory memory_;
+};
+
+}  // namespace clearway::policy

@@ -1,0 +1,165 @@
+#include "policy/rescue_lane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy {
+namespace {
+
+using detail::LeaseWriter;
+using detail::VehicleAhead;
+using detail::View;
+
+constexpr char policy_name[] = "rescue_lane";
+/// Nobody is slowed down below this, m/s: a share of its own speed again and again would end at 0.
+constexpr double least_mps = 0.7;
+
+/// Lanes of an edge that traffic uses: shoulders and sidewalks are left out.
+std::vector<std::uint32_t> driven_lanes(const roads::Network& network, core::EdgeIndex edge) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t number = 0; number < network.edge(edge).lane_count; ++number) {
+        if (network.lane(network.lane_of(edge, number)).allows_cars) numbers.push_back(number);
+    }
+    return numbers;
+}
+
+class Rescue {
+  public:
+    Rescue(const View& view, const RescueLaneConfig& config, const traffic::BelievedVehicle& emergency,
+           std::uint32_t& place, LeaseWriter& write)
+        : view_(view), config_(config), emergency_(emergency), place_(place), write_(write) {
+        for (const VehicleAhead& other : view.vehicles_ahead(emergency, core::Metres(config.horizon_m))) {
+            const bool is_slow = other.vehicle->state.speed_mps < config.slow_mps;
+            if (is_slow && !view.network().edge(*view.edge_of(*other.vehicle)).internal)
+                ahead_.push_back(other);
+        }
+    }
+
+    void open() {
+        choose_place();
+        for (const VehicleAhead& other : ahead_) {
+            const auto from_left = lanes_from_left(*other.vehicle);
+            if (!from_left || !config_.asks(*other.vehicle)) continue;
+            const traffic::Side side = *from_left <= place_ ? traffic::Side::left : traffic::Side::right;
+            write_.add(other.vehicle->key, traffic::PullAside{side}, "forms a rescue lane", emergency_.key);
+        }
+        if (config_.stagger_m > 0.0) move_apart();
+    }
+
+  private:
+    /// How many lanes are left of the vehicle's; nothing where there is only one lane.
+    std::optional<std::uint32_t> lanes_from_left(const traffic::BelievedVehicle& vehicle) const {
+        const std::vector<std::uint32_t> numbers = driven_lanes(view_.network(), *view_.edge_of(vehicle));
+        const auto own = std::ranges::find(numbers, view_.lane_number(vehicle));
+        if (numbers.size() < 2 || own == numbers.end()) return std::nullopt;
+        return static_cast<std::uint32_t>(std::distance(own, numbers.end()) - 1);
+    }
+
+    /// Vehicles that are not asked in the two lanes beside a place.
+    double strangers_beside(std::uint32_t place) const {
+        return static_cast<double>(std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
+            const auto from_left = lanes_from_left(*other.vehicle);
+            return from_left && !config_.asks(*other.vehicle) &&
+                   (*from_left == place || *from_left == place + 1);
+        }));
+    }
+
+    void choose_place() {
+        const core::EdgeIndex edge = *view_.edge_of(emergency_);
+        if (view_.network().edge(edge).internal) return;
+        const std::size_t lanes = driven_lanes(view_.network(), edge).size();
+        if (lanes < 2) return;
+        place_ = std::min<std::uint32_t>(place_, static_cast<std::uint32_t>(lanes - 2));
+        double fewest = strangers_beside(place_) - config_.switch_worth;
+        for (std::uint32_t place = 0; place + 2 <= lanes; ++place) {
+            const double strangers = strangers_beside(place);
+            if (strangers > fewest) continue;
+            fewest = strangers;
+            place_ = place;
+        }
+    }
+
+    const traffic::VehicleInfo& info_of(const traffic::BelievedVehicle& vehicle) const {
+        static const traffic::VehicleInfo unknown;
+        const traffic::VehicleInfo* const info = view_.belief().roster->find(vehicle.key);
+        return info != nullptr ? *info : unknown;
+    }
+
+    /// How far the vehicle reaches into the road from the outer edge of its lane, m: one that is asked keeps
+    /// to that edge, another drives in the middle.
+    double reach_m(const VehicleAhead& other) const {
+        const double width_m = info_of(*other.vehicle).width_m;
+        const double lane_m = view_.network().lane(other.vehicle->state.lane).width_m;
+        return config_.asks(*other.vehicle) ? width_m : (lane_m + width_m) / 2.0;
+    }
+
+    bool leave_room(const VehicleAhead& left, const VehicleAhead& right) const {
+        const double road_m = view_.network().lane(left.vehicle->state.lane).width_m +
+                              view_.network().lane(right.vehicle->state.lane).width_m;
+        return road_m - reach_m(left) - reach_m(right) >= info_of(emergency_).width_m + config_.room_m;
+    }
+
+    /// Whether less than `apart_m` lies between the two along the road.
+    bool are_abreast(const VehicleAhead& rear, const VehicleAhead& front) const {
+        return front.distance_m - info_of(*front.vehicle).length_m - rear.distance_m < config_.apart_m;
+    }
+
+    /// The nearest two that block the rescue lane: the rear one slows down, or the front one, or who drives
+    /// ahead of them.
+    void move_apart() {
+        for (const VehicleAhead& left : ahead_) {
+            if (left.distance_m > config_.stagger_m) return;
+            if (lanes_from_left(*left.vehicle) != place_) continue;
+            for (const VehicleAhead& right : ahead_) {
+                if (lanes_from_left(*right.vehicle) != place_ + 1 || leave_room(left, right)) continue;
+                const bool left_is_rear = left.distance_m < right.distance_m;
+                const VehicleAhead& rear = left_is_rear ? left : right;
+                const VehicleAhead& front = left_is_rear ? right : left;
+                if (!are_abreast(rear, front)) continue;
+                if (slow_down(rear) || slow_down(front) || slow_leader(rear) || slow_leader(front)) return;
+            }
+        }
+    }
+
+    bool slow_down(const VehicleAhead& other) {
+        if (!config_.asks(*other.vehicle)) return false;
+        const double speed_mps = std::max(config_.stagger_share * other.vehicle->state.speed_mps, least_mps);
+        write_.add(other.vehicle->key, traffic::DriveAt{core::MetresPerSecond(speed_mps)},
+                   "moves apart from one abreast that blocks the rescue lane", emergency_.key);
+        return true;
+    }
+
+    /// Asks the vehicle next ahead on the lane of `follower` to slow down, if it can be asked.
+    bool slow_leader(const VehicleAhead& follower) {
+        const auto leader = std::ranges::find_if(ahead_, [&](const VehicleAhead& other) {
+            return other.distance_m > follower.distance_m &&
+                   other.vehicle->state.lane == follower.vehicle->state.lane;
+        });
+        return leader != ahead_.end() && slow_down(*leader);
+    }
+
+    const View& view_;
+    const RescueLaneConfig& config_;
+    const traffic::BelievedVehicle& emergency_;
+    std::uint32_t& place_;
+    LeaseWriter& write_;
+    std::vector<VehicleAhead> ahead_;
+};
+
+}  // namespace
+
+RescueLane::RescueLane(const PolicyContext& context, RescueLaneConfig config)
+    : context_(context), config_(config) {}
+
+void RescueLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
+    const View view(context_.network, belief);
+    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s,
+                      detail::aside_priority);
+    for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles())
+        Rescue(view, config_, emergency, place_[emergency.key], write).open();
+}
+
+}  // namespace clearway::policy

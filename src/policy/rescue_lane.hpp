@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+
+#include "policy/detail/cooperation.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of RescueLane.
+struct RescueLaneConfig : detail::Asking {
+    double horizon_m = 300.0;
+    double slow_mps = 14.0;
+    double stagger_m = 60.0;
+    double apart_m = 12.0;
+    double stagger_share = 0.5;
+    double room_m = 0.4;
+    double switch_worth = 2.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = RescueLaneConfig;
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "The lane is opened this far ahead",
+                  "as vacate_lane"},
+            Field{"slow_mps", "m/s", &C::slow_mps, 0.1, 60.0, "Where traffic is slower than this",
+                  "50 km/h, assumed: faster traffic leaves a lane instead"},
+            Field{"stagger_m", "m", &C::stagger_m, 0.0, 500.0,
+                  "Two abreast between which the emergency vehicle does not fit are moved apart within this "
+                  "distance; 0: never",
+                  "assumed: it takes ten seconds"},
+            Field{"apart_m", "m", &C::apart_m, 0.0, 50.0,
+                  "They are apart when there is this much between them along the road",
+                  "assumed: an ambulance of 6.5 m that steers round one after the other"},
+            Field{"stagger_share", "1", &C::stagger_share, 0.0, 1.0,
+                  "One of them, or else who drives ahead of one, then drives at this share of its speed",
+                  "assumed: 1 m/s in a jam of 2 m/s"},
+            Field{"room_m", "m", &C::room_m, 0.0, 2.0,
+                  "Room that the emergency vehicle needs beside it, both sides together",
+                  "as privilege.margin_m"},
+            Field{
+                "switch_worth", "1", &C::switch_worth, 0.0, 20.0,
+                "The rescue lane moves between other lanes if that passes this many fewer vehicles that are "
+                "not asked",
+                "assumed: moving it takes longer than passing one"},
+            detail::lifetime_field<C>());
+        return std::tuple_cat(own, Asking::fields());
+    }
+};
+
+/// In slow traffic on several lanes the vehicles of the leftmost lanes keep to the left edge of their lanes
+/// and the others to the right edge, so that the emergency vehicle can drive between them
+/// (privilege.between_lanes). It lies between the two leftmost lanes, or where fewer vehicles that are not
+/// asked stand beside it. Two abreast that leave too little room, such as two trucks or two that are not
+/// asked, would block it: one of them slows down, or else who drives ahead of one, until they are apart.
+/// Needs the sublane model.
+class RescueLane : public Policy {
+  public:
+    explicit RescueLane(const PolicyContext& context, RescueLaneConfig config = {});
+
+    std::string_view name() const override { return "rescue_lane"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    PolicyContext context_;
+    RescueLaneConfig config_;
+    /// Lowest lane number left of the rescue lane, counted from the leftmost lane: 0 is between the two
+    /// leftmost lanes.
+    std::map<core::VehicleKey, std::uint32_t> place_;
+};
+
+}  // namespace clearway::policy

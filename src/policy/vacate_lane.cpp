@@ -1,0 +1,96 @@
+#include "policy/vacate_lane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy {
+namespace {
+
+using detail::LanePlan;
+using detail::LeaseWriter;
+using detail::VehicleAhead;
+using detail::View;
+
+constexpr char policy_name[] = "vacate_lane";
+/// A plan is made at least for this distance when the emergency vehicle stands, m: two cells.
+constexpr double least_change_m = 20.0;
+
+class Vacating {
+  public:
+    Vacating(const View& view, const VacateLaneConfig& config, const traffic::BelievedVehicle& emergency,
+             LeaseWriter& write)
+        : view_(view),
+          config_(config),
+          emergency_(emergency),
+          write_(write),
+          ahead_(view.vehicles_ahead(emergency, core::Metres(config.horizon_m))),
+          plan_(view, emergency, ahead_, config, config.horizon_m) {}
+
+    void ask() {
+        if (ahead_.empty()) return;
+        const double look_m =
+            std::max<double>(least_change_m, config_.change_ahead_s * emergency_.state.speed_mps);
+        if (const auto lane = plan_.change_within(look_m))
+            write_.add(emergency_.key, traffic::ChangeLane{*lane}, "the way that is being cleared",
+                       emergency_.key);
+        for (const VehicleAhead& other : ahead_) {
+            if (config_.asks(*other.vehicle)) ask(other);
+        }
+    }
+
+  private:
+    void ask(const VehicleAhead& other) {
+        const traffic::BelievedVehicle& vehicle = *other.vehicle;
+        if (!view_.is_on_route(vehicle) || view_.network().edge(*view_.edge_of(vehicle)).internal) return;
+        const auto column = plan_.column_of(vehicle.state.lane);
+        if (!column) return;
+        if (column != plan_.column_at(other.distance_m)) {
+            write_.add(vehicle.key, traffic::HoldLane{}, "stays out of an emergency vehicle's way",
+                       emergency_.key);
+        } else if (const auto target = way_out(other)) {
+            write_.add(vehicle.key, traffic::ChangeLane{*target}, "in an emergency vehicle's way",
+                       emergency_.key);
+        }
+    }
+
+    /// The usable neighbouring lane with fewer vehicles alongside; the outer one if equal.
+    std::optional<std::uint32_t> way_out(const VehicleAhead& other) const {
+        std::optional<std::uint32_t> best;
+        long fewest = 0;
+        for (const std::uint32_t number : view_.usable_neighbours(*other.vehicle)) {
+            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(*other.vehicle), number);
+            const long beside = std::ranges::count_if(ahead_, [&](const VehicleAhead& third) {
+                return third.vehicle->state.lane == lane &&
+                       std::abs(third.distance_m - other.distance_m) < config_.side_room_m;
+            });
+            if (best && beside >= fewest) continue;
+            best = number;
+            fewest = beside;
+        }
+        return best;
+    }
+
+    const View& view_;
+    const VacateLaneConfig& config_;
+    const traffic::BelievedVehicle& emergency_;
+    LeaseWriter& write_;
+    std::vector<VehicleAhead> ahead_;
+    LanePlan plan_;
+};
+
+}  // namespace
+
+VacateLane::VacateLane(const PolicyContext& context, VacateLaneConfig config)
+    : context_(context), config_(config) {}
+
+void VacateLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
+    const View view(context_.network, belief);
+    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles())
+        Vacating(view, config_, emergency, write).ask();
+}
+
+}  // namespace clearway::policy

@@ -1,0 +1,344 @@
+// The parts that make vehicles give way: vacate_lane, pull_aside, hold_cross, rescue_lane, pull_over.
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "policy/conformance.hpp"
+#include "policy/detail/lane_plan.hpp"
+#include "policy/hold_cross.hpp"
+#include "policy/pull_aside.hpp"
+#include "policy/pull_over.hpp"
+#include "policy/rescue_lane.hpp"
+#include "policy/straight_road.hpp"
+#include "policy/vacate_lane.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using traffic::Side;
+
+void stop(StraightRoad& road, std::initializer_list<const char*> ids) {
+    for (const char* id : ids)
+        road.scene.set_speed(id, core::MetresPerSecond(0.0));
+}
+
+TEST(VacateLane, plans_round_one_who_will_not_make_room_and_clears_that_way) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 15 m/s
+        ......e.....a.h|r...............................................
+        ..............a|r...............................................
+    )");
+    stop(road, {"a1", "a2", "h1"});
+    policy::VacateLane policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_EQ(road.asked_lane("e1"), 0U) << "h1 stands in its lane";
+    EXPECT_EQ(road.asked_lane("a2"), 1U) << "in the way, on the lane that is cleared";
+    EXPECT_TRUE(road.asked<traffic::HoldLane>("a1")) << "beside the way";
+    EXPECT_FALSE(road.asked_lane("h1"));
+}
+
+TEST(VacateLane, keeps_the_lane_where_everybody_is_asked) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 12 m/s
+        ......e.....a.a|r...............................................
+        ............a.a|r...............................................
+    )");
+    stop(road, {"a1", "a2", "a3", "a4"});
+    policy::VacateLane policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_FALSE(road.asked_lane("e1"));
+    EXPECT_EQ(road.asked_lane("a1"), 0U);
+    EXPECT_EQ(road.asked_lane("a2"), 0U);
+    EXPECT_TRUE(road.asked<traffic::HoldLane>("a3"));
+    EXPECT_TRUE(road.asked<traffic::HoldLane>("a4"));
+}
+
+TEST(VacateLane, asks_human_drivers_only_where_told_to) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 12 m/s
+        ......e.....h...................................................
+        ................................................................
+    )");
+    policy::VacateLaneConfig config;
+    policy::VacateLane automated({road.scene.network()}, config);
+    road.act(automated);
+    EXPECT_FALSE(road.asked_lane("h1"));
+    config.ask_humans = 1;
+    config.change_s = 100.0;  // so that the emergency vehicle does not simply go round
+    policy::VacateLane all({road.scene.network()}, config);
+    road.act(all);
+    EXPECT_EQ(road.asked_lane("h1"), 0U);
+}
+
+TEST(VacateLane, asks_nobody_beyond_its_horizon) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 12 m/s
+        e.........a.........a...........................................
+        ................................................................
+    )");
+    policy::VacateLaneConfig config;
+    config.horizon_m = 150.0;
+    policy::VacateLane policy({road.scene.network()}, config);
+    road.act(policy);
+    EXPECT_TRUE(road.asked_lane("a1"));
+    EXPECT_FALSE(road.asked_lane("a2"));
+}
+
+TEST(PullAside, asks_the_queue_on_the_way_and_not_the_lane_beside) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 12 m/s
+        ......e.....a.a|r...............................................
+        ............a.a|r...............................................
+    )");
+    stop(road, {"a1", "a2", "a3", "a4"});
+    policy::PullAside policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_TRUE(road.asked<traffic::PullAside>("a1"));
+    EXPECT_TRUE(road.asked<traffic::PullAside>("a2"));
+    EXPECT_FALSE(road.asked<traffic::PullAside>("a3"));
+    EXPECT_FALSE(road.asked<traffic::PullAside>("a4"));
+}
+
+TEST(PullAside, lets_fast_vehicles_drive_on) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 19 m/s
+        ......e.....a...................................................
+    )");
+    policy::PullAside policy({road.scene.network()});
+    EXPECT_TRUE(road.act(policy).empty());
+}
+
+TEST(PullAside, renews_for_those_who_vanished_beside_the_road_until_it_has_passed_them) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 15 m/s
+        ......e.....a...................................................
+    )");
+    stop(road, {"a1"});
+    policy::PullAside policy({road.scene.network()});
+    road.act(policy);
+    traffic::BelievedGraph belief = support::perfect_belief(road.scene);
+    const auto renewals = [&](float emergency_m) {
+        traffic::BelievedGraph alone = belief;
+        std::erase_if(alone.vehicles, [&](const auto& vehicle) { return vehicle.key == road.scene.key("a1"); });
+        alone.first_link.assign(alone.vehicles.size() + 1, 0);
+        alone.links.clear();
+        alone.vehicles.front().state.lane_position_m = emergency_m;
+        alone.own_states = alone.vehicles;
+        std::vector<traffic::Lease> leases;
+        policy.act(alone, leases);
+        return leases.size();
+    };
+    EXPECT_EQ(renewals(80.0F), 1U) << "it stands at 125 m";
+    EXPECT_EQ(renewals(110.0F), 1U);
+    EXPECT_EQ(renewals(140.0F), 0U) << "passed";
+    EXPECT_EQ(renewals(100.0F), 0U) << "and forgotten";
+}
+
+TEST(RescueLane, sends_the_left_lane_to_the_left_edge_and_the_others_to_the_right) {
+    StraightRoad road(R"(
+        10 m per cell, limit 30 m/s, speed 2 m/s
+        ...a..a.....
+        .e..a.......
+        ...a........
+    )");
+    policy::RescueLane policy({road.scene.network()});
+    road.act(policy);
+    const auto side = [&](const char* id) { return road.asked<traffic::PullAside>(id).value().side; };
+    EXPECT_EQ(side("a1"), Side::left);
+    EXPECT_EQ(side("a2"), Side::left);
+    EXPECT_EQ(side("a3"), Side::right);
+    EXPECT_EQ(side("a4"), Side::right);
+}
+
+TEST(RescueLane, leaves_flowing_traffic_alone) {
+    StraightRoad road(R"(
+        10 m per cell, limit 30 m/s, speed 25 m/s
+        ...a..a.....
+        .e..a.......
+    )");
+    policy::RescueLane policy({road.scene.network()});
+    EXPECT_TRUE(road.act(policy).empty());
+}
+
+TEST(RescueLane, lies_where_fewer_stand_who_are_not_asked) {
+    StraightRoad road(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        ...h.h.h.h..
+        .e..a..a....
+        ...a..a.....
+    )");
+    policy::RescueLane policy({road.scene.network()});
+    road.act(policy);
+    const auto side = [&](const char* id) { return road.asked<traffic::PullAside>(id).value().side; };
+    EXPECT_EQ(side("a1"), Side::left) << "the middle lane: the rescue lane is right of it";
+    EXPECT_EQ(side("a3"), Side::right);
+}
+
+TEST(RescueLane, moves_two_abreast_apart_who_leave_too_little_room) {
+    StraightRoad road(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        .....h.a....
+        .e...h.a....
+    )");
+    policy::RescueLaneConfig config;
+    config.room_m = 0.2;  // so that one who is asked leaves enough beside one who is not, on lanes of 3.2 m
+    policy::RescueLane policy({road.scene.network()}, config);
+    road.act(policy);
+    const int slowed = int(road.asked_speed("a1").has_value()) + int(road.asked_speed("a2").has_value());
+    EXPECT_EQ(slowed, 1) << "who drives ahead of one of the two";
+
+    StraightRoad apart(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        .....h....a..
+        .e........ha.
+    )");
+    policy::RescueLane again({apart.scene.network()}, config);
+    apart.act(again);
+    EXPECT_FALSE(apart.asked_speed("a1")) << "20 m lie between them";
+    EXPECT_FALSE(apart.asked_speed("a2"));
+}
+
+TEST(HoldCross, stops_cross_traffic_that_has_green_and_only_shortly_before_the_arrival) {
+    ActuationBench bench;
+    const auto emergency = bench.add(
+        {"e", traffic::VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 1, 450.0, 12.0});
+    const auto near = bench.add({"n", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 250.0, 8.0});
+    const auto far = bench.add({"f", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 100.0, 8.0});
+    policy::HoldCross policy({two_crossings()});
+    traffic::BelievedGraph& belief = bench.scene.belief();
+    const roads::Signal& signal = two_crossings().signal(two_crossings().find_signal("A").value());
+    const auto asked = [&](char cross, float emergency_m) {
+        belief.signals.state.assign(two_crossings().signals().size(), std::string(signal.links.size(), cross));
+        for (auto* states : {&belief.vehicles, &belief.own_states}) {
+            for (traffic::BelievedVehicle& vehicle : *states) {
+                if (vehicle.key == emergency) vehicle.state.lane_position_m = emergency_m;
+            }
+        }
+        std::vector<traffic::Lease> leases;
+        policy.act(belief, leases);
+        std::vector<core::VehicleKey> keys;
+        for (const traffic::Lease& lease : leases) {
+            EXPECT_TRUE(std::holds_alternative<traffic::StopAtLine>(lease.action));
+            keys.push_back(std::get<core::VehicleKey>(lease.target));
+        }
+        return keys;
+    };
+    EXPECT_EQ(asked('G', 450.0F), std::vector{near}) << far.value << " is too far from its line";
+    EXPECT_TRUE(asked('r', 450.0F).empty()) << "they stand anyway";
+    EXPECT_TRUE(asked('G', 300.0F).empty()) << "16 s before the arrival";
+}
+
+/// One lane and a shoulder each way, 1 km; eastward is the first edge.
+roads::Network rural_road(const support::TemporaryFolder& folder) {
+    const auto edge = [](const char* id, const char* from, const char* to, int y, int right_y) {
+        const bool east = id[0] == 'e';
+        const std::string x0 = east ? "0" : "1000";
+        const std::string x1 = east ? "1000" : "0";
+        const auto lane = [&](int number, int at, const char* more) {
+            return "<lane id=\"" + std::string(id) + "_" + std::to_string(number) + "\" index=\"" +
+                   std::to_string(number) + "\" speed=\"27.78\" length=\"1000\" width=\"3\" shape=\"" + x0 + "," +
+                   std::to_string(at) + " " + x1 + "," + std::to_string(at) + "\"" + more + "/>";
+        };
+        return "<edge id=\"" + std::string(id) + "\" from=\"" + from + "\" to=\"" + to + "\" priority=\"1\">" +
+               lane(0, right_y, " disallow=\"all\"") + lane(1, y, "") + "</edge>";
+    };
+    const std::filesystem::path file = folder.path() / "rural.net.xml";
+    std::ofstream(file) << "<net version=\"1.9\"><location netOffset=\"0,0\" convBoundary=\"0,0,1000,10\" "
+                           "origBoundary=\"0,0,1000,10\" projParameter=\"!\"/>"
+                        << edge("east", "w", "e", -2, -5) << edge("west", "e", "w", 2, 5)
+                        << "<junction id=\"w\" type=\"dead_end\" x=\"0\" y=\"0\" incLanes=\"\" intLanes=\"\" "
+                           "shape=\"0,0\"/><junction id=\"e\" type=\"dead_end\" x=\"1000\" y=\"0\" incLanes=\"\" "
+                           "intLanes=\"\" shape=\"0,0\"/></net>";
+    return roads::Network::read(file);
+}
+
+class RuralRoad {
+  public:
+    RuralRoad() : network_(rural_road(folder_)) { belief_.roster = &roster_; }
+
+    core::VehicleKey add(const char* id, traffic::VehicleClass vehicle_class, const char* edge, float position_m,
+                         float speed_mps) {
+        const core::EdgeIndex on = network_.find_edge(edge).value();
+        traffic::VehicleInfo info;
+        info.key = core::vehicle_key(id);
+        info.id = id;
+        info.vehicle_class = vehicle_class;
+        info.route = roster_.add_route({on});
+        roster_.add(info);
+        traffic::BelievedVehicle vehicle;
+        vehicle.key = info.key;
+        vehicle.vehicle_class = vehicle_class;
+        vehicle.state.lane = network_.lane_of(on, 1);
+        vehicle.state.lane_position_m = position_m;
+        vehicle.state.speed_mps = speed_mps;
+        const roads::Point place = network_.point_at(vehicle.state.lane, core::Metres(position_m));
+        vehicle.state.x_m = place.x_m;
+        vehicle.state.y_m = place.y_m;
+        vehicle.state.heading_rad =
+            static_cast<float>(network_.heading_at(vehicle.state.lane, core::Metres(position_m)));
+        belief_.vehicles.push_back(vehicle);
+        std::ranges::sort(belief_.vehicles, {}, &traffic::BelievedVehicle::key);
+        belief_.first_link.assign(belief_.vehicles.size() + 1, 0);
+        return info.key;
+    }
+    std::set<core::VehicleKey> pulled_over(policy::PullOverConfig config = {}) {
+        policy::PullOver policy({network_}, config);
+        std::vector<traffic::Lease> leases;
+        policy.act(belief_, leases);
+        std::set<core::VehicleKey> keys;
+        for (const traffic::Lease& lease : leases) {
+            EXPECT_TRUE(std::holds_alternative<traffic::PullAside>(lease.action));
+            keys.insert(std::get<core::VehicleKey>(lease.target));
+        }
+        return keys;
+    }
+
+  private:
+    support::TemporaryFolder folder_;
+    roads::Network network_;
+    traffic::Roster roster_;
+    traffic::BelievedGraph belief_;
+};
+
+TEST(PullOver, asks_slower_vehicles_ahead_and_leaves_the_others) {
+    RuralRoad road;
+    road.add("e", traffic::VehicleClass::emergency, "east", 100.0F, 27.0F);
+    const auto slow = road.add("slow", traffic::VehicleClass::automated, "east", 250.0F, 19.0F);
+    road.add("fast", traffic::VehicleClass::automated, "east", 300.0F, 27.7F);
+    road.add("behind", traffic::VehicleClass::automated, "east", 50.0F, 19.0F);
+    road.add("far", traffic::VehicleClass::automated, "east", 600.0F, 19.0F);
+    road.add("oncoming", traffic::VehicleClass::automated, "west", 700.0F, 19.0F);
+    EXPECT_EQ(road.pulled_over(), std::set{slow}) << "everybody in the way is asked: no need to overtake";
+}
+
+TEST(PullOver, frees_the_oncoming_lane_where_somebody_will_not_make_room) {
+    RuralRoad road;
+    road.add("e", traffic::VehicleClass::emergency, "east", 100.0F, 27.0F);
+    road.add("human", traffic::VehicleClass::human, "east", 250.0F, 19.0F);
+    const auto oncoming = road.add("oncoming", traffic::VehicleClass::automated, "west", 500.0F, 25.0F);
+    road.add("passed", traffic::VehicleClass::automated, "west", 950.0F, 25.0F);
+    EXPECT_EQ(road.pulled_over(), std::set{oncoming});
+    policy::PullOverConfig config;
+    config.oncoming_m = 0.0;
+    EXPECT_TRUE(road.pulled_over(config).empty());
+    config.ask_humans = 1;
+    EXPECT_EQ(road.pulled_over(config).size(), 1U) << "now the human driver is asked instead";
+}
+
+TEST(PullOver, asks_nobody_where_there_is_no_shoulder) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 15 m/s
+        ......e.....a...................................................
+    )");
+    stop(road, {"a1"});
+    policy::PullOver policy({road.scene.network()});
+    EXPECT_TRUE(road.act(policy).empty());
+}
+
+}  // namespace
+}  // namespace clearway::testing
