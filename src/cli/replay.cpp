@@ -79,7 +79,8 @@ void refuse_idle_settings(const Arguments& arguments, const experiment::Conditio
     for (const std::string& component : experiment::components_of(condition)) {
         const bool acts = arguments.table == failures_table
                               ? component == "failure"
-                              : component != "actuation" && component != "siren";
+                              : component != "actuation" && component != "requests" &&
+                                    !experiment::is_environment(component);
         if (acts) acting.push_back(component);
     }
     std::vector<core::Problem> problems;

@@ -23,6 +23,8 @@ constexpr const char* loop_name = "loop";
 constexpr const char* failure_name = "failure";
 constexpr const char* actuation_name = "actuation";
 constexpr const char* siren_name = "siren";
+constexpr const char* requests_name = "requests";
+constexpr const char* privilege_name = "privilege";
 /// Maximum length of a described name; longer ones are cut and end in digits of their hash.
 constexpr std::size_t longest_name = 80;
 
@@ -41,6 +43,12 @@ std::vector<Component> make_components() {
                    core::settings_table<actuation::ActuatorConfig>()});
     all.push_back({siren_name, "Human drivers who hear a siren: override what the scenario says",
                    core::settings_table<drivers::SirenConfig, drivers::ReactionConfig>()});
+    all.push_back({requests_name, "Human drivers who do what a policy asks",
+                   core::settings_table<drivers::RequestConfig>()});
+    all.push_back(
+        {privilege_name,
+         "What the law allows emergency vehicles, in every condition: override what the scenario says",
+         core::settings_table<drivers::PrivilegeConfig>()});
     return all;
 }
 
@@ -54,6 +62,14 @@ std::pair<std::string, std::string> parted(const std::string& name) {
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) return {"", name};
     return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+core::Settings environment_of(const core::Settings& settings) {
+    core::Settings found;
+    for (const auto& [name, value] : settings) {
+        if (is_environment(parted(name).first)) found.emplace(name, value);
+    }
+    return found;
 }
 
 /// Full names of all settings of these components.
@@ -152,8 +168,9 @@ const std::vector<Component>& components() {
 
 std::vector<std::string> components_of(const ConditionSpec& condition) {
     if (condition.traffic_model == TrafficModel::free_flow) return {};
-    std::vector<std::string> present = {loop_name, failure_name, condition.predictor, siren_name};
-    if (!condition.policies.empty()) present.emplace_back(actuation_name);
+    std::vector<std::string> present = {loop_name, failure_name, condition.predictor, siren_name,
+                                        privilege_name};
+    if (!condition.policies.empty()) present.insert(present.end(), {actuation_name, requests_name});
     for (const policy::PolicyEntry& entry : policy::policies()) {
         if (std::ranges::find(condition.policies, entry.name) == condition.policies.end()) continue;
         present.insert(present.end(), entry.components.begin(), entry.components.end());
@@ -215,9 +232,13 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     return known->table.check({{field, value}}, where + component + ".");
 }
 
+bool is_environment(const std::string& component) {
+    return component == siren_name || component == privilege_name;
+}
+
 bool same_environment(const ConditionSpec& left, const ConditionSpec& right) {
     return left.traffic_model == right.traffic_model &&
-           core::settings_of(left.settings, siren_name) == core::settings_of(right.settings, siren_name);
+           environment_of(left.settings) == environment_of(right.settings);
 }
 
 ConditionSpec baseline_for(const ConditionSpec& condition) {
@@ -226,8 +247,7 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
     baseline.traffic_model = condition.traffic_model;
     if (condition.traffic_model != TrafficModel::standard)
         baseline.name += fmt::format("_{}", name(condition.traffic_model));
-    for (const auto& [setting, value] : condition.settings) {
-        if (!setting.starts_with(std::string(siren_name) + ".")) continue;
+    for (const auto& [setting, value] : environment_of(condition.settings)) {
         baseline.settings.emplace(setting, value);
         baseline.name += core::as_folder_name(fmt::format("_{}_{}", parted(setting).second, value));
     }
@@ -237,6 +257,13 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
 bool reads_links(const ConditionSpec& condition) {
     return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
         return entry.reads_links &&
+               std::ranges::find(condition.policies, entry.name) != condition.policies.end();
+    });
+}
+
+bool needs(const ConditionSpec& condition, policy::Need need) {
+    return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
+        return std::ranges::find(entry.needs, need) != entry.needs.end() &&
                std::ranges::find(condition.policies, entry.name) != condition.policies.end();
     });
 }
@@ -259,6 +286,13 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
         const std::vector<core::Problem> found = check_setting(name, value, where);
         problems.insert(problems.end(), found.begin(), found.end());
     }
+    if (needs(condition, policy::Need::sublane_model) && condition.traffic_model != TrafficModel::sublane)
+        problems.push_back(
+            {where + "policy",
+             "one of the policies needs vehicles with a place within their lane, which the "
+             "standard traffic model does not have",
+             "traffic model \"sublane\"",
+             "Run it with --traffic-model sublane, in a study file traffic_model = \"sublane\""});
     if (problems.empty()) check_leases(condition, where, problems);
     check_model(condition, where, problems);
     if (problems.empty()) check_link_radius(condition, where, problems);
@@ -315,6 +349,21 @@ Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& 
     core::set_all(core::settings_of(condition.settings, siren_name),
                   fmt::format("condition {}: siren.", condition.name), sirens.siren, sirens.reaction);
     return sirens;
+}
+
+drivers::RequestConfig request_config(const ConditionSpec& condition) {
+    drivers::RequestConfig config;
+    core::set_all(core::settings_of(condition.settings, requests_name),
+                  fmt::format("condition {}: requests.", condition.name), config);
+    return config;
+}
+
+drivers::PrivilegeConfig privilege_config(const ConditionSpec& condition,
+                                          const drivers::PrivilegeConfig& of_scenario) {
+    drivers::PrivilegeConfig config = of_scenario;
+    core::set_all(core::settings_of(condition.settings, privilege_name),
+                  fmt::format("condition {}: privilege.", condition.name), config);
+    return config;
 }
 
 }  // namespace clearway::experiment

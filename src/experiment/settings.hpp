@@ -6,9 +6,12 @@
 #include "actuation/actuator_config.hpp"
 #include "core/error.hpp"
 #include "core/settings.hpp"
+#include "drivers/listeners.hpp"
+#include "drivers/privilege.hpp"
 #include "drivers/siren.hpp"
 #include "experiment/condition.hpp"
 #include "experiment/loop_config.hpp"
+#include "policy/policy.hpp"
 
 namespace clearway::experiment {
 
@@ -19,7 +22,8 @@ struct Component {
     core::SettingsTable table;
 };
 
-/// Every component: `loop`, `failure`, the predictors, the policies, `actuation`, `siren`.
+/// Every component: `loop`, `failure`, the predictors, the policies, `actuation`,
+/// `siren`, `requests`, `privilege`.
 const std::vector<Component>& components();
 
 /// Names of the components that a condition has, in the order of `components`.
@@ -40,8 +44,12 @@ std::string checked_model(const ConditionSpec& condition);
 /// Whether a policy of the condition acts on believed links, and not on believed places alone.
 bool reads_links(const ConditionSpec& condition);
 
-/// Whether two conditions have the same traffic model and the same settings of human drivers, `siren.*`: one
-/// of them can then be the other's baseline, because only the policy and what it needs differ.
+/// Whether a component is part of the environment, the same in a condition and its baseline: `siren`,
+/// `privilege`.
+bool is_environment(const std::string& component);
+
+/// Whether two conditions have the same traffic model and the same settings of the environment: one of them
+/// can then be the other's baseline, because only the policy and what it needs differ.
 bool same_environment(const ConditionSpec& left, const ConditionSpec& right);
 
 /// The baseline of a condition: the car-following model alone, in the same environment. It is the built-in
@@ -53,6 +61,9 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves
 /// are not checked.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
+
+/// Whether a policy of the condition has this need.
+bool needs(const ConditionSpec& condition, policy::Need need);
 
 /// What is wrong with one setting, regardless of the condition; empty if some condition may have it.
 std::vector<core::Problem> check_setting(const std::string& name, const std::string& value,
@@ -77,5 +88,11 @@ struct Sirens {
 };
 /// Settings of the condition applied to what the scenario says.
 Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& of_scenario);
+
+/// Which human drivers do what a policy asks.
+drivers::RequestConfig request_config(const ConditionSpec& condition);
+/// Settings of the condition applied to what the scenario says.
+drivers::PrivilegeConfig privilege_config(const ConditionSpec& condition,
+                                          const drivers::PrivilegeConfig& of_scenario);
 
 }  // namespace clearway::experiment

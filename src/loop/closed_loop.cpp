@@ -37,6 +37,7 @@ metrics::LeaseTotals ClosedLoop::finish() {
     if (!controller_) return {};
     commands_.clear();
     if (controller_->siren) controller_->siren->restore_all(commands_);
+    if (controller_->privilege) controller_->privilege->restore_all(commands_);
     controller_->actuator->restore_all(commands_);
     session_.apply(commands_);
     return totals_of(*controller_->actuator);
@@ -74,6 +75,8 @@ void ClosedLoop::act(const truth::Snapshot& snapshot) {
     const pipeline::DecisionChain& chain = *controller_->chain;
     commands_.clear();
     if (controller_->siren) controller_->siren->step(snapshot, session_.roster(), session_, commands_);
+    if (controller_->privilege) controller_->privilege->step(snapshot, session_.roster(), commands_);
+    if (controller_->listeners) controller_->actuator->heed(controller_->listeners->step(snapshot));
     controller_->actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
     controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);

@@ -7,6 +7,8 @@
 
 #include "actuation/actuator.hpp"
 #include "core/units.hpp"
+#include "drivers/listeners.hpp"
+#include "drivers/privilege.hpp"
 #include "drivers/siren.hpp"
 #include "experiment/loop_config.hpp"
 #include "metrics/recorder.hpp"
@@ -22,7 +24,9 @@ using experiment::LoopConfig;
 struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
     std::unique_ptr<actuation::Actuator> actuator;
-    std::unique_ptr<drivers::Siren> siren;  ///< Null if no driver reacts to a siren.
+    std::unique_ptr<drivers::Siren> siren;                    ///< Null if no driver reacts to a siren.
+    std::unique_ptr<drivers::Listeners> listeners = nullptr;  ///< Null if no driver takes requests.
+    std::unique_ptr<drivers::Privilege> privilege = nullptr;  ///< Null without privileges.
 };
 
 /// Where the wall time of a run went, s.

@@ -38,6 +38,13 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
     if (sirens.siren.compliance > 0.0)
         controller.siren =
             std::make_unique<drivers::Siren>(context.network, context.random, sirens.siren, sirens.reaction);
+    const drivers::RequestConfig requests = experiment::request_config(condition);
+    if (requests.compliance > 0.0)
+        controller.listeners = std::make_unique<drivers::Listeners>(context.random, requests);
+    const drivers::PrivilegeConfig privilege = experiment::privilege_config(condition, context.privilege);
+    if (!privilege.none())
+        controller.privilege =
+            std::make_unique<drivers::Privilege>(context.network, privilege, actuation.lateral_model);
     return controller;
 }
 

@@ -13,6 +13,7 @@ struct ControllerContext {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
     LoopConfig loop;
     drivers::SirenConfig siren;
+    drivers::PrivilegeConfig privilege = {};
     double friction = 1.0;          ///< See scenario::RoadCondition.
     bool has_pedestrians = true;    ///< Whether there may be pedestrians.
     policy::GuestMaker guest = {};  ///< See pipeline::ChainContext.

@@ -30,11 +30,11 @@ std::optional<analysis::Estimate> difference(const analysis::ConditionSummary& c
     return analysis::estimate_paired(values.values, reference.metric(metric).values, values.metric.kind);
 }
 
-/// The scenario decides about sirens, so they have no shipped value.
+/// The scenario decides about the environment, so it has no shipped value.
 std::string shipped_value(const std::string& setting) {
     const std::size_t dot = setting.find('.');
     for (const experiment::Component& component : experiment::components()) {
-        if (component.name != setting.substr(0, dot) || component.name == "siren") continue;
+        if (component.name != setting.substr(0, dot) || experiment::is_environment(component.name)) continue;
         for (const core::SettingInfo& row : component.table.rows) {
             if (component.name + "." + row.name == setting) return core::setting_text(row.preset);
         }

@@ -89,6 +89,8 @@ void read_root(const toml::table& table, core::TomlReading& reading, ScenarioCon
     read_subtable(root, "drivers", config.drivers);
     read_subtable(root, "car_following", config.following);
     read_subtable(root, "siren", config.siren);
+    read_subtable(root, "slow", config.slow);
+    read_subtable(root, "privilege", config.privilege);
     read_road(root, config.road);
     read_subtable(root, "pedestrians", config.pedestrians);
     read_kinds(root, config);

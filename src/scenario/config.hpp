@@ -13,6 +13,7 @@
 #include "core/spellings.hpp"
 #include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
+#include "traffic/privilege.hpp"
 #include "traffic/siren.hpp"
 
 namespace clearway::scenario {
@@ -243,6 +244,40 @@ struct Following {
     }
 };
 
+/// Table `[slow]`, optional: vehicles that drive slower than the rest, such as tractors and laden trucks.
+struct Slow {
+    double share = 0.0;
+    double speed_factor = 0.7;
+
+    bool operator==(const Slow&) const = default;
+    static constexpr auto fields() {
+        using S = Slow;
+        return std::make_tuple(
+            core::Field{"share", "1", &S::share, 0.0, 1.0,
+                        "Share of the human and automated vehicles that drive slowly.", "0: nobody does"},
+            core::Field{"speed_factor", "1", &S::speed_factor, 0.1, 1.0,
+                        "Their desired speed divided by the road limit.",
+                        "assumed: a laden truck on a road of 100 km/h"});
+    }
+};
+
+/// Table `[privilege]`, optional: what the law allows emergency vehicles, in every condition and the
+/// baseline.
+struct Privilege : traffic::PrivilegeConfig {
+    int oncoming_lane = 0;
+
+    bool none() const { return traffic::PrivilegeConfig::none() && oncoming_lane == 0; }
+    static constexpr auto fields() {
+        return std::tuple_cat(
+            std::make_tuple(core::Field{"oncoming_lane", "1", &Privilege::oncoming_lane, 0, 1,
+                                        "1: emergency vehicles alone overtake on the lane of oncoming "
+                                        "traffic, where the network joins "
+                                        "the two; otherwise all do",
+                                        "0: scenarios before this one leave it out"}),
+            traffic::PrivilegeConfig::fields());
+    }
+};
+
 /// Table `[kinds.traffic]`: relative frequency of each kind among the human and automated vehicles of
 /// generated demand.
 struct TrafficKinds {
@@ -425,6 +460,8 @@ struct ScenarioConfig {
     Drivers drivers;
     Following following;         ///< Table `[car_following]`.
     traffic::SirenConfig siren;  ///< Table `[siren]`, optional: without it nobody yields.
+    Slow slow;
+    Privilege privilege;
     RoadCondition road;
     Pedestrians pedestrians;
     TrafficKinds traffic_kinds;

@@ -132,6 +132,8 @@ std::string to_toml(const ScenarioConfig& config) {
     // Left out when they have no effect, so that older configurations keep their `configuration_hash`.
     if (config.following != Following{}) text += "\n[car_following]\n" + members(config.following);
     if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
+    if (config.slow.share > 0.0) text += "\n[slow]\n" + members(config.slow);
+    if (!config.privilege.none()) text += "\n[privilege]\n" + members(config.privilege);
     if (!config.road.is_dry()) text += road_text(config.road);
     if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);
     text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);

@@ -62,13 +62,14 @@ std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, c
     const IdmParameters& idm = parameters(config.drivers.idm);
     const ModelAttributes model = model_attributes(config, vehicle_class);
     const double friction = config.road.friction;
+    const bool keeps_right = config.privilege.oncoming_lane != 0 && vehicle_class != VehicleClass::emergency;
     const double limit_mps = core::from_kmh(class_limit_kmh(config.limits, vehicle_class)).value;
     return fmt::format(
         "    <vType id=\"{}\" vClass=\"{}\" guiShape=\"{}\" length=\"{}\" width=\"{}\" height=\"{}\" "
         "minGap=\"{}\" "
         "accel=\"{:.6g}\" decel=\"{:.6g}\" emergencyDecel=\"{:.6g}\" maxSpeed=\"{:.2f}\" speedFactor=\"1\" "
         "speedDev=\"0\" "
-        "carFollowModel=\"{}\" tau=\"{:.6g}\" {}=\"{}\">\n"
+        "carFollowModel=\"{}\" tau=\"{:.6g}\" {}=\"{}\"{}>\n"
         "        <param key=\"{}\" value=\"{}\"/>\n        <param key=\"{}\" value=\"{}\"/>\n    </vType>\n",
         type_id(vehicle_class, kind.kind, access),
         access == Access::unrestricted ? "ignoring" : kind.vehicle_permission, kind.gui_shape, kind.length_m,
@@ -77,8 +78,8 @@ std::string type_xml(const ScenarioConfig& config, VehicleClass vehicle_class, c
         std::min(kind.deceleration_mps2, idm.deceleration_cap_mps2) * friction,
         kind.emergency_deceleration_mps2 * friction, std::min(limit_mps, kind.maximum_speed_mps), model.model,
         model.time_headway_s * config.road.headway_factor, model.extra, model.extra_value,
-        traffic::class_parameter, traffic::name(vehicle_class), traffic::kind_parameter,
-        traffic::name(kind.kind));
+        keeps_right ? " lcOpposite=\"0\"" : "", traffic::class_parameter, traffic::name(vehicle_class),
+        traffic::kind_parameter, traffic::name(kind.kind));
 }
 
 bool is_emergency(const KindProperties& kind) {

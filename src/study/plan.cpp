@@ -13,6 +13,7 @@
 #include "experiment/settings.hpp"
 #include "scenario/network.hpp"
 #include "study/detail/folder_lock.hpp"
+#include "study/detail/situation.hpp"
 
 namespace clearway::study {
 namespace {
@@ -73,6 +74,10 @@ void check(const StudyConfig& config) {
     for (const experiment::ConditionSpec& condition : config.conditions)
         check_condition_name(condition, conditions, problems);
     check_baselines(config, problems);
+    for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+        for (const experiment::ConditionSpec& condition : config.conditions)
+            detail::check_traffic_model(condition, scenario, problems);
+    }
     if (!problems.empty()) throw core::InputError(problems);
 }
 
@@ -167,6 +172,10 @@ std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
 }
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+    std::vector<core::Problem> problems;
+    for (const scenario::ScenarioConfig& config : plan.scenarios)
+        detail::check_roads(plan.manifest.conditions, config, problems);
+    if (!problems.empty()) throw core::InputError(problems);
     const detail::FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     for (const scenario::ScenarioConfig& config : plan.scenarios)

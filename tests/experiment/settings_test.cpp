@@ -76,7 +76,7 @@ TEST(Settings, OfEveryPartThatAConditionHasAreAccepted) {
     EXPECT_THAT(problems_of(condition), IsEmpty());
     EXPECT_THAT(components_of(condition),
                 testing::ElementsAre("loop", "failure", "graphsage", "preempt_signals", "recover_signals",
-                                     "clear_lane", "actuation", "siren"));
+                                     "clear_lane", "actuation", "siren", "requests", "privilege"));
 }
 
 TEST(Settings, ThatCannotBeNameTheNearest) {
@@ -219,6 +219,32 @@ TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("Did you mean 'corridor'?"));
     }
+}
+
+TEST(Settings, AComplianceOutsideZeroToOneIsRefused) {
+    EXPECT_THAT(problems_of("requests.compliance", "1.5"),
+                testing::AllOf(HasSubstr("requests.compliance: 1.5 is out of range"), HasSubstr("0 to 1")));
+    EXPECT_THAT(problems_of("requests.compliance", "-0.1"), HasSubstr("out of range"));
+}
+
+TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
+    ConditionSpec condition;
+    condition.policies = {"rescue_lane"};
+    EXPECT_THAT(problems_of(condition), HasSubstr("--traffic-model sublane"));
+    condition.traffic_model = TrafficModel::sublane;
+    EXPECT_THAT(problems_of(condition), IsEmpty());
+}
+
+TEST(Settings, PrivilegesAreOfTheEnvironmentSoTheBaselineHasThemToo) {
+    ConditionSpec condition = corridor();
+    set(condition, "privilege.pass_red", "1");
+    const ConditionSpec baseline = baseline_for(condition);
+    EXPECT_EQ(baseline.settings.at("privilege.pass_red"), "1");
+    EXPECT_FALSE(baseline.acts());
+    EXPECT_TRUE(same_environment(condition, baseline));
+    EXPECT_FALSE(same_environment(condition, corridor()));
+    EXPECT_EQ(privilege_config(condition, {}).pass_red, 1);
+    EXPECT_EQ(privilege_config(corridor(), {.between_lanes = 1}).between_lanes, 1) << "as the scenario says";
 }
 
 }  // namespace

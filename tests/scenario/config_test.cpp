@@ -33,8 +33,10 @@ class Config : public ScratchTest {
 };
 
 TEST_F(Config, shipped_scenarios_are_listed_and_load) {
-    EXPECT_THAT(list(), ElementsAre("bologna", "city", "grid_signals", "intersection", "merge", "random_town",
-                                    "spider"));
+    EXPECT_THAT(list(),
+                ElementsAre("arterial", "bologna", "city", "grid_signals", "intersection", "merge",
+                            "motorway_jam", "motorway_jam_3km", "motorway_jam_three_lanes",
+                            "motorway_jam_three_lanes_3km", "random_town", "rural", "spider"));
     for (const std::string& name : list()) {
         const ScenarioConfig config = load(name);
         EXPECT_EQ(config.name, name);
@@ -230,6 +232,20 @@ TEST_F(Config, dense_times_density_stays_readable) {
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--density");
     EXPECT_THAT(problems[0].what, HasSubstr("500"));
+}
+
+TEST_F(Config, privileges_and_slow_vehicles_enter_the_effective_configuration_where_there_are_any) {
+    const std::string plain = to_toml(load("merge"));
+    EXPECT_EQ(plain.find("[privilege]"), std::string::npos);
+    EXPECT_EQ(plain.find("[slow]"), std::string::npos);
+    const std::string rural = to_toml(load("rural"));
+    EXPECT_NE(rural.find("[privilege]\noncoming_lane = 1\n"), std::string::npos);
+    EXPECT_NE(rural.find("[slow]\nshare = 0.3\n"), std::string::npos);
+    EXPECT_EQ(load("arterial").privilege.pass_red, 1);
+}
+
+TEST_F(Config, a_share_of_slow_vehicles_outside_zero_to_one_is_refused) {
+    EXPECT_THAT(only_problem("[slow]\nshare = 1.5\n").what, HasSubstr("1.5 is out of range"));
 }
 
 TEST_F(Config, a_siren_enters_the_effective_configuration_where_somebody_heeds_it) {

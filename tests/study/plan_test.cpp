@@ -1,9 +1,12 @@
 #include "study/plan.hpp"
 
+#include <functional>
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "experiment/conditions.hpp"
+#include "study/detail/situation.hpp"
 
 namespace clearway::study {
 namespace {
@@ -102,6 +105,49 @@ TEST(Plan, RefusesAnEmptyStudy) {
     EXPECT_THAT(problems_of(config),
                 testing::AllOf(testing::HasSubstr("no scenario"), testing::HasSubstr("no condition"),
                                testing::HasSubstr("replications")));
+}
+
+TEST(Plan, RefusesDrivingBetweenLanesWithoutTheSublaneModel) {
+    StudyConfig config = example();
+    config.scenarios[1].privilege.between_lanes = 1;
+    EXPECT_THAT(problems_of(config),
+                testing::AllOf(testing::HasSubstr("condition corridor, scenario beta"),
+                               testing::HasSubstr("\"standard\" cannot show"),
+                               testing::HasSubstr("--traffic-model sublane")));
+}
+
+/// What is wrong when a policy runs in a scenario of this name, changed by `change`.
+std::string problems_on_the_road(const char* scenario, const char* policy, TrafficModel model,
+                                 const std::function<void(scenario::ScenarioConfig&)>& change) {
+    scenario::ScenarioConfig config = scenario::load(scenario);
+    change(config);
+    experiment::ConditionSpec condition;
+    condition.name = policy;
+    condition.policies = {policy};
+    condition.traffic_model = model;
+    std::vector<core::Problem> problems;
+    detail::check_roads({condition}, config, problems);
+    return problems.empty() ? "none" : core::InputError(problems).what();
+}
+
+TEST(Situation, RefusesAPolicyThatNeedsAShoulderWhereThereIsNone) {
+    const auto as_it_is = [](scenario::ScenarioConfig&) {};
+    EXPECT_THAT(problems_on_the_road("merge", "pull_over", TrafficModel::standard, as_it_is),
+                testing::AllOf(testing::HasSubstr("condition pull_over, scenario merge"),
+                               testing::HasSubstr("needs a shoulder"), testing::HasSubstr("pull_aside")));
+    EXPECT_EQ(problems_on_the_road("rural", "pull_over", TrafficModel::standard, as_it_is), "none");
+}
+
+TEST(Situation, RefusesAnEmergencyVehicleThatIsWiderThanTheGapBetweenTwoLanes) {
+    const auto engine = [](scenario::ScenarioConfig& config) {
+        config.privilege.between_lanes = 1;
+        config.emergency_kinds = {.ambulance = 0.0, .fire_engine = 1.0};
+    };
+    EXPECT_THAT(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, engine),
+                testing::AllOf(testing::HasSubstr("a fire_engine of 2.5 m and 0.4 m of margin"),
+                               testing::HasSubstr("at most 2.80 m"), testing::HasSubstr("--emergency-kinds")));
+    const auto ambulance = [](scenario::ScenarioConfig& config) { config.privilege.between_lanes = 1; };
+    EXPECT_EQ(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, ambulance), "none");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace clearway::scenario::detail {
 namespace {
 
-/// Numbers of the random draws for one driver; 0 is the speed factor (demand.cpp). Never renumber them.
+/// Numbers of the random draws for one driver; 0 and 4 are those of demand.cpp. Never renumber them.
 enum DriverDraw : std::uint64_t { headway = 1, acceleration = 2, deceleration = 3 };
 
 constexpr double least_factor = 0.5;

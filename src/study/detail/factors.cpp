@@ -337,7 +337,7 @@ experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assign
 }
 
 bool is_environment(const Factor& factor) {
-    return factor.group == "siren";
+    return experiment::is_environment(factor.group);
 }
 
 bool is_varied(const experiment::ConditionSpec& condition) {

@@ -68,7 +68,7 @@ core::Settings factors_of(const Assignment& assignment);
 experiment::ConditionSpec with(experiment::ConditionSpec condition, const Assignment& assignment,
                                std::vector<core::Problem>& problems);
 
-/// Whether a factor sets how human drivers react to sirens, which baselines have too.
+/// Whether a factor sets something of the environment, which baselines have too.
 bool is_environment(const Factor& factor);
 
 /// Whether factors of conditions change anything: baselines and solo runs have no sensing, predictor or

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "core/error.hpp"
+#include "experiment/condition.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::study::detail {
+
+/// What a condition needs and its traffic model does not have: a part that needs the sublane model, or a
+/// privilege of the scenario that does.
+void check_traffic_model(const experiment::ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
+                         std::vector<core::Problem>& problems);
+
+/// What the conditions need of the scenario's roads and do not find there: a shoulder, or a gap between two
+/// lanes in which an emergency vehicle fits. Builds the network if one of them needs something.
+void check_roads(const std::vector<experiment::ConditionSpec>& conditions,
+                 const scenario::ScenarioConfig& scenario, std::vector<core::Problem>& problems);
+
+}  // namespace clearway::study::detail
