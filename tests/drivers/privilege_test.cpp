@@ -128,13 +128,13 @@ TEST(Privilege, does_not_leave_its_lane_without_the_sublane_model_or_without_slo
 
 TEST(GapAcross, is_the_nearest_that_is_wide_enough) {
     const Across road{-5.0, 5.0};
-    const auto free = drivers::detail::nearest_free(road, {{-1.0, 1.0}, {3.0, 4.8}}, 2.0);
+    const auto free = drivers::detail::nearest_free(road, {{-1.5, 1.0}, {3.0, 4.8}}, 2.0);
     ASSERT_TRUE(free);
     EXPECT_DOUBLE_EQ(free->right_m, 1.0);
     EXPECT_DOUBLE_EQ(free->left_m, 3.0);
     EXPECT_DOUBLE_EQ(drivers::detail::shift_into(*free, 2.0), 2.0);
-    const auto right = drivers::detail::nearest_free(road, {{-1.0, 1.0}, {2.0, 4.8}}, 2.0);
-    EXPECT_DOUBLE_EQ(right->left_m, -1.0) << "the left one is 1 m wide";
+    const auto right = drivers::detail::nearest_free(road, {{-1.5, 1.0}, {2.0, 4.8}}, 2.0);
+    EXPECT_DOUBLE_EQ(right->left_m, -1.5) << "the left one is 1 m wide";
     EXPECT_FALSE(drivers::detail::nearest_free(road, {{-4.0, 4.0}}, 2.0));
     EXPECT_DOUBLE_EQ(drivers::detail::nearest_free(road, {}, 2.0)->width_m(), 10.0);
 }

@@ -14,6 +14,8 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
     static std::unique_ptr<policy::Policy> make() {
         return policy::make_policy(GetParam(), policy::PolicyContext{two_crossings()});
     }
+    /// hold_cross acts only shortly before the arrival.
+    static double to_line_m() { return GetParam() == "hold_cross" ? 50.0 : 120.0; }
     static bool needs_shoulder() {
         const auto& known = policy::policies();
         const auto entry = std::ranges::find(known, GetParam(), &policy::PolicyEntry::name);
@@ -27,7 +29,7 @@ TEST_P(EveryPolicy, knows_its_name) {
 
 TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
     ActuationBench bench;
-    add_helpful_scene(bench, GetParam() == "hold_cross" ? 50.0 : 120.0);
+    add_helpful_scene(bench, to_line_m());
     PolicyRun run(make(), bench);
     run.run_for(5.0);
     EXPECT_EQ(run.leases().empty(), needs_shoulder()) << "the crossings have no shoulder";
@@ -96,7 +98,7 @@ TEST_P(EveryPolicy, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
 
 TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
     ActuationBench bench;
-    add_helpful_scene(bench);
+    add_helpful_scene(bench, to_line_m());
     bench.add({"e2", VehicleClass::emergency, {"north_a_A", "A_south_a"}, 1, 220.0, 12.0});
     bench.add({"a3", VehicleClass::automated, {"north_a_A", "A_south_a"}, 1, 245.0, 8.0});
     PolicyRun run(make(), bench);

@@ -221,6 +221,7 @@ TEST(Commands, AVehicleBesideTheRoadIsInNobodysWayAndReturnsWhenItResumes) {
                                        traffic::StopPlace::beside_road});
     step_until(session, 25.0);
     EXPECT_FALSE(session.snapshot().row_of(key("a"))) << "beside the road";
+    step_until(session, 31.0);
     apply(session, traffic::SetLaneChangeFreedom{key("b"), traffic::LaneChangeFreedom::none});
     step_until(session, 60.0);
     EXPECT_GT(place(session, "b"), 150.0F) << "passed on the same lane";
