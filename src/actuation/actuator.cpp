@@ -156,6 +156,12 @@ void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now,
             state_->take(lease);
             continue;
         }
+        refuse({&lease, 1}, reason);
+    }
+}
+
+void Actuator::refuse(std::span<const traffic::Lease> leases, const char* reason) {
+    for (const traffic::Lease& lease : leases) {
         LeaseCounts& counts = state_->ledger.of(lease);
         ++counts.issued;
         ++counts.refused[reason];

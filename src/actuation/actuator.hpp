@@ -29,7 +29,7 @@ namespace clearway::actuation {
 ///
 /// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
 ///   `no_such_signal`, `wrong_target`;
-/// - `unreachable`: commands do not reach it now;
+/// - `unreachable`: commands do not reach it now; `unheard`: the message with the request was lost;
 /// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
 /// - human drivers take no leases unless they heed them, only emergency vehicles pass red:
 /// `not_controllable`,
@@ -63,6 +63,9 @@ class Actuator {
 
     /// Human drivers who take leases from now on, ordered by key. At first there are none.
     void heed(std::span<const core::VehicleKey> drivers);
+
+    /// Counts leases that never came to their targets, for a reason with static storage.
+    void refuse(std::span<const traffic::Lease> leases, const char* reason);
 
     /// Appends the commands for this step: vehicles by key, then signals. `snapshot` and `self` are what
     /// vehicles know about themselves. Call once per step, in order of time.

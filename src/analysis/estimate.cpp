@@ -97,6 +97,18 @@ std::optional<double> paired_t_p(std::span<const double> condition, std::span<co
     return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
 }
 
+std::optional<double> paired_equivalence_p(std::span<const double> condition,
+                                           std::span<const double> baseline, double margin) {
+    assert(margin > 0.0);
+    const auto difference = estimate_difference(condition, baseline);
+    if (!difference || difference->n < 2) return std::nullopt;
+    const double inside = margin - std::abs(difference->mean);
+    if (difference->deviation == 0.0) return inside > 0.0 ? 0.0 : 1.0;
+    const boost::math::students_t distribution(static_cast<double>(difference->n) - 1.0);
+    const double t = inside / difference->deviation * std::sqrt(static_cast<double>(difference->n));
+    return boost::math::cdf(boost::math::complement(distribution, t));
+}
+
 std::size_t required_replications(double deviation, double half_width, double level) {
     assert(half_width > 0.0);
     const auto suffices = [&](std::size_t n) {

@@ -106,6 +106,12 @@ std::optional<double> wilcoxon_p(std::span<const double> condition, std::span<co
 /// Two-sided p value of the paired t test. Nothing below two pairs or without variation.
 std::optional<double> paired_t_p(std::span<const double> condition, std::span<const double> baseline);
 
+/// p value of the paired equivalence test (two one-sided t tests, Schuirmann 1987): the greater of those
+/// against "the mean difference is -margin or less" and "margin or more". Without variation 0 if the mean
+/// lies within the margin, else 1. Nothing below two pairs. `margin` > 0.
+std::optional<double> paired_equivalence_p(std::span<const double> condition,
+                                           std::span<const double> baseline, double margin);
+
 /// Holm's step-down adjustment, in the order of `p_values`; each at most 1.
 std::vector<double> holm(std::span<const double> p_values);
 

@@ -206,6 +206,25 @@ std::optional<std::vector<metrics::LeaseRow>> leases_of(const Runs& runs) {
     return total;
 }
 
+bool acts_in(const std::vector<metrics::LeaseRow>& leases, const std::string& policy) {
+    return std::ranges::any_of(
+        leases, [&](const metrics::LeaseRow& row) { return row.policy == policy && row.acted > 0; });
+}
+
+std::vector<IdlePart> idle_parts(const Runs& runs, const ConditionSpec& condition) {
+    std::vector<IdlePart> idle;
+    for (const std::string& policy : experiment::parts_of(condition)) {
+        IdlePart part{policy};
+        for (const results::RunRecord* run : runs) {
+            if (run == nullptr || !run->leases) continue;
+            ++part.runs;
+            if (!acts_in(*run->leases, policy)) ++part.idle_runs;
+        }
+        if (part.idle_runs > 0) idle.push_back(std::move(part));
+    }
+    return idle;
+}
+
 void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, ResampleCache& resamples,
                ConditionSummary& summary) {
     std::vector<double> with;
@@ -284,6 +303,7 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     const Runs runs = index.runs(scenario, condition.name);
     count_outcomes(runs, summary);
     summary.leases = leases_of(runs);
+    summary.idle_parts = idle_parts(runs, condition);
     summary.failed_runs = index.errors(scenario, condition.name);
     summary.missing_runs = runs.size() - summary.complete_runs - summary.failed_runs;
     summary.travel_time = tail_of(runs, resamples);

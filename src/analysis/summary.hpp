@@ -85,6 +85,13 @@ struct TravelTimeTail {
     PooledQuantile percentile_95;
 };
 
+/// A policy of a condition that did nothing in some of its runs.
+struct IdlePart {
+    std::string policy;
+    std::size_t idle_runs = 0;  ///< Complete runs in which none of its leases was carried out; at least 1.
+    std::size_t runs = 0;       ///< Complete runs.
+};
+
 struct ConditionSummary {
     experiment::ConditionSpec condition;
     std::string baseline;  ///< Condition it is compared with; empty for baselines and solo.
@@ -99,6 +106,7 @@ struct ConditionSummary {
     Objections objections;  ///< Against the baseline; none for baselines and solo.
     /// Leases over all complete runs, by policy, then action. Nothing if no run has them by action.
     std::optional<std::vector<metrics::LeaseRow>> leases;
+    std::vector<IdlePart> idle_parts;  ///< In the order of the policies; empty if records lack leases.
     TravelTimeTail travel_time;
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.

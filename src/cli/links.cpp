@@ -55,7 +55,7 @@ std::string number_text(const std::string& option, const std::string& text) {
 }
 
 bool is_predictor(const std::string& name) {
-    const std::vector<std::string> names = prediction::predictor_names();
+    const std::vector<std::string> names = links::judged_predictors();
     return std::ranges::find(names, name) != names.end();
 }
 
@@ -75,7 +75,7 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
 /// All predictors but those whose models were trained for other links, which are named on standard error.
 std::vector<std::string> predictors_for(double link_radius_m) {
     std::vector<std::string> names, left_out;
-    for (const std::string& name : prediction::predictor_names()) {
+    for (const std::string& name : links::judged_predictors()) {
         std::vector<core::Problem> problems;
         prediction::check_link_radius(name, "", link_radius_m, "", problems);
         (problems.empty() ? names : left_out).push_back(name);
@@ -209,7 +209,12 @@ void check(const links::LinkPlan& plan) {
         check_failure("--failure", failure, problems);
     std::vector<std::string> present;
     for (const links::LinkPredictor& predictor : plan.predictors) {
-        check_name("--predictor", predictor.name, prediction::predictor_names());
+        if (prediction::knows_truth(predictor.name))
+            problems.push_back({"--predictor " + predictor.name,
+                                "knows the truth: its links are as good as its settings say",
+                                core::listed(links::judged_predictors()), "Judge a repair"});
+        else
+            check_name("--predictor", predictor.name, links::judged_predictors());
         present.push_back(predictor.name);
         prediction::check_settings(predictor.name, predictor.settings, "--set " + predictor.name, problems);
         if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {

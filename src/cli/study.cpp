@@ -11,6 +11,7 @@
 #include "cli/detail/rounds.hpp"
 #include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
+#include "study/fresh_seeds.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::cli {
@@ -79,6 +80,7 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
     study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
     apply_models(arguments.models, config.conditions);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
+    study::check_fresh_seed(config, arguments.file, folder);
     RunPlanOptions options{folder,
                            arguments.jobs,
                            arguments.limits,

@@ -30,6 +30,11 @@ std::uint64_t mix64(std::uint64_t word) {
     return word ^ (word >> 31);
 }
 
+std::uint64_t pair_subject(std::uint64_t one, std::uint64_t other) {
+    const auto [low, high] = std::minmax(one, other);
+    return mix64(low) ^ high;
+}
+
 KeyedRandom::KeyedRandom(StudySeed seed, Replication replication)
     : base_(mix64(mix64(seed.value) ^ (0xc1ea0000ULL + replication.value))) {}
 

@@ -31,7 +31,15 @@ enum class Purpose : std::uint32_t {
     seen_position = 22,
     known_route = 23,
     heading_noise = 24,
+    request_loss = 25,
+    request_outage = 26,
+    request_shadowing = 27,
+    signal_request_loss = 28,
+    signal_request_outage = 29,
+    signal_request_shadowing = 30,
     siren_reaction = 32,
+    spoiled_link = 40,
+    false_link = 41,
     training = 48,
     negative_sampling = 49,
     bootstrap = 64,
@@ -43,6 +51,9 @@ std::uint64_t fnv1a64(std::string_view bytes);
 /// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit affects every
 /// output bit.
 std::uint64_t mix64(std::uint64_t word);
+
+/// Subject of draws about two things, whichever comes first.
+std::uint64_t pair_subject(std::uint64_t one, std::uint64_t other);
 
 /// Random numbers without state: a draw is a pure function of (study seed, replication, purpose, subject,
 /// counter). Neither the order of calls nor the presence of other vehicles changes a draw, so all conditions

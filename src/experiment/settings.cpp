@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
 #include "experiment/conditions.hpp"
+#include "policy/ask.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "python/part_name.hpp"
@@ -141,7 +142,9 @@ void check_leases(const ConditionSpec& condition, const std::string& where,
     if (!period_s) return;
     for (const auto& [name, value] : condition.settings) {
         const std::optional<double> lease_s = core::number_from(value);
-        if (!name.ends_with("lease_s") || !lease_s || *lease_s >= 2.0 * *period_s - 1e-9) continue;
+        // 0 stands for two periods where it is allowed.
+        if (!name.ends_with("lease_s") || !lease_s || *lease_s == 0.0 || *lease_s >= 2.0 * *period_s - 1e-9)
+            continue;
         problems.push_back({where + name,
                             fmt::format("{} s is shorter than two policy periods, {} is {} s", value,
                                         period_name, *period_s),
@@ -149,6 +152,50 @@ void check_leases(const ConditionSpec& condition, const std::string& where,
                             fmt::format("Set {} to {:g} or more, or {} to {:g} or less", name,
                                         2.0 * *period_s, period_name, *lease_s / 2.0)});
     }
+}
+
+/// The value that a condition sets, or an empty text.
+std::string set_value(const ConditionSpec& condition, const std::string& name) {
+    const auto found = condition.settings.find(name);
+    return found == condition.settings.end() ? "" : found->second;
+}
+
+bool asks_linked(const ConditionSpec& condition, const std::string& part) {
+    return set_value(condition, part + ".ask") == name(policy::Ask::linked);
+}
+
+/// Settings of links that decide whom a part asks: without `ask=linked` they have no effect, and relays need
+/// links of automated vehicles with each other.
+void check_ask(const ConditionSpec& condition, const std::string& where,
+               std::vector<core::Problem>& problems) {
+    const std::string relay_name = std::string(loop_name) + ".automated_links";
+    for (const auto& [name, value] : condition.settings) {
+        const auto [part, field] = parted(name);
+        if (field != "ask_probability" && field != "ask_hops") continue;
+        if (!asks_linked(condition, part)) {
+            problems.push_back({where + name, fmt::format("has no effect, because {} asks everyone", part),
+                                part + ".ask=linked",
+                                fmt::format("Set {}.ask to linked, or remove {}", part, name)});
+        } else if (field == "ask_hops" && core::number_from(value).value_or(1.0) > 1.0 &&
+                   set_value(condition, relay_name) != "1") {
+            problems.push_back(
+                {where + name, fmt::format("is {}, but two automated vehicles are never linked", value),
+                 "1, or more with " + relay_name + "=1", fmt::format("Set {} to 1", relay_name)});
+        }
+    }
+}
+
+/// A predictor that knows the truth reads no faulty reports; faults that would be ignored are refused.
+void check_truth(const ConditionSpec& condition, const std::string& where,
+                 std::vector<core::Problem>& problems) {
+    if (!prediction::knows_truth(condition.predictor) ||
+        !sensing::reports_fail(sensing::failure_from(condition.failure)))
+        return;
+    problems.push_back(
+        {where + "failure",
+         fmt::format("'{}' spoils reports, but {} reads none", condition.failure, condition.predictor),
+         "perfect, and fields of requests",
+         fmt::format("Spoil what it knows by its settings: clearway list settings {}", condition.predictor)});
 }
 
 /// `lead_s_12`; with the component if several settings share the last name.
@@ -180,6 +227,22 @@ std::vector<std::string> components_of(const ConditionSpec& condition) {
         if (std::ranges::find(present, component.name) != present.end()) ordered.push_back(component.name);
     }
     return ordered;
+}
+
+std::vector<std::string> parts_of(const ConditionSpec& condition) {
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string& part) {
+        if (std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
+    };
+    for (const std::string& name : condition.policies) {
+        const auto known = std::ranges::find(policy::policies(), name, &policy::PolicyEntry::name);
+        if (known == policy::policies().end()) {
+            add(python::short_name(name));
+        } else {
+            std::ranges::for_each(known->components, add);
+        }
+    }
+    return parts;
 }
 
 void set(ConditionSpec& condition, const std::string& name, const std::string& value) {
@@ -256,8 +319,10 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
 
 bool reads_links(const ConditionSpec& condition) {
     return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
-        return entry.reads_links &&
-               std::ranges::find(condition.policies, entry.name) != condition.policies.end();
+        if (std::ranges::find(condition.policies, entry.name) == condition.policies.end()) return false;
+        return entry.reads_links || std::ranges::any_of(entry.components, [&](const std::string& part) {
+                   return asks_linked(condition, part);
+               });
     });
 }
 
@@ -293,7 +358,11 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
              "standard traffic model does not have",
              "traffic model \"sublane\"",
              "Run it with --traffic-model sublane, in a study file traffic_model = \"sublane\""});
-    if (problems.empty()) check_leases(condition, where, problems);
+    if (problems.empty()) {
+        check_leases(condition, where, problems);
+        check_ask(condition, where, problems);
+    }
+    if (problems.empty()) check_truth(condition, where, problems);
     check_model(condition, where, problems);
     if (problems.empty()) check_link_radius(condition, where, problems);
     return problems;

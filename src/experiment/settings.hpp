@@ -29,6 +29,10 @@ const std::vector<Component>& components();
 /// Names of the components that a condition has, in the order of `components`.
 std::vector<std::string> components_of(const ConditionSpec& condition);
 
+/// Names of the policies that a condition consists of, those that combine others taken apart: as leases name
+/// them.
+std::vector<std::string> parts_of(const ConditionSpec& condition);
+
 /// Sets `component.name` to a value given as text, without checks: see `check_settings`. A setting of the
 /// failure is added to the condition's `failure`, replacing an earlier value.
 void set(ConditionSpec& condition, const std::string& name, const std::string& value);

@@ -126,7 +126,7 @@ void read_comparisons(core::StrictTable& root, LinkBenchmark& benchmark) {
             continue;
         }
         for (const std::string& name : pair)
-            check_name(root, key, "predictor", name, prediction::predictor_names());
+            check_name(root, key, "predictor", name, judged_predictors());
         if (pair[0] == pair[1])
             root.problem(key, fmt::format("`{}` is compared with itself", pair[0]), "two predictors", "");
         const auto same = [&](const ComparedPair& other) {
@@ -159,7 +159,7 @@ void read_predictors(core::StrictTable& root, LinkBenchmark& benchmark) {
     if (root.has("predictors") && benchmark.predictors.empty())
         root.problem("predictors", "is empty", "one predictor or more", "Or leave `predictors` out");
     for (const std::string& name : benchmark.predictors)
-        check_name(root, "predictors", "predictor", name, prediction::predictor_names());
+        check_name(root, "predictors", "predictor", name, judged_predictors());
     if (benchmark.predictors.empty()) return;
     for (const ComparedPair& pair : benchmark.comparisons) {
         for (const std::string& name : {pair.predictor, pair.against}) {
@@ -236,6 +236,12 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
     root.finish();
     if (!reading.problems.empty()) throw core::InputError(std::move(reading.problems));
     return benchmark;
+}
+
+std::vector<std::string> judged_predictors() {
+    std::vector<std::string> names = prediction::predictor_names();
+    std::erase_if(names, prediction::knows_truth);
+    return names;
 }
 
 const std::vector<std::string>& benchmark_predictors() {

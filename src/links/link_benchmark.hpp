@@ -78,5 +78,7 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
 /// `eval_v1` was frozen. Later ones (`gcn`, `gat`) are judged on it when they are named, and its figures stay
 /// comparable.
 const std::vector<std::string>& benchmark_predictors();
+/// All predictors whose links can be judged: those that do not know the truth.
+std::vector<std::string> judged_predictors();
 
 }  // namespace clearway::links

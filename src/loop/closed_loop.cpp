@@ -40,7 +40,7 @@ metrics::LeaseTotals ClosedLoop::finish() {
     if (controller_->privilege) controller_->privilege->restore_all(commands_);
     controller_->actuator->restore_all(commands_);
     session_.apply(commands_);
-    return totals_of(*controller_->actuator);
+    return totals_of(*controller_->actuator, controller_->requests->counts());
 }
 
 void ClosedLoop::step() {
@@ -50,7 +50,7 @@ void ClosedLoop::step() {
     if (controller_) controller_->chain->observe(snapshot, session_.roster());
     if (listener_ != nullptr) listener_->on_step(snapshot, session_.roster());
     const bool decided = controller_ && decide(snapshot);
-    if (controller_) act(snapshot);
+    if (controller_) act(snapshot, decided);
     std::span<const traffic::Lease> leases;
     if (controller_) leases = controller_->chain->leases();
     recorder_.step(snapshot, session_.roster(), session_.events(), leases);
@@ -71,13 +71,16 @@ bool ClosedLoop::decide(const truth::Snapshot& snapshot) {
     return true;
 }
 
-void ClosedLoop::act(const truth::Snapshot& snapshot) {
+void ClosedLoop::act(const truth::Snapshot& snapshot, bool decided) {
     const pipeline::DecisionChain& chain = *controller_->chain;
     commands_.clear();
     if (controller_->siren) controller_->siren->step(snapshot, session_.roster(), session_, commands_);
     if (controller_->privilege) controller_->privilege->step(snapshot, session_.roster(), commands_);
     if (controller_->listeners) controller_->actuator->heed(controller_->listeners->step(snapshot));
-    controller_->actuator->accept(chain.leases(), snapshot.time, chain.unreachable());
+    pipeline::Requests& requests = *controller_->requests;
+    requests.step({chain.leases(), chain.unreachable(), decided}, snapshot, session_.roster());
+    controller_->actuator->accept(requests.arrived(), snapshot.time, chain.unreachable());
+    controller_->actuator->refuse(requests.lost(), "unheard");
     controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
 }

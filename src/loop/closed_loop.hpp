@@ -13,6 +13,7 @@
 #include "experiment/loop_config.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
+#include "pipeline/requests.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
 
@@ -23,6 +24,7 @@ using experiment::LoopConfig;
 /// What implements a condition, ready to run.
 struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
+    std::unique_ptr<pipeline::Requests> requests;
     std::unique_ptr<actuation::Actuator> actuator;
     std::unique_ptr<drivers::Siren> siren;                    ///< Null if no driver reacts to a siren.
     std::unique_ptr<drivers::Listeners> listeners = nullptr;  ///< Null if no driver takes requests.
@@ -66,7 +68,7 @@ class ClosedLoop {
     void step();
     /// Returns whether a decision was made.
     bool decide(const truth::Snapshot& snapshot);
-    void act(const truth::Snapshot& snapshot);
+    void act(const truth::Snapshot& snapshot, bool decided);
     void score(const truth::Snapshot& snapshot);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
 

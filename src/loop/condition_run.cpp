@@ -4,8 +4,6 @@
 
 #include <sys/resource.h>
 
-#include "sensing/failure_config.hpp"
-
 namespace clearway::loop {
 namespace {
 
@@ -20,8 +18,8 @@ long peak_kib() {
 metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
                                    const experiment::ConditionSpec& condition, Stage stage) {
     recorder.watch(std::move(stage.layout));
-    recorder.configure(metrics::RecorderConfig::of_latency(
-        core::Seconds(sensing::failure_from(condition.failure).latency_s)));
+    recorder.configure(
+        metrics::RecorderConfig::of_latency(core::Seconds(pipeline::observed_failure(condition).latency_s)));
     loop.begin(make_controller(condition, stage.context), stage.context.loop);
     loop.tell(stage.listener);
     loop.run(stage.horizon);

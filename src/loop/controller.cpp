@@ -20,12 +20,13 @@ double yellow_s(double dry_s, double friction) {
 
 Controller make_controller(const experiment::ConditionSpec& condition, const ControllerContext& context) {
     Controller controller;
-    controller.chain = std::make_unique<pipeline::DecisionChain>(
-        condition, pipeline::ChainContext{.network = context.network,
-                                          .random = context.random,
-                                          .policy_period_s = context.loop.policy_period_s,
-                                          .rules = context.loop.rules(),
-                                          .guest = context.guest});
+    const pipeline::ChainContext chain{.network = context.network,
+                                       .random = context.random,
+                                       .policy_period_s = context.loop.policy_period_s,
+                                       .rules = context.loop.rules(),
+                                       .guest = context.guest};
+    controller.chain = std::make_unique<pipeline::DecisionChain>(condition, chain);
+    controller.requests = std::make_unique<pipeline::Requests>(condition, chain);
     actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
     actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
     if (!context.has_pedestrians) actuation.walking_s = 0.0;
@@ -62,8 +63,9 @@ sumo::Names names_of(const roads::Network& network) {
     return names;
 }
 
-metrics::LeaseTotals totals_of(const actuation::Actuator& actuator) {
+metrics::LeaseTotals totals_of(const actuation::Actuator& actuator, const traffic::RequestCounts& requests) {
     metrics::LeaseTotals totals;
+    totals.requests = requests;
     for (const auto& [key, counts] : actuator.counts()) {
         totals.issued += counts.issued;
         totals.renewed += counts.renewed;

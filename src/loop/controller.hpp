@@ -26,7 +26,7 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
 /// The ids that a session of this network maps to indices.
 sumo::Names names_of(const roads::Network& network);
 
-/// What became of the leases of a run.
-metrics::LeaseTotals totals_of(const actuation::Actuator& actuator);
+/// What became of the leases and requests of a run.
+metrics::LeaseTotals totals_of(const actuation::Actuator& actuator, const traffic::RequestCounts& requests);
 
 }  // namespace clearway::loop

@@ -223,6 +223,20 @@ void describe_conflicts(const detail::ConflictWatch& conflicts, RunMetrics& metr
     metrics.emergency_greatest_drac_mps2 = conflicts.greatest_drac_mps2();
 }
 
+void describe_requests(const traffic::RequestCounts& counts, RunMetrics& metrics) {
+    metrics.requests_sent = counts.sent;
+    metrics.requests_heard = counts.heard;
+    metrics.requests_relayed = counts.relayed;
+    metrics.requests_needed = counts.needed;
+    metrics.requests_useless = counts.useless;
+    metrics.requests_missed = counts.missed;
+    metrics.request_messages = counts.messages;
+    metrics.vehicles_asked = counts.vehicles_asked;
+    metrics.signal_requests_sent = counts.signal_sent;
+    metrics.signal_requests_heard = counts.signal_heard;
+    metrics.signal_request_messages = counts.signal_messages;
+}
+
 /// Mean time lost on the worst approach. Rows of one approach are adjacent.
 std::optional<double> worst_delay_s(const std::vector<ApproachRow>& rows) {
     // Assumed: a mean of fewer vehicles says more about single drivers than about the street.
@@ -343,6 +357,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_renewed = end.leases.renewed;
     metrics.leases_refused = end.leases.refused;
     metrics.leases_expired = end.leases.expired;
+    describe_requests(end.leases.requests, metrics);
     metrics.links_true_positive = link_counts().true_positive;
     metrics.links_false_positive = link_counts().false_positive;
     metrics.links_false_negative = link_counts().false_negative;

@@ -10,6 +10,7 @@
 #include "metrics/lease_row.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
+#include "traffic/request_counts.hpp"
 
 namespace clearway::metrics {
 
@@ -33,6 +34,7 @@ struct LeaseTotals {
     std::uint64_t refused = 0;
     std::uint64_t expired = 0;
     std::vector<LeaseRow> rows = {};  ///< The same by policy and action.
+    traffic::RequestCounts requests = {};
 
     bool operator==(const LeaseTotals&) const = default;
 };
@@ -92,6 +94,18 @@ struct RunMetrics {
     std::uint64_t leases_renewed = 0;
     std::uint64_t leases_refused = 0;
     std::uint64_t leases_expired = 0;
+
+    std::uint64_t requests_sent = 0;
+    std::uint64_t requests_heard = 0;
+    std::uint64_t requests_relayed = 0;
+    std::uint64_t requests_needed = 0;
+    std::uint64_t requests_useless = 0;
+    std::uint64_t requests_missed = 0;
+    std::uint64_t request_messages = 0;
+    std::uint64_t vehicles_asked = 0;
+    std::uint64_t signal_requests_sent = 0;
+    std::uint64_t signal_requests_heard = 0;
+    std::uint64_t signal_request_messages = 0;
 
     std::uint64_t links_true_positive = 0;
     std::uint64_t links_false_positive = 0;
@@ -217,7 +231,41 @@ struct RunMetrics {
                   "actuation"},
             Field{"leases_refused", "1", &M::leases_refused, 0.0, 1e12, "Leases that were not feasible",
                   "actuation"},
-            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"},
+            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"});
+    }
+    static constexpr auto request_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
+            Field{"requests_sent", "1", &M::requests_sent, 0.0, 1e12,
+                  "Requests of EVs to other vehicles, one for each message that carries it", "channel"},
+            Field{"requests_heard", "1", &M::requests_heard, 0.0, 1e12,
+                  "Of those sent: the vehicle heard it, itself or by a relay", "channel"},
+            Field{"requests_relayed", "1", &M::requests_relayed, 0.0, 1e12,
+                  "Of those heard: only a relay brought it", "channel"},
+            Field{
+                "requests_needed", "1", &M::requests_needed, 0.0, 1e12,
+                "Requests that the same policies would have made with perfect sensors, at the same messages",
+                "the same policies on the truth"},
+            Field{"requests_useless", "1", &M::requests_useless, 0.0, 1e12,
+                  "Of those sent: not among those needed", "the same policies on the truth"},
+            Field{"requests_missed", "1", &M::requests_missed, 0.0, 1e12,
+                  "Of those needed: not sent or not heard", "the same policies on the truth"},
+            Field{"request_messages", "1", &M::request_messages, 0.0, 1e12,
+                  "Transmissions of requests to vehicles, those of relays included", "channel"},
+            Field{"vehicles_asked", "1", &M::vehicles_asked, 0.0, 1e9,
+                  "Different vehicles that heard a request", "channel"},
+            Field{"signal_requests_sent", "1", &M::signal_requests_sent, 0.0, 1e12,
+                  "Requests of EVs to signals, one for each message that carries it", "channel"},
+            Field{"signal_requests_heard", "1", &M::signal_requests_heard, 0.0, 1e12,
+                  "Of those sent to signals: the signal heard it", "channel"},
+            Field{"signal_request_messages", "1", &M::signal_request_messages, 0.0, 1e12,
+                  "Transmissions of requests to signals", "channel"});
+    }
+    static constexpr auto link_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
             Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12,
                   "Links believed that are true", "link comparison by key"},
             Field{"links_false_positive", "1", &M::links_false_positive, 0.0, 1e12,
@@ -240,7 +288,8 @@ struct RunMetrics {
 
   public:
     static constexpr auto fields() {
-        return std::tuple_cat(travel_fields(), safety_fields(), pedestrian_fields(), decision_fields());
+        return std::tuple_cat(travel_fields(), safety_fields(), pedestrian_fields(), decision_fields(),
+                              request_fields(), link_fields());
     }
 };
 

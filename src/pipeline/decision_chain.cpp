@@ -1,21 +1,53 @@
 #include "pipeline/decision_chain.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include "experiment/settings.hpp"
+#include "prediction/oracle.hpp"
 #include "sensing/failure_config.hpp"
 
 namespace clearway::pipeline {
+namespace {
+
+/// The same channels of requests with sensors that report every vehicle as it is.
+sensing::FailureConfig with_perfect_reports(const sensing::FailureConfig& config) {
+    sensing::FailureConfig exact = sensing::failure_from("perfect");
+    core::for_each_field<sensing::FailureConfig>([&](const auto& field) {
+        const std::string_view name = field.name;
+        if (name.starts_with("request_") || name.starts_with("signal_request_") || name == "emergency_dark")
+            exact.*field.member = config.*field.member;
+    });
+    return exact;
+}
+
+}  // namespace
+
+sensing::FailureConfig observed_failure(const experiment::ConditionSpec& condition) {
+    sensing::FailureConfig failure = sensing::failure_from(condition.failure);
+    if (!prediction::knows_truth(condition.predictor)) return failure;
+    failure = with_perfect_reports(failure);
+    prediction::OracleConfig oracle;
+    prediction::PredictionConfig shared;
+    core::set_all(core::settings_of(condition.settings, condition.predictor), "predictor ", shared, oracle);
+    if (oracle.place_error_m > 0.0 || oracle.age_s > 0.0) failure.report_interval_s = 0.1;
+    failure.position_sigma_m = oracle.place_error_m;
+    failure.latency_s = oracle.age_s;
+    return failure;
+}
+
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : period_s_(context.policy_period_s) {
-    const sensing::FailureConfig failure = sensing::failure_from(condition.failure);
+    const sensing::FailureConfig failure = observed_failure(condition);
     if (failure.signals_known == sensing::SignalsKnown::no) shown_.emplace();
     sensor_ =
         sensing::make_sensor(failure, context.random, {.network = context.network, .rules = context.rules});
     predictor_ = prediction::make_predictor(condition.predictor,
                                             {.network = context.network,
                                              .rules = context.rules,
-                                             .model_file = experiment::checked_model(condition)},
+                                             .model_file = experiment::checked_model(condition),
+                                             .config = {},
+                                             .random = context.random},
                                             core::settings_of(condition.settings, condition.predictor));
     const policy::PolicyContext place{.network = context.network, .period = core::Seconds(period_s_)};
     for (const std::string& name : condition.policies)

@@ -28,6 +28,10 @@ struct ChainContext {
     policy::GuestMaker guest = {};  ///< A policy that acts after those of the condition; may be empty.
 };
 
+/// What the predictor of a condition observes: its failure; for one that knows the truth, sensors without
+/// faults but for the errors that its settings ask for. Throws core::InputError for unknown names.
+sensing::FailureConfig observed_failure(const experiment::ConditionSpec& condition);
+
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
 /// replay agree because both use this class. One thread.
 class DecisionChain {

@@ -3,12 +3,13 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "policy/ask.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of ClearLane.
-struct ClearLaneConfig {
+struct ClearLaneConfig : AskSettings {
     double horizon_m = 150.0;
     double beside_m = 20.0;
     double gap_factor = 0.8;
@@ -28,7 +29,8 @@ struct ClearLaneConfig {
     double side_room_m = 12.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+  private:
+    static constexpr auto own_fields() {
         using C = ClearLaneConfig;
         using core::Field;
         return std::make_tuple(
@@ -83,13 +85,19 @@ struct ClearLaneConfig {
                   "Lifetime of a lease that is not renewed; at least two periods",
                   "assumed: four decisions at the usual period"});
     }
+
+  public:
+    static constexpr auto fields() {
+        return std::tuple_cat(own_fields(), AskSettings::fields_of<ClearLaneConfig>());
+    }
 };
 
 /// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the
 /// neighbouring lanes stay there, and one alongside opens a gap when the emergency vehicle wants that lane.
 /// The emergency vehicle takes the lane with the least delay ahead. If a lane gains seconds but has no gap
 /// alongside, it falls back to a gap, which an automated vehicle behind keeps open. Only lanes that continue
-/// are used.
+/// are used. With `ask=linked`, automated vehicles are asked only where the believed graph links them with
+/// the emergency vehicle; its own choice of lane reads places, as it needs nobody's help.
 class ClearLane : public Policy {
   public:
     explicit ClearLane(const PolicyContext& context, ClearLaneConfig config = {});

@@ -25,7 +25,7 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked;
     std::optional<detail::Room> room;
     if (config_.exit_room_m > 0.0) room.emplace(context_.network, belief, config_.halted_mps);
@@ -47,10 +47,8 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
             const std::pair request{emergency.key, approach.signal};
             if (arrival_s > lead_s && !asked_.contains(request)) continue;
             asked.insert(request);
-            // The next vehicle waits for the end of this lease, so it is short.
             write.add(approach.signal, traffic::HoldGreen{approach.links, approach.own_links},
-                      "an emergency vehicle arrives", emergency.key,
-                      detail::LeaseWriter::two_periods(context_.period));
+                      "an emergency vehicle arrives", emergency.key);
         }
     }
     asked_ = std::move(asked);

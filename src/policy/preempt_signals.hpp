@@ -19,6 +19,7 @@ struct PreemptSignalsConfig {
     double halted_mps = 0.5;
     double exit_room_m = 0.0;
     int signals_ahead = 0;
+    double lease_s = 0.0;
 
     static constexpr auto fields() {
         using C = PreemptSignalsConfig;
@@ -44,7 +45,11 @@ struct PreemptSignalsConfig {
                   "0: as all figures were measured that do not name it"},
             Field{"signals_ahead", "1", &C::signals_ahead, 0.0, 50.0,
                   "At most so many of the next signals are held for one emergency vehicle; 0: all of them",
-                  "0: as all figures were measured that do not name it"});
+                  "0: as all figures were measured that do not name it"},
+            Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,
+                  "Lifetime of a request that is not renewed; 0: two periods",
+                  "short, because the next emergency vehicle waits for its end; longer where messages are "
+                  "lost"});
     }
 };
 

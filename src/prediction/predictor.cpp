@@ -14,6 +14,7 @@
 #include "prediction/learned.hpp"
 #include "prediction/logistic.hpp"
 #include "prediction/model_file.hpp"
+#include "prediction/oracle.hpp"
 #include "prediction/planar.hpp"
 #include "prediction/python_predictor.hpp"
 #include "prediction/route_rule.hpp"
@@ -97,6 +98,9 @@ constexpr Registration registry[] = {
     registered<make_graphsage>("graphsage", "GraphSAGE, improved",
                                "the improved net: messages in route frames, motion head, calibrated links",
                                check_graphsage),
+    registered<make_oracle, OracleConfig>(
+        oracle_name, "oracle, which knows the truth",
+        "knows the truth, spoiled by settings: the ceiling of every repair, and none itself"),
 };
 
 const Registration& registration_of(const std::string& name) {
@@ -131,6 +135,10 @@ std::vector<std::string> predictor_names() {
 std::string title_of(const std::string& name) {
     if (python::part_name_from(name)) return python::short_name(name) + " (Python)";
     return registration_of(name).title;
+}
+
+bool knows_truth(const std::string& name) {
+    return name == oracle_name;
 }
 
 std::vector<std::string> learned_predictor_names() {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/random.hpp"
 #include "core/settings.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
@@ -68,6 +69,8 @@ struct PredictorContext {
     graph::LinkRules rules;
     std::string model_file;  ///< For the learned ones; empty: the model shipped with the program.
     PredictionConfig config = {};
+    /// For predictors that spoil what they know (oracle.hpp); the others draw nothing at random.
+    core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
 };
 
 /// A predictor that can be asked for by name.
@@ -82,6 +85,10 @@ std::vector<PredictorEntry> predictors();
 std::vector<std::string> predictor_names();
 /// The title of the predictor `name`; throws core::InputError for an unknown name.
 std::string title_of(const std::string& name);
+
+/// Whether the predictor `name` is given the truth instead of reports: no repair, but a ceiling for them
+/// (oracle.hpp). False for unknown names.
+bool knows_truth(const std::string& name);
 
 /// Names of those that take a model.
 std::vector<std::string> learned_predictor_names();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "report/planned_text.hpp"
 #include "report/published.hpp"
 #include "report/verdict.hpp"
 
@@ -292,7 +293,7 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
 }  // namespace
 
 std::string console_tables(const StudyFacts& study, Tables tables) {
-    std::string text;
+    std::string text = planned_table(study);
     bool any_unsafe = false;
     for (const ScenarioFacts& scenario : study.scenarios) {
         for (const Sensitivity& sensitivity : study.sensitivities) {

@@ -10,6 +10,7 @@
 
 #include "analysis/estimate.hpp"
 #include "analysis/objections.hpp"
+#include "analysis/planned_findings.hpp"
 #include "core/settings.hpp"
 #include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
@@ -233,6 +234,8 @@ struct ConditionFacts {
     bool safety_checks_off = false;
     analysis::Objections objections;  ///< Against the baseline.
     bool has_policy = false;
+    bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.
+    std::vector<analysis::IdlePart> idle_parts;
     /// What its policy asked for, over all complete runs; nothing if the records do not contain it.
     std::optional<std::vector<metrics::LeaseRow>> leases;
     std::array<Outcome, measure_count> outcomes;
@@ -254,8 +257,11 @@ struct ConditionFacts {
     std::optional<double> recovered_after_s;
 
     bool is_compared() const { return baseline.has_value(); }
-    /// The name for tables, legends and figures: the title, with a mark if safety checks were off.
-    std::string label() const { return safety_checks_off ? title + " (!)" : title; }
+    /// The name for tables, legends and figures: the title, with marks if safety checks were off and if it
+    /// knows the truth.
+    std::string label() const {
+        return title + (safety_checks_off ? " (!)" : "") + (knows_truth ? " (knows the truth)" : "");
+    }
     const Outcome& outcome(Measure measure) const { return outcomes[static_cast<std::size_t>(measure)]; }
     Outcome& outcome(Measure measure) { return outcomes[static_cast<std::size_t>(measure)]; }
 };
@@ -305,6 +311,8 @@ using Provenance = std::pair<std::string, std::string>;
 struct StudyFacts {
     std::string title;
     std::vector<ScenarioFacts> scenarios;
+    std::optional<results::AnalysisPlan> plan;
+    std::vector<analysis::PlannedFinding> planned;  ///< Of the plan, in its order.
     std::vector<FailureCurve> failure_curves;
     std::vector<Sensitivity> sensitivities;
     std::vector<LossCurve> curves;

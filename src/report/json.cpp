@@ -199,6 +199,33 @@ Json to_json(const Sensitivity& sensitivity) {
             {"settings", std::move(settings)}};
 }
 
+/// The interval has the level of the plan.
+Json with_bounds(const std::optional<analysis::Estimate>& estimate) {
+    if (!estimate) return nullptr;
+    const auto& interval = estimate->interval;
+    return {{"mean", estimate->mean},
+            {"low", interval ? Json(interval->low) : Json(nullptr)},
+            {"high", interval ? Json(interval->high) : Json(nullptr)}};
+}
+
+Json plan_json(const StudyFacts& study) {
+    Json findings = Json::array();
+    for (const analysis::PlannedFinding& finding : study.planned) {
+        findings.push_back({{"name", finding.comparison.name},
+                            {"scenario", finding.scenario},
+                            {"condition", finding.comparison.condition},
+                            {"against", finding.comparison.against},
+                            {"claim", results::name(finding.comparison.claim)},
+                            {"pairs", finding.pairs},
+                            {"difference_s", with_bounds(finding.difference)},
+                            {"p", number_or_null(finding.p)},
+                            {"holm_p", number_or_null(finding.holm_p)},
+                            {"margin_s", finding.margin_s},
+                            {"shown", analysis::name(finding.shown)}});
+    }
+    return {{"metric", study.plan->metric}, {"alpha", study.plan->alpha}, {"confirmatory", findings}};
+}
+
 }  // namespace
 
 std::string json_tables(const StudyFacts& study) {
@@ -216,6 +243,7 @@ std::string json_tables(const StudyFacts& study) {
     }
     Json result = {
         {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};
+    if (study.plan) result["plan"] = plan_json(study);
     for (const FailureCurve& curve : study.failure_curves) {
         result["failure_curves"].push_back(to_json(curve));
     }

@@ -220,6 +220,8 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
         condition.objections = one.objections;
         condition.runs_without_horizon = one.runs_without_horizon;
         condition.has_policy = !one.condition.policies.empty();
+        condition.knows_truth = prediction::knows_truth(one.condition.predictor);
+        condition.idle_parts = one.idle_parts;
         condition.leases = one.leases;
         condition.emergency = endings_from(one.emergency);
         condition.others = endings_from(one.others);
@@ -416,6 +418,8 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     add_nouns(results, study);
     add_errors(results, conditions);
     add_files(summary.manifest, folder, study);
+    study.plan = summary.manifest.plan;
+    study.planned = analysis::planned_findings(summary);
     study.failure_curves = failure_curves(summary);
     study.sensitivities = sensitivities(summary);
     const results::Store store = results::Store::open(folder);

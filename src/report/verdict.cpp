@@ -187,6 +187,9 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
         text += costs(scenario, condition, script);
     }
     text += ".";
+    for (const analysis::IdlePart& part : condition.idle_parts)
+        text += fmt::format(" {} never acted in {} of {}.", part.policy, part.idle_runs,
+                            counted(part.runs, "run"));
     if (condition.safety_checks_off)
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
     return text;

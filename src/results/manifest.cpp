@@ -12,6 +12,39 @@
 namespace clearway::results {
 namespace {
 
+core::Json to_object(const AnalysisPlan& plan) {
+    core::Json object;
+    object["metric"] = plan.metric;
+    core::write_fields(object, plan);
+    object["comparisons"] = core::Json::array();
+    for (const PlannedComparison& comparison : plan.comparisons) {
+        object["comparisons"].push_back({{"name", comparison.name},
+                                         {"scenario", comparison.scenario},
+                                         {"condition", comparison.condition},
+                                         {"against", comparison.against},
+                                         {"claim", name(comparison.claim)}});
+    }
+    return object;
+}
+
+AnalysisPlan plan_from(const core::Json& object, const std::string& where,
+                       std::vector<core::Problem>& problems) {
+    AnalysisPlan plan;
+    core::ObjectReader reader(object, where, problems);
+    reader.read("metric", plan.metric);
+    reader.read_fields(plan);
+    for (const core::Json& entry : reader.child("comparisons", core::Json::value_t::array)) {
+        PlannedComparison& comparison = plan.comparisons.emplace_back();
+        core::ObjectReader row(entry, where + ": comparisons", problems);
+        row.read("name", comparison.name);
+        row.read("scenario", comparison.scenario);
+        row.read("condition", comparison.condition);
+        row.read("against", comparison.against);
+        row.read_name("claim", comparison.claim, core::value_from<Claim>);
+    }
+    return plan;
+}
+
 core::Json to_object(const Manifest& manifest) {
     core::Json object;
     object["format"] = manifest.format;
@@ -40,6 +73,7 @@ core::Json to_object(const Manifest& manifest) {
                                {"half_width", manifest.precision->half_width},
                                {"at_most", manifest.precision->at_most}};
     }
+    if (manifest.plan) object["plan"] = to_object(*manifest.plan);
     return object;
 }
 
@@ -105,6 +139,7 @@ std::string differences(const Manifest& left, const Manifest& right) {
     add(left.scenarios != right.scenarios, "scenarios");
     add(left.conditions != right.conditions, "conditions");
     add(left.precision != right.precision, "precision");
+    add(left.plan != right.plan, "plan");
     return list;
 }
 
@@ -141,6 +176,9 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
     for (const core::Json& condition : reader.child("conditions", core::Json::value_t::array))
         manifest.conditions.push_back(
             experiment::condition_from(condition, where + ": conditions", problems));
+    if (object.contains("plan"))
+        manifest.plan =
+            plan_from(reader.child("plan", core::Json::value_t::object), where + ": plan", problems);
     if (object.contains("precision")) {
         PrecisionTarget& target = manifest.precision.emplace();
         core::ObjectReader precision(reader.child("precision", core::Json::value_t::object),

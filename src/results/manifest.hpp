@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/condition.hpp"
+#include "results/analysis_plan.hpp"
 #include "results/record.hpp"
 
 namespace clearway::results {
@@ -45,6 +46,7 @@ struct Manifest {
     std::vector<ScenarioEntry> scenarios;
     std::vector<experiment::ConditionSpec> conditions;
     std::optional<PrecisionTarget> precision;
+    std::optional<AnalysisPlan> plan = std::nullopt;
 
     bool operator==(const Manifest&) const = default;
     /// Every run of the study, sorted.

@@ -75,7 +75,34 @@ bool needs_rounds(const FailureConfig& config) {
            config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 ||
            config.link_detection_rate > 0.0 || config.heading_sigma_deg > 0.0 ||
            config.map_matching != MapMatching::exact || config.route_share < 1.0 ||
-           config.signals_known != SignalsKnown::yes;
+           config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0;
+}
+
+/// The least mean outage, s: with shorter ones, losses would follow each other less often than by chance.
+double least_outage_s(double interval_s, double dark_share) {
+    return interval_s / (1.0 - dark_share);
+}
+
+/// Checks the settings of one channel, which start with `prefix`.
+void check_channel(const ChannelConfig& channel, ChannelConfig usual, const std::string& prefix,
+                   std::vector<core::Problem>& problems) {
+    usual.sender_dark = channel.sender_dark;  // Also says which reports are lost.
+    if (channel.propagation == Propagation::perfect) {
+        if (channel == usual) return;
+        problems.push_back({prefix + "propagation", "is perfect, but a setting of the same channel is given",
+                            "sharp, los, nlos", "Give the propagation, or leave the other settings out"});
+        return;
+    }
+    if (channel.range_m == 0.0)
+        problems.push_back({prefix + "range_m", "is 0 m: nobody would hear a request", "above 0 to 10000 m",
+                            "Give a range, or leave out the policies that ask for something"});
+    const double least_s = least_outage_s(channel.interval_s, channel.dark_share);
+    if (channel.dark_share > 0.0 && channel.mean_outage_s < least_s - 1e-9)
+        problems.push_back(
+            {prefix + "mean_outage_s",
+             fmt::format("{} is too short for a dark share of {}", channel.mean_outage_s, channel.dark_share),
+             fmt::format("at least interval / (1 - dark share) = {:.4g} s", least_s),
+             "Use the loss rate for losses without bursts"});
 }
 
 void check_ranges(const FailureConfig& config, const std::string& where,
@@ -121,14 +148,12 @@ void check_together(const FailureConfig& config, const std::string& where,
                             "Add report_interval_s=1 to the failure, or --set failure.report_interval_s=1"});
     }
     check_errors(config, where, problems);
-    // With shorter outages, losses would follow each other less often than by chance; independent loss is the
-    // limit.
-    const double least_outage_s = interval_s / (1.0 - config.dark_share);
-    if (config.dark_share > 0.0 && config.mean_outage_s < least_outage_s - 1e-9) {
+    const double least_s = least_outage_s(interval_s, config.dark_share);
+    if (config.dark_share > 0.0 && config.mean_outage_s < least_s - 1e-9) {
         problems.push_back(
             {where + ".mean_outage_s",
              fmt::format("{} is too short for a dark share of {}", config.mean_outage_s, config.dark_share),
-             fmt::format("at least report_interval_s / (1 - dark_share) = {:.4g} s", least_outage_s),
+             fmt::format("at least report_interval_s / (1 - dark_share) = {:.4g} s", least_s),
              "use loss_rate for losses without bursts"});
     }
     if (config.occlusion == Occlusion::considered && config.onboard_range_m == 0.0 &&
@@ -136,6 +161,9 @@ void check_together(const FailureConfig& config, const std::string& where,
         problems.push_back({where + ".occlusion", "considered, but no vehicle looks at others", "ignored",
                             "give onboard_range_m or link_detection_rate"});
     }
+    check_channel(request_channel(config), request_channel({}), where + ".request_", problems);
+    check_channel(signal_request_channel(config), signal_request_channel({}), where + ".signal_request_",
+                  problems);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -150,6 +178,11 @@ std::optional<std::string> set(double& value, std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) return "a number";
     value = number;
+    return std::nullopt;
+}
+std::optional<std::string> set(int& value, std::string_view text) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return "a whole number";
     return std::nullopt;
 }
 template <class Enum>
@@ -213,6 +246,34 @@ class FieldReader {
 };
 
 }  // namespace
+
+ChannelConfig request_channel(const FailureConfig& config) {
+    return {.propagation = config.request_propagation,
+            .range_m = config.request_range_m,
+            .loss_rate = config.request_loss_rate,
+            .dark_share = config.request_dark_share,
+            .mean_outage_s = config.request_mean_outage_s,
+            .latency_s = config.request_latency_s,
+            .interval_s = config.request_interval_s,
+            .hops = config.request_hops,
+            .sender_dark = config.emergency_dark};
+}
+
+ChannelConfig signal_request_channel(const FailureConfig& config) {
+    return {.propagation = config.signal_request_propagation,
+            .range_m = config.signal_request_range_m,
+            .loss_rate = config.signal_request_loss_rate,
+            .dark_share = config.signal_request_dark_share,
+            .mean_outage_s = config.signal_request_mean_outage_s,
+            .latency_s = config.signal_request_latency_s,
+            .interval_s = config.signal_request_interval_s,
+            .hops = 1,
+            .sender_dark = config.emergency_dark};
+}
+
+bool reports_fail(const FailureConfig& config) {
+    return needs_rounds(config) || config.dark_commands == DarkCommands::lost;
+}
 
 std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where) {
     std::vector<core::Problem> problems;

@@ -19,8 +19,17 @@ enum class Detection { presence, range };
 enum class Exits { known, unknown };
 /// Whether a vehicle in between hides two others from each other's sensors.
 enum class Occlusion { ignored, considered };
-/// Whether a vehicle whose newest report was lost still receives commands.
+/// Whether a vehicle whose newest report was lost still receives commands: one radio for both ways.
 enum class DarkCommands { received, lost };
+/// Whether the radio of an emergency vehicle fails as those of other vehicles do.
+enum class EmergencyDark { yes, no };
+/// Who is in reach of a message (sensing/channel.hpp).
+enum class Propagation {
+    perfect,  ///< Everybody, at once, without loss.
+    sharp,    ///< Everybody within the range.
+    los,      ///< Path loss in line of sight, and shadowing.
+    nlos,     ///< Path loss without line of sight, around buildings, and shadowing.
+};
 /// How a receiver finds a vehicle's place on the map: as the vehicle tells it, or from the reported position.
 enum class MapMatching { exact, nearest };
 /// Whether observations carry the letters that signals show.
@@ -39,6 +48,15 @@ constexpr core::Spellings<Occlusion, 2> spellings(Occlusion) {
 constexpr core::Spellings<DarkCommands, 2> spellings(DarkCommands) {
     return {{{DarkCommands::received, "received"}, {DarkCommands::lost, "lost"}}};
 }
+constexpr core::Spellings<EmergencyDark, 2> spellings(EmergencyDark) {
+    return {{{EmergencyDark::yes, "yes"}, {EmergencyDark::no, "no"}}};
+}
+constexpr core::Spellings<Propagation, 4> spellings(Propagation) {
+    return {{{Propagation::perfect, "perfect"},
+             {Propagation::sharp, "sharp"},
+             {Propagation::los, "los"},
+             {Propagation::nlos, "nlos"}}};
+}
 constexpr core::Spellings<MapMatching, 2> spellings(MapMatching) {
     return {{{MapMatching::exact, "exact"}, {MapMatching::nearest, "nearest"}}};
 }
@@ -46,7 +64,8 @@ constexpr core::Spellings<SignalsKnown, 2> spellings(SignalsKnown) {
     return {{{SignalsKnown::no, "0"}, {SignalsKnown::yes, "1"}}};
 }
 
-/// How sensors report and how they fail. The failures combine freely; each is off by default.
+/// How sensors report, how requests reach vehicles and signals, and how both fail. The failures combine
+/// freely; each is off by default.
 /// docs/reference/sensing.md explains them.
 struct FailureConfig {
     double report_interval_s = 1.0;
@@ -75,10 +94,29 @@ struct FailureConfig {
     MapMatching map_matching = MapMatching::exact;
     double route_share = 1.0;
     SignalsKnown signals_known = SignalsKnown::yes;
+    double emergency_sensor_range_m = 0.0;
+    double emergency_sensor_sigma_m = 0.5;
+    EmergencyDark emergency_dark = EmergencyDark::yes;
+    Propagation request_propagation = Propagation::perfect;
+    double request_range_m = 300.0;
+    double request_loss_rate = 0.0;
+    double request_dark_share = 0.0;
+    double request_mean_outage_s = 10.0;
+    double request_latency_s = 0.0;
+    double request_interval_s = 0.5;
+    int request_hops = 1;
+    Propagation signal_request_propagation = Propagation::perfect;
+    double signal_request_range_m = 500.0;
+    double signal_request_loss_rate = 0.0;
+    double signal_request_dark_share = 0.0;
+    double signal_request_mean_outage_s = 10.0;
+    double signal_request_latency_s = 0.0;
+    double signal_request_interval_s = 0.5;
 
     bool operator==(const FailureConfig&) const = default;
 
-    static constexpr auto fields() {
+  private:
+    static constexpr auto report_fields() {
         using C = FailureConfig;
         using core::Field;
         return std::make_tuple(
@@ -128,9 +166,11 @@ struct FailureConfig {
             Field{"occlusion", "", &C::occlusion, 0, 0,
                   "Whether a vehicle in between hides others from on-board sensors and link detection",
                   "ignored: presets C have none"},
-            Field{"dark_commands", "", &C::dark_commands, 0, 0,
-                  "Whether a vehicle whose newest report was lost still receives commands",
-                  "received: the sensor fails, not the radio"},
+            Field{
+                "dark_commands", "", &C::dark_commands, 0, 0,
+                "Whether a vehicle whose newest report was lost still receives commands: one radio for both "
+                "ways, whatever the channel of requests",
+                "received: the sensor fails, not the radio"},
             Field{"exits", "", &C::exits, 0, 0, "Whether it is known when a vehicle leaves the network",
                   "known: the frozen benchmark reports both"},
             Field{"forget_after_s", "s", &C::forget_after_s, 1.0, 86400.0,
@@ -147,9 +187,96 @@ struct FailureConfig {
                   "vehicles do",
                   "all of them; preset R50: 0.5"},
             Field{"signals_known", "", &C::signals_known, 0, 0,
-                  "0: observations do not tell what signals show", "1: signals are infrastructure"});
+                  "0: observations do not tell what signals show", "1: signals are infrastructure"},
+            Field{
+                "emergency_sensor_range_m", "m", &C::emergency_sensor_range_m, 0.0, 1000.0,
+                "Emergency vehicles see every vehicle within this distance that no third one hides, without "
+                "any message",
+                "off; 80 m: radar of a car"},
+            Field{"emergency_sensor_sigma_m", "m", &C::emergency_sensor_sigma_m, 0.0, 100.0,
+                  "Standard error of a position that an emergency vehicle sees, along each axis",
+                  "0.5 m assumed, as on-board sensors"},
+            Field{"emergency_dark", "", &C::emergency_dark, 0, 0,
+                  "Whether reports of emergency vehicles are lost, and their radios fail, as those of others",
+                  "yes: the frozen presets treat all vehicles alike"});
+    }
+    static constexpr auto request_fields() {
+        using C = FailureConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"request_propagation", "", &C::request_propagation, 0, 0,
+                  "Which vehicles hear the requests of an emergency vehicle",
+                  "perfect: every vehicle; older conditions had no channel"},
+            Field{
+                "request_range_m", "m", &C::request_range_m, 0.0, 10000.0,
+                "sharp: they are heard within this distance; los and nlos: half of them are at this distance",
+                "300 m: usual for vehicle radios in streets; with 50 m it is the link radius"},
+            Field{"request_loss_rate", "1", &C::request_loss_rate, 0.0, 1.0,
+                  "Share of these messages lost by a receiver in reach, each independently", "off"},
+            Field{"request_dark_share", "1", &C::request_dark_share, 0.0, 0.99,
+                  "Share of time that a vehicle's receiver spends in outages (Gilbert-Elliott)", "off"},
+            Field{"request_mean_outage_s", "s", &C::request_mean_outage_s, 0.1, 3600.0,
+                  "Mean length of an outage of a receiver", "as of reports"},
+            Field{"request_latency_s", "s", &C::request_latency_s, 0.0, 60.0,
+                  "Time from a decision to its arrival, for each hop", "off"},
+            Field{"request_interval_s", "s", &C::request_interval_s, 0.1, 60.0,
+                  "Time between two messages of an emergency vehicle; all requests of a decision are one "
+                  "message",
+                  "0.5 s: every decision at the usual period"},
+            Field{"request_hops", "1", &C::request_hops, 1, 5,
+                  "How often a message is sent: beyond 1, automated vehicles that hear it send it on",
+                  "1: no relays"});
+    }
+    static constexpr auto signal_request_fields() {
+        using C = FailureConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"signal_request_propagation", "", &C::signal_request_propagation, 0, 0,
+                  "Which signals hear the requests of an emergency vehicle",
+                  "perfect: every signal; older conditions had no channel"},
+            Field{"signal_request_range_m", "m", &C::signal_request_range_m, 0.0, 10000.0,
+                  "As request_range_m, to the middle of a signal's stop lines",
+                  "500 m assumed: a receiver on a mast"},
+            Field{"signal_request_loss_rate", "1", &C::signal_request_loss_rate, 0.0, 1.0,
+                  "Share of these messages lost by a signal in reach, each independently", "off"},
+            Field{"signal_request_dark_share", "1", &C::signal_request_dark_share, 0.0, 0.99,
+                  "Share of time that a signal's receiver spends in outages (Gilbert-Elliott)", "off"},
+            Field{"signal_request_mean_outage_s", "s", &C::signal_request_mean_outage_s, 0.1, 3600.0,
+                  "Mean length of an outage of a signal's receiver", "as of reports"},
+            Field{"signal_request_latency_s", "s", &C::signal_request_latency_s, 0.0, 60.0,
+                  "Time from a decision to its arrival at the signal", "off"},
+            Field{"signal_request_interval_s", "s", &C::signal_request_interval_s, 0.1, 60.0,
+                  "Time between two messages of an emergency vehicle to signals", "as of requests"});
+    }
+
+  public:
+    static constexpr auto fields() {
+        return std::tuple_cat(report_fields(), request_fields(), signal_request_fields());
     }
 };
+
+/// Whether reports are lost, late, wrong, or helped by other sensors, in any way: vehicles are not simply
+/// known as they are.
+bool reports_fail(const FailureConfig& config);
+
+/// One way of requests, as sensing/channel.hpp needs it.
+struct ChannelConfig {
+    Propagation propagation = Propagation::perfect;
+    double range_m = 300.0;
+    double loss_rate = 0.0;
+    double dark_share = 0.0;
+    double mean_outage_s = 10.0;
+    double latency_s = 0.0;
+    double interval_s = 0.5;
+    int hops = 1;
+    EmergencyDark sender_dark = EmergencyDark::yes;
+
+    bool operator==(const ChannelConfig&) const = default;
+};
+/// From emergency vehicles to vehicles.
+ChannelConfig request_channel(const FailureConfig& config);
+/// From emergency vehicles to signals.
+ChannelConfig signal_request_channel(const FailureConfig& config);
 
 /// Everything wrong with a configuration: values out of range, values that contradict each other. `where`
 /// names the place, for example `study.toml: failure`. Empty when all is well.

@@ -6,23 +6,10 @@
 namespace clearway::sensing {
 namespace {
 
-/// The middle of the stop lines of each signal; signals without lanes are left out.
 std::vector<Place> unit_places(const roads::Network& network) {
     std::vector<Place> places;
     for (const roads::Signal& signal : network.signals()) {
-        double x_m = 0.0;
-        double y_m = 0.0;
-        int count = 0;
-        for (const auto& links : signal.links) {
-            for (const roads::SignalLink& link : links) {
-                if (!link.from.exists()) continue;
-                const roads::Point& end = network.lane(link.from).shape.back();
-                x_m += end.x_m;
-                y_m += end.y_m;
-                ++count;
-            }
-        }
-        if (count > 0) places.push_back({static_cast<float>(x_m / count), static_cast<float>(y_m / count)});
+        if (const auto place = place_of(network, signal)) places.push_back(*place);
     }
     return places;
 }
@@ -37,9 +24,28 @@ void see(float sigma_m, float& known_sigma_m) {
 
 }  // namespace
 
+std::optional<Place> place_of(const roads::Network& network, const roads::Signal& signal) {
+    double x_m = 0.0;
+    double y_m = 0.0;
+    int count = 0;
+    for (const auto& links : signal.links) {
+        for (const roads::SignalLink& link : links) {
+            if (!link.from.exists()) continue;
+            const roads::Point& end = network.lane(link.from).shape.back();
+            x_m += end.x_m;
+            y_m += end.y_m;
+            ++count;
+        }
+    }
+    if (count == 0) return std::nullopt;
+    return Place{static_cast<float>(x_m / count), static_cast<float>(y_m / count)};
+}
+
 Observers::Observers(const FailureConfig& config, const roads::Network& network)
     : onboard_range_m_(config.onboard_range_m),
       onboard_sigma_m_(static_cast<float>(config.onboard_sigma_m)),
+      emergency_range_m_(config.emergency_sensor_range_m),
+      emergency_sigma_m_(static_cast<float>(config.emergency_sensor_sigma_m)),
       roadside_range_m_(static_cast<float>(config.roadside_range_m)),
       roadside_sigma_m_(static_cast<float>(config.roadside_sigma_m)),
       occlusion_(config.occlusion) {
@@ -67,6 +73,7 @@ void Observers::look(const truth::Snapshot& snapshot, std::span<const std::uint8
     }
     look_from_roadside(snapshot, reports, sigma_m);
     if (onboard_range_m_ > 0.0) look_from_vehicles(snapshot, reports, sigma_m);
+    if (emergency_range_m_ > 0.0) look_from_emergency_vehicles(snapshot, reports, sigma_m);
 }
 
 void Observers::look_from_roadside(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
@@ -92,6 +99,20 @@ void Observers::look_from_vehicles(const truth::Snapshot& snapshot, std::span<co
                    !(considers_occlusion() && hidden(row, observer, neighbours));
         });
         if (seen) see(onboard_sigma_m_, sigma_m[row]);
+    }
+}
+
+void Observers::look_from_emergency_vehicles(const truth::Snapshot& snapshot,
+                                             std::span<const std::uint8_t> reports,
+                                             std::vector<float>& sigma_m) {
+    builder_.build_all_pairs({centre_x_m_, centre_y_m_, snapshot.vehicle_class}, emergency_range_m_, near_);
+    for (core::VehicleIndex observer = 0; observer < snapshot.size(); ++observer) {
+        if (snapshot.vehicle_class[observer] != traffic::VehicleClass::emergency) continue;
+        const auto neighbours = near_.neighbours_of(observer);
+        for (const core::VehicleIndex row : neighbours) {
+            if (reports[row] == 0 && !hidden(observer, row, neighbours))
+                see(emergency_sigma_m_, sigma_m[row]);
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,17 +13,22 @@
 
 namespace clearway::sensing {
 
-/// Finds vehicles that do not report but are seen by others: by units at signals, and by automated and
-/// emergency vehicles that report. Keeps buffers; single-threaded.
+/// The middle of a signal's stop lines; nothing for a signal without lanes.
+std::optional<Place> place_of(const roads::Network& network, const roads::Signal& signal);
+
+/// Finds vehicles that do not report but are seen by others: by units at signals, by automated and emergency
+/// vehicles that report, and by the sensors of emergency vehicles, which need no report. Keeps buffers;
+/// single-threaded.
 ///
 /// A roadside unit stands in the middle of the stop lines of its signal, above the traffic, so nothing hides
 /// a vehicle from it. A vehicle looks from its centre to the centres of others; with occlusion, a third
-/// vehicle whose box meets that line hides them. Vehicles that are seen are identified: trackers keep their
+/// vehicle whose box meets that line hides them; from the sensors of emergency vehicles it always does.
+/// Vehicles that are seen are identified: trackers keep their
 /// identity.
 class Observers {
   public:
     Observers(const FailureConfig& config, const roads::Network& network);
-    bool none() const { return units_.empty() && onboard_range_m_ == 0.0; }
+    bool none() const { return units_.empty() && onboard_range_m_ == 0.0 && emergency_range_m_ == 0.0; }
     bool considers_occlusion() const { return occlusion_ == Occlusion::considered; }
 
     /// Stores the boxes of a snapshot, for `hidden` and `look`.
@@ -42,8 +48,13 @@ class Observers {
     void look_from_vehicles(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
                             std::vector<float>& sigma_m);
 
+    void look_from_emergency_vehicles(const truth::Snapshot& snapshot, std::span<const std::uint8_t> reports,
+                                      std::vector<float>& sigma_m);
+
     double onboard_range_m_;
     float onboard_sigma_m_;
+    double emergency_range_m_;
+    float emergency_sigma_m_;
     float roadside_range_m_;
     float roadside_sigma_m_;
     Occlusion occlusion_;

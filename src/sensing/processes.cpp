@@ -7,24 +7,9 @@
 namespace clearway::sensing {
 namespace {
 
-constexpr double least_weight = 1e-3;
-
-/// Even draws decide on renewals, odd ones on the state; both have the same purpose.
-constexpr std::uint64_t renewal_draw(ReportNumber report) {
-    return 2 * report;
-}
-constexpr std::uint64_t state_draw(ReportNumber report) {
-    return 2 * report + 1;
-}
-
 /// Correlation of a first-order process from one report to the next.
 double correlation(double interval_s, double correlation_s) {
     return correlation_s > 0.0 ? std::exp(-interval_s / correlation_s) : 0.0;
-}
-
-std::uint64_t pair_subject(core::VehicleKey one, core::VehicleKey other) {
-    const auto [low, high] = std::minmax(one.value, other.value);
-    return core::mix64(low) ^ high;
 }
 
 }  // namespace
@@ -32,16 +17,11 @@ std::uint64_t pair_subject(core::VehicleKey one, core::VehicleKey other) {
 LossProcess::LossProcess(const FailureConfig& config, const core::KeyedRandom& random)
     : random_(random),
       loss_rate_(config.loss_rate),
-      dark_share_(config.dark_share),
-      renewal_(std::min(1.0, config.report_interval_s / config.mean_outage_s / (1.0 - config.dark_share))) {}
+      outages_(random, core::Purpose::outage,
+               {config.report_interval_s, config.dark_share, config.mean_outage_s}) {}
 
 bool LossProcess::in_outage(core::VehicleKey vehicle, ReportNumber report) const {
-    if (dark_share_ == 0.0) return false;
-    while (report > 0 &&
-           random_.uniform(core::Purpose::outage, vehicle.value, renewal_draw(report)) >= renewal_) {
-        --report;
-    }
-    return random_.uniform(core::Purpose::outage, vehicle.value, state_draw(report)) < dark_share_;
+    return outages_.dark(vehicle.value, report);
 }
 
 bool LossProcess::lost(core::VehicleKey vehicle, ReportNumber report) const {
@@ -77,29 +57,18 @@ NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom&
       speed_correlation_(correlation(config.report_interval_s, config.speed_correlation_s)),
       heading_sigma_rad_(config.heading_sigma_deg * std::numbers::pi / 180.0) {}
 
-double NoiseProcess::draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const {
-    double weight = 1.0;
-    double sum = 0.0;
-    double square = 0.0;
-    while (weight >= least_weight) {
-        sum += weight * random_.normal(series.purpose, vehicle.value, series.axes * report + series.axis);
-        square += weight * weight;
-        weight *= series.correlation;
-        if (report-- == 0) break;
-    }
-    return sum / std::sqrt(square);
-}
-
 void NoiseProcess::apply(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const {
     if (position_sigma_m_ > 0.0) {
         const auto error_m = [&](std::uint64_t axis) {
             return position_sigma_m_ *
-                   draw({core::Purpose::position_noise, 2, axis, position_correlation_}, vehicle, report);
+                   core::draw_normal(random_, {core::Purpose::position_noise, 2, axis, position_correlation_},
+                                     vehicle.value, report);
         };
         move(error_m(0), error_m(1), state);
     }
     if (speed_sigma_mps_ > 0.0) {
-        const double error = draw({core::Purpose::speed_noise, 1, 0, speed_correlation_}, vehicle, report);
+        const double error = core::draw_normal(
+            random_, {core::Purpose::speed_noise, 1, 0, speed_correlation_}, vehicle.value, report);
         state.speed_mps = static_cast<float>(std::max(0.0, state.speed_mps + speed_sigma_mps_ * error));
     }
     turn(vehicle, report, state);
@@ -108,8 +77,11 @@ void NoiseProcess::apply(core::VehicleKey vehicle, ReportNumber report, traffic:
 void NoiseProcess::blur(core::VehicleKey vehicle, ReportNumber report, double sigma_m,
                         traffic::MotionState& state) const {
     if (sigma_m > 0.0) {
-        move(sigma_m * draw({core::Purpose::seen_position, 2, 0}, vehicle, report),
-             sigma_m * draw({core::Purpose::seen_position, 2, 1}, vehicle, report), state);
+        const auto error_m = [&](std::uint64_t axis) {
+            return sigma_m *
+                   core::draw_normal(random_, {core::Purpose::seen_position, 2, axis}, vehicle.value, report);
+        };
+        move(error_m(0), error_m(1), state);
     }
     turn(vehicle, report, state);
 }
@@ -151,15 +123,15 @@ DetectionProcess::DetectionProcess(const FailureConfig& config, const core::Keye
       most_m_(config.link_detection_range_m) {}
 
 bool DetectionProcess::detected(core::VehicleKey one, core::VehicleKey other, ReportNumber report) const {
-    return rate_ > 0.0 &&
-           random_.uniform(core::Purpose::link_detection, pair_subject(one, other), 2 * report) < rate_;
+    return rate_ > 0.0 && random_.uniform(core::Purpose::link_detection,
+                                          core::pair_subject(one.value, other.value), 2 * report) < rate_;
 }
 
 float DetectionProcess::range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
                                 float true_distance_m) const {
     if (detection_ == Detection::presence) return -1.0F;
-    const double error =
-        random_.normal(core::Purpose::link_detection, pair_subject(one, other), 2 * report + 1);
+    const double error = random_.normal(core::Purpose::link_detection,
+                                        core::pair_subject(one.value, other.value), 2 * report + 1);
     return static_cast<float>(std::max(0.0, true_distance_m + range_sigma_m_ * error));
 }
 

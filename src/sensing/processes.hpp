@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/ids.hpp"
+#include "core/keyed_series.hpp"
 #include "core/random.hpp"
 #include "roads/network.hpp"
 #include "sensing/failure_config.hpp"
@@ -16,16 +17,8 @@ namespace clearway::sensing {
 /// started.
 using ReportNumber = std::uint64_t;
 
-/// Which reports are lost: a pure function of (vehicle, report number).
-///
-/// Bursts are a Gilbert-Elliott chain: dark or not, with transition probabilities per report that give the
-/// wanted mean outage and share of time dark. To depend only on the report number, not on where counting
-/// started, the chain is drawn as a mixture: at each report, the state is drawn anew (dark with probability
-/// `share`) with probability p = (1 / outage) / (1 - share), outage in reports; otherwise it stays. The state
-/// at report k is the one drawn at the latest renewal at or before k, found by walking back 1 / p reports on
-/// average. This is the same chain, because P(dark -> not) = p (1 - share) = 1 / outage. It needs p <= 1,
-/// which FailureConfig's check ensures. (Walking a cached chain forward from each vehicle's departure was
-/// rejected: departures differ between conditions.)
+/// Which reports are lost: a pure function of (vehicle, report number). Bursts are a Gilbert-Elliott chain
+/// with one step a report.
 class LossProcess {
   public:
     LossProcess(const FailureConfig& config, const core::KeyedRandom& random);
@@ -37,8 +30,7 @@ class LossProcess {
   private:
     core::KeyedRandom random_;
     double loss_rate_;
-    double dark_share_;
-    double renewal_;  ///< Probability p above.
+    core::GilbertElliott outages_;
 };
 
 /// Which vehicles report at all: a pure function of the vehicle. A human-driven vehicle is equipped with
@@ -69,8 +61,8 @@ class RouteProcess {
 /// Errors of reports: a pure function of (vehicle, report number).
 ///
 /// Position and, with separate noise, speed: white noise on each axis or, with a correlation time tau, the
-/// stationary first-order process with correlation exp(-interval / tau) between reports, as a weighted sum of
-/// past white noise, cut off where a weight falls below 1/1000. A speed stays at least 0. The place on the
+/// stationary first-order process with correlation exp(-interval / tau) between reports
+/// (core::draw_normal). A speed stays at least 0. The place on the
 /// map moves with the position: the lane position by the error along the heading, the lane by whole lane
 /// widths of the error across it, so that nothing in the report is more exact than the position. Heading:
 /// white noise, which does not move the place.
@@ -87,15 +79,6 @@ class NoiseProcess {
               traffic::MotionState& state) const;
 
   private:
-    /// A standard normal series with `correlation` between successive reports; number `axis` of `axes`
-    /// independent ones.
-    struct Series {
-        core::Purpose purpose = core::Purpose::position_noise;
-        std::uint64_t axes = 1;
-        std::uint64_t axis = 0;
-        double correlation = 0.0;
-    };
-    double draw(const Series& series, core::VehicleKey vehicle, ReportNumber report) const;
     void move(double x_error_m, double y_error_m, traffic::MotionState& state) const;
     void turn(core::VehicleKey vehicle, ReportNumber report, traffic::MotionState& state) const;
 

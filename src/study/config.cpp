@@ -15,6 +15,7 @@
 #include "experiment/settings.hpp"
 #include "metrics/run_metrics.hpp"
 #include "study/detail/factors.hpp"
+#include "study/detail/read_plan.hpp"
 #include "study/detail/read_settings.hpp"
 
 namespace clearway::study {
@@ -25,6 +26,7 @@ using core::TomlReading;
 using Problems = std::vector<core::Problem>;
 
 constexpr std::uint32_t most_replications = 100000;
+constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max();
 
 void append(Problems& problems, const core::InputError& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -360,6 +362,10 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
     }
     StudyConfig quick = config;
     quick.name += "-quick";
+    reader->integer<std::uint64_t>("seed", 0, most_seed, quick.seed);
+    if (root.has("plan") && quick.seed == config.seed)
+        reader->problem("seed", fmt::format("{} is that of the study, which has a plan", quick.seed),
+                        "another seed", "Keep the study's seed for the study: a trial would use it up");
     reader->integer<std::uint32_t>("replications", 1, most_replications, quick.replications);
     keep_named(*reader, "scenarios", quick.scenarios);
     keep_named(*reader, "conditions", quick.conditions);
@@ -399,7 +405,7 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     StudyConfig config;
     config.name = file.stem().string();
     root.text("name", config.name);
-    root.integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(), config.seed);
+    root.integer<std::uint64_t>("seed", 0, most_seed, config.seed);
     root.integer<std::uint32_t>("replications", 1, most_replications, config.replications);
     read_precision(root, config);
     const toml::table* const factor_table = root.table("factors");
@@ -411,6 +417,7 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     read_quick(root, extent, config);
     vary_conditions(factors, reading.problems, config);
     resolve_parts(reading, config);
+    detail::read_plan(root, extent, config);
     root.finish();
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;

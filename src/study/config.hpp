@@ -23,6 +23,8 @@ struct StudyConfig {
     std::vector<experiment::ConditionSpec> conditions;
     /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;
+    /// What it sets out to show; its seed must not have been used before (fresh_seeds.hpp).
+    std::optional<results::AnalysisPlan> plan = std::nullopt;
 };
 
 /// FHWA's minimum number of replications (Traffic Analysis Toolbox III, 2019 update); also the first round of
@@ -80,7 +82,20 @@ enum class Extent : std::uint8_t {
 ///     set = { "dissertation.ahead_m" = 80, "graphsage_corrected.link_threshold" = 0.4 }
 ///     model = "my/net.weights"                    # relative to this file; none: the one in the program
 ///
+///     [plan]                                      # what the study is to show; optional
+///     metric = "emergency_restricted_travel_time_s"
+///     alpha = 0.05                                # over all comparisons, by Holm
+///     margin_s = 1.0                              # smaller differences count as none,
+///     margin_share = 0.05                         # or those below this share of the delay, if that is more
+///     [[plan.comparison]]
+///     name = "links cut"
+///     condition = "b20"
+///     against = "baseline"
+///     scenario = "merge"                          # none: in every scenario
+///     claim = "difference"                        # or "equivalence"
+///
 ///     [quick]                                     # what --quick runs instead; each key optional
+///     seed = 2                                    # with a plan: another than the study's
 ///     replications = 3
 ///     scenarios = ["merge"]                       # of the scenarios above, by name
 ///     conditions = ["baseline", "b20"]            # of the conditions above

@@ -97,6 +97,7 @@ results::Manifest make_manifest(const StudyConfig& config, const Versions& versi
     }
     manifest.conditions = config.conditions;
     manifest.precision = config.precision;
+    manifest.plan = config.plan;
     return manifest;
 }
 

@@ -139,6 +139,14 @@ TEST_F(LinksTest, unknown_names_are_told_with_the_nearest_before_anything_runs) 
     EXPECT_EQ(clearway({"links", "evaluate", "bologna", "--benchmark", "eval_v1"}).code, 3);
 }
 
+TEST_F(LinksTest, a_predictor_that_knows_the_truth_is_not_judged) {
+    const Ended ended = clearway(evaluate({"--failure", "B10", "--predictor", "oracle", "last_seen"}));
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("--predictor oracle"), HasSubstr("knows the truth"),
+                                 HasSubstr("Judge a repair")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
 TEST_F(LinksTest, values_out_of_range_and_words_that_are_no_assignment_are_refused) {
     const auto message = [&](const std::vector<std::string>& more) {
         const Ended ended = clearway(evaluate(more));

@@ -111,6 +111,48 @@ TEST(Settings, OfALeaseThatIsShorterThanTwoPolicyPeriodsAreRefused) {
     EXPECT_THAT(problems_of(slow), HasSubstr("Set recover_signals.lease_s to 4 or more"));
 }
 
+TEST(Settings, OfLinksThatNobodyAsksByAreRefused) {
+    EXPECT_THAT(
+        problems_of("clear_lane.ask_probability", "0.8"),
+        testing::AllOf(HasSubstr("clear_lane.ask_probability: has no effect"),
+                       HasSubstr("clear_lane.ask=linked"), HasSubstr("Set clear_lane.ask to linked")));
+    ConditionSpec linked = corridor();
+    set(linked, "clear_lane.ask", "linked");
+    set(linked, "clear_lane.ask_probability", "0.8");
+    EXPECT_THAT(problems_of(linked), IsEmpty());
+    set(linked, "clear_lane.ask_hops", "2");
+    EXPECT_THAT(problems_of(linked), testing::AllOf(HasSubstr("two automated vehicles are never linked"),
+                                                    HasSubstr("Set loop.automated_links to 1")));
+    set(linked, "loop.automated_links", "1");
+    EXPECT_THAT(problems_of(linked), IsEmpty());
+    set(linked, "clear_lane.ask", "nobody");
+    EXPECT_THAT(problems_of(linked), HasSubstr("everyone, linked"));
+}
+
+TEST(Settings, OfConditionsThatReadLinksTellThem) {
+    ConditionSpec condition = corridor();
+    EXPECT_FALSE(reads_links(condition));
+    set(condition, "clear_lane.ask", "linked");
+    EXPECT_TRUE(reads_links(condition));
+    condition.policies = {"preempt_signals"};
+    EXPECT_FALSE(reads_links(condition));
+    condition.policies = {"dissertation"};
+    EXPECT_TRUE(reads_links(condition));
+}
+
+TEST(Settings, OfAnOracleLeaveNoFaultsOfReportsUnused) {
+    ConditionSpec condition = corridor();
+    condition.predictor = "oracle";
+    set(condition, "oracle.links_kept", "0.5");
+    EXPECT_THAT(problems_of(condition), IsEmpty());
+    condition.failure = "perfect,request_propagation=sharp";
+    EXPECT_THAT(problems_of(condition), IsEmpty()) << "requests may fail";
+    condition.failure = "B10";
+    EXPECT_THAT(problems_of(condition),
+                testing::AllOf(HasSubstr("'B10' spoils reports, but oracle reads none"),
+                               HasSubstr("clearway list settings oracle")));
+}
+
 TEST(Settings, OfASoloConditionAreRefused) {
     ConditionSpec solo;
     solo.traffic_model = TrafficModel::free_flow;

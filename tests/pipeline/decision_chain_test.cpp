@@ -102,5 +102,48 @@ INSTANTIATE_TEST_SUITE_P(Failures, UnknownParts,
                          ::testing::Values("S0", "R0", "R50", "D5M", "mixed", "S0,dark_share=0.5",
                                            "mixed,signals_known=0,exits=unknown"));
 
+experiment::ConditionSpec oracle(const core::Settings& settings = {}) {
+    experiment::ConditionSpec condition;
+    condition.predictor = "oracle";
+    condition.settings = settings;
+    return condition;
+}
+
+TEST(Oracle, ObservesWhatSensorsWithoutFaultsWould) {
+    EXPECT_EQ(observed_failure(oracle()), sensing::failure_from("perfect"));
+    const sensing::FailureConfig late =
+        observed_failure(oracle({{"oracle.age_s", "3"}, {"oracle.place_error_m", "5"}}));
+    EXPECT_EQ(late, sensing::failure_from("report_interval_s=0.1,latency_s=3,position_sigma_m=5"));
+    experiment::ConditionSpec with_channel = oracle();
+    with_channel.failure = "perfect,request_propagation=sharp";
+    EXPECT_EQ(observed_failure(with_channel).request_propagation, sensing::Propagation::sharp);
+    with_channel.failure = "mixed,signals_known=0";
+    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from("perfect")) << "whatever is asked for";
+    experiment::ConditionSpec honest;
+    honest.failure = "B10";
+    EXPECT_EQ(observed_failure(honest), sensing::failure_from("B10"));
+}
+
+TEST(Oracle, BelievesThePastAsItWas) {
+    support::Scene scene("10 m per cell, limit 20 m/s, speed 10 m/s\ne...a....................\n");
+    DecisionChain chain(oracle({{"oracle.age_s", "2"}}), {.network = scene.network()});
+    const auto observe = [&] {
+        chain.observe(scene.snapshot(), scene.roster());
+        chain.decide();
+    };
+    const core::VehicleKey ahead = scene.key("a1");
+    const float at_first_m = scene.snapshot().x_m[scene.row("a1")];
+    for (int step = 0; step < 4; ++step) {
+        observe();
+        EXPECT_EQ(chain.belief().find(ahead), nullptr) << "nothing is 2 s old yet";
+        scene.pass(core::Seconds(0.5));
+    }
+    observe();
+    ASSERT_NE(chain.belief().find(ahead), nullptr);
+    EXPECT_FLOAT_EQ(chain.belief().find(ahead)->state.x_m, at_first_m);
+    EXPECT_FLOAT_EQ(chain.belief().find(ahead)->age_s, 2.0F);
+    EXPECT_FLOAT_EQ(scene.snapshot().x_m[scene.row("a1")], at_first_m + 20.0F);
+}
+
 }  // namespace
 }  // namespace clearway::pipeline

@@ -31,6 +31,48 @@ TEST(ConsoleTables, show_the_dissertations_table_with_its_numbers_beside_ours) {
                                 "                         9.9 +- 1.1   5.5"));
 }
 
+StudyFacts planned_study() {
+    StudyFacts study = tests::study({"merge"});
+    study.plan.emplace();
+    analysis::PlannedFinding shown;
+    shown.comparison = {"links act", "", "linked", "links_cut", results::Claim::difference};
+    shown.scenario = "merge";
+    shown.pairs = 20;
+    shown.difference = analysis::Estimate{20, -2.5, 1.0, analysis::Interval{-3.0, -2.0}};
+    shown.p = 0.00001;
+    shown.holm_p = 0.00002;
+    shown.shown = analysis::Shown::better;
+    analysis::PlannedFinding equivalent = shown;
+    equivalent.comparison = {"no worse", "", "net", "memory", results::Claim::equivalence};
+    equivalent.margin_s = 1.25;
+    equivalent.p = equivalent.holm_p = 0.02;
+    equivalent.shown = analysis::Shown::equivalent;
+    study.planned = {shown, equivalent};
+    return study;
+}
+
+TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
+    const std::string text = console_tables(planned_study());
+    EXPECT_TRUE(text.starts_with("Confirmatory: the 2 comparisons of the plan, in emergency_restricted"));
+    EXPECT_THAT(text, HasSubstr("\nAll claims hold together with probability 0.95 (Holm)"));
+    EXPECT_THAT(text, HasSubstr("links act (merge)\n    linked - links_cut "));
+    EXPECT_THAT(text, HasSubstr("-2.50 [-3.00, -2.00]       20   <.0001  shown: less time\n"));
+    EXPECT_THAT(text, HasSubstr("0.0200  equivalent within 1.2 s"));
+    EXPECT_LT(text.find("Exploratory: everything below"), text.find("TABLE II"));
+    for (const std::string& line : lines_of(text.substr(0, text.find("Exploratory"))))
+        EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_THAT(console_tables(tests::study({"merge"})), Not(HasSubstr("Exploratory")));
+}
+
+TEST(JsonTables, hold_the_findings_of_a_plan) {
+    const auto json = nlohmann::json::parse(json_tables(planned_study()));
+    ASSERT_EQ(json["plan"]["confirmatory"].size(), 2u);
+    EXPECT_EQ(json["plan"]["confirmatory"][0]["shown"], "better");
+    EXPECT_DOUBLE_EQ(json["plan"]["confirmatory"][0]["difference_s"]["low"], -3.0);
+    EXPECT_DOUBLE_EQ(json["plan"]["confirmatory"][1]["margin_s"], 1.25);
+    EXPECT_FALSE(nlohmann::json::parse(json_tables(tests::study({"merge"}))).contains("plan"));
+}
+
 TEST(ConsoleTables, show_value_difference_intervals_and_effect_of_every_measure) {
     const std::string text = console_tables(tests::study({"city"}));
     EXPECT_THAT(text,

@@ -211,6 +211,22 @@ TEST(Verdict, of_one_replication_claims_nothing) {
               "no verdict: no complete pair of runs.");
 }
 
+TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), Not(HasSubstr("never acted")));
+    scenario.conditions[1].idle_parts = {{"clear_lane", 20, 20}, {"recover_signals", 3, 20}};
+    EXPECT_THAT(
+        verdict(scenario, scenario.conditions[1], Script::plain),
+        HasSubstr(". clear_lane never acted in 20 of 20 runs. recover_signals never acted in 3 of 20 runs."));
+}
+
+TEST(ConditionLabel, says_who_knows_the_truth) {
+    ConditionFacts facts = tests::condition("ceiling", "ceiling", 90.0);
+    EXPECT_EQ(facts.label(), "ceiling");
+    facts.knows_truth = true;
+    EXPECT_EQ(facts.label(), "ceiling (knows the truth)");
+}
+
 TEST(Headline, counts_conditions_by_effect) {
     EXPECT_EQ(
         headline(tests::study({"merge"})),

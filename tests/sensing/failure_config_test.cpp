@@ -10,6 +10,7 @@
 namespace clearway::sensing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -190,6 +191,59 @@ TEST(FailureConfig, ThatIsWrongMakesNoSensor) {
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.problems(), SizeIs(2));
     }
+}
+
+std::string refusal_of(const std::string& text) {
+    try {
+        failure_from(text);
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(RequestChannel, ReadsItsFieldsBesideAPreset) {
+    const ChannelConfig channel = request_channel(
+        failure_from("B10,request_propagation=los,request_range_m=120,request_hops=2,request_latency_s=0.1"));
+    EXPECT_EQ(channel.propagation, Propagation::los);
+    EXPECT_DOUBLE_EQ(channel.range_m, 120.0);
+    EXPECT_EQ(channel.hops, 2);
+    EXPECT_DOUBLE_EQ(channel.latency_s, 0.1);
+    EXPECT_EQ(signal_request_channel(failure_from("B10")).propagation, Propagation::perfect);
+}
+
+TEST(RequestChannel, OfNoReachIsRefused) {
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_range_m=0"),
+                AllOf(HasSubstr("failure.request_range_m"), HasSubstr("is 0 m"),
+                      HasSubstr("above 0 to 10000 m"), HasSubstr("Give a range")));
+    EXPECT_THAT(refusal_of("signal_request_propagation=nlos,signal_request_range_m=0"),
+                HasSubstr("failure.signal_request_range_m"));
+}
+
+TEST(RequestChannel, ThatIsPerfectTakesNoOtherSetting) {
+    EXPECT_THAT(refusal_of("request_loss_rate=0.2"),
+                AllOf(HasSubstr("failure.request_propagation"), HasSubstr("is perfect"),
+                      HasSubstr("sharp, los, nlos"), HasSubstr("leave the other settings out")));
+    EXPECT_THAT(refusal_of("signal_request_latency_s=1"), HasSubstr("failure.signal_request_propagation"));
+    EXPECT_EQ(refusal_of("B10,emergency_dark=no"), "");
+}
+
+TEST(RequestChannel, RefusesWhatIsOutOfRangeOrContradictory) {
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=0"),
+                AllOf(HasSubstr("request_hops"), HasSubstr("1 to 5")));
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=1.5"), HasSubstr("a whole number"));
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_loss_rate=1.1"), HasSubstr("0 to 1"));
+    EXPECT_THAT(refusal_of("request_propagation=far"), HasSubstr("perfect, sharp, los, nlos"));
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_dark_share=0.9,request_mean_outage_s=4"),
+                AllOf(HasSubstr("request_mean_outage_s"), HasSubstr("4 is too short for a dark share of 0.9"),
+                      HasSubstr("= 5 s")));
+}
+
+TEST(RequestChannel, NeedsNoReportsThatFail) {
+    EXPECT_EQ(refusal_of("perfect,request_propagation=sharp,request_range_m=50"), "");
+    EXPECT_FALSE(reports_fail(failure_from("perfect,request_propagation=sharp,request_range_m=50")));
+    EXPECT_TRUE(reports_fail(failure_from("emergency_sensor_range_m=80")));
+    EXPECT_TRUE(reports_fail(failure_from("B10")));
 }
 
 }  // namespace

@@ -221,6 +221,43 @@ TEST(LinkDetection, NeedsALineOfSightWhenOcclusionCounts) {
     EXPECT_EQ(links_of(Occlusion::ignored, 0.0), 0u);
 }
 
+TEST(EmergencySensors, SeeWithoutAnyReportWhatNothingHides) {
+    const support::Scene scene(R"(
+        10 m per cell
+        e..h..h..........h
+        ...a..............
+    )");
+    FailureConfig config;
+    config.loss_rate = 1.0;  // No report of anybody arrives.
+    config.emergency_sensor_range_m = 80.0;
+    const traffic::Observation seen = observe(scene, config);
+    EXPECT_NE(find(seen, scene.key("h1")), nullptr);
+    EXPECT_NE(find(seen, scene.key("a1")), nullptr) << "on the other lane";
+    EXPECT_EQ(find(seen, scene.key("h2")), nullptr) << "60 m, but behind h1";
+    EXPECT_EQ(find(seen, scene.key("h3")), nullptr) << "170 m";
+    EXPECT_EQ(find(seen, scene.key("e1")), nullptr) << "it does not see itself";
+    ASSERT_EQ(seen.own_states.size(), 1u) << "but knows itself";
+    EXPECT_FLOAT_EQ(find(seen, scene.key("h1"))->position_sigma_m, 0.5F);
+    config.emergency_sensor_range_m = 0.0;
+    EXPECT_TRUE(observe(scene, config).vehicles.empty());
+}
+
+TEST(EmergencyReports, FailAsThoseOfOthersUnlessToldOtherwise) {
+    testing::Crowd crowd(200);
+    const auto heard_emergency = [&](const char* failure) {
+        const auto sensor =
+            make_sensor(failure_from(failure), draws(), {testing::small_scene().network(), {}});
+        traffic::Observation observation;
+        sensor->observe(crowd.snapshot, crowd.roster, observation);
+        return std::ranges::count(observation.vehicles, traffic::VehicleClass::emergency,
+                                  &traffic::ObservedVehicle::vehicle_class);
+    };
+    const auto all = std::ranges::count(crowd.snapshot.vehicle_class, traffic::VehicleClass::emergency);
+    ASSERT_GT(all, 5);
+    EXPECT_LT(heard_emergency("dark_share=0.9"), all);
+    EXPECT_EQ(heard_emergency("dark_share=0.9,emergency_dark=no"), all);
+}
+
 TEST(DarkCommands, AreLostForThoseWhoseReportWasLost) {
     testing::Crowd crowd(100);
     FailureConfig config = failure_from("B10,dark_commands=lost");

@@ -64,8 +64,13 @@ bool has_failure_curves(const StudyFacts& study) {
     return !study.failure_curves.empty();
 }
 
-constexpr std::array<Section, 17> all_sections = {{
+bool has_plan(const StudyFacts& study) {
+    return study.plan.has_value();
+}
+
+constexpr std::array<Section, 18> all_sections = {{
     {"overview", "At a glance", open, has_comparison, overview_section},
+    {"plan", "What the plan set out to show", open, has_plan, plan_section},
     {"verdict", "Verdict", folded, always, verdict_section},
     {"sensitivity", "Sensitivity to each setting", folded, has_sensitivities, sensitivity_section},
     {"factors", "Factors", folded, has_factors, factors_section},

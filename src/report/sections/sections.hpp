@@ -23,6 +23,7 @@ struct Section {
 std::span<const Section> sections();
 
 void overview_section(const StudyFacts& study, Writer& writer);
+void plan_section(const StudyFacts& study, Writer& writer);
 void verdict_section(const StudyFacts& study, Writer& writer);
 void sensitivity_section(const StudyFacts& study, Writer& writer);
 /// Whether the study varied a factor of its own, other than settings turned alone.

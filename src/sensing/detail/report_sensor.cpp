@@ -58,8 +58,11 @@ void ReportSensor::find_reporting(const truth::Snapshot& snapshot, const traffic
     unreachable_.clear();
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
         const core::VehicleKey key = snapshot.key[row];
+        const traffic::VehicleClass vehicle_class = snapshot.vehicle_class[row];
+        const bool never_lost =
+            vehicle_class == traffic::VehicleClass::emergency && config_.emergency_dark == EmergencyDark::no;
         const bool reports =
-            equipment_.equipped(key, snapshot.vehicle_class[row]) && !loss_.lost(key, *report_);
+            equipment_.equipped(key, vehicle_class) && (never_lost || !loss_.lost(key, *report_));
         reports_[row] = reports ? 1 : 0;
         if (!reports && config_.dark_commands == DarkCommands::lost) unreachable_.push_back(key);
     }

@@ -1,0 +1,232 @@
+#include "pipeline/requests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "python/part_name.hpp"
+#include "sensing/observers.hpp"
+
+namespace clearway::pipeline {
+namespace {
+
+/// The same policies and settings with sensors that never fail, and nothing to repair.
+experiment::ConditionSpec informed(experiment::ConditionSpec condition) {
+    const experiment::ConditionSpec usual;
+    condition.failure = usual.failure;
+    condition.predictor = usual.predictor;
+    condition.model_file.clear();
+    return condition;
+}
+
+/// Whether the policies can be asked a second time about the truth, and would say anything else.
+bool needs_second_opinion(const experiment::ConditionSpec& condition, const sensing::FailureConfig& failure,
+                          const ChainContext& context) {
+    const bool knows_everything =
+        condition.predictor == experiment::ConditionSpec{}.predictor && failure.report_interval_s == 0.0;
+    const bool has_foreign_code =
+        context.guest || std::ranges::any_of(condition.policies, [](const std::string& policy) {
+            return python::part_name_from(policy).has_value();
+        });
+    return !condition.policies.empty() && !knows_everything && !has_foreign_code;
+}
+
+double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float x_m, float y_m) {
+    return std::hypot(snapshot.x_m[row] - x_m, snapshot.y_m[row] - y_m);
+}
+
+template <class Element>
+void sort_unique(std::vector<Element>& elements) {
+    std::sort(elements.begin(), elements.end());
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+}
+
+template <class Element>
+std::uint64_t count_missing(const std::vector<Element>& wanted, const std::vector<Element>& there) {
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        wanted, [&](const Element& element) { return !std::ranges::binary_search(there, element); }));
+}
+
+}  // namespace
+
+Requests::Requests(const experiment::ConditionSpec& condition, const ChainContext& context)
+    : Requests(condition, context, sensing::failure_from(condition.failure)) {}
+
+Requests::Requests(const experiment::ConditionSpec& condition, const ChainContext& context,
+                   const sensing::FailureConfig& failure)
+    : vehicles_(sensing::request_channel(failure), context.random, sensing::Channel::Receivers::vehicles),
+      signals_(sensing::signal_request_channel(failure), context.random,
+               sensing::Channel::Receivers::signals),
+      equipment_(failure, context.random) {
+    for (const roads::Signal& signal : context.network.signals())
+        signal_places_.push_back(sensing::place_of(context.network, signal));
+    if (needs_second_opinion(condition, failure, context))
+        informed_ = std::make_unique<DecisionChain>(informed(condition), context);
+}
+
+bool Requests::is_request(const traffic::Lease& lease) {
+    if (lease.beneficiary == core::VehicleKey{}) return false;
+    const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+    return vehicle == nullptr || *vehicle != lease.beneficiary;
+}
+
+bool Requests::is_due(const sensing::Channel& channel, core::Seconds now,
+                      std::optional<sensing::MessageNumber>& last) {
+    if (channel.is_perfect()) return true;
+    const sensing::MessageNumber number = channel.message_at(now);
+    if (last && *last >= number) return false;
+    last = number;
+    return true;
+}
+
+void Requests::step(const Decision& decision, const truth::Snapshot& snapshot,
+                    const traffic::Roster& roster) {
+    arrived_.clear();
+    lost_.clear();
+    const double now_s = snapshot.time.value + core::clock_tolerance_s;
+    for (const OnItsWay& message : on_their_way_) {
+        if (message.arrives_s <= now_s) arrived_.push_back(message.lease);
+    }
+    std::erase_if(on_their_way_, [&](const OnItsWay& message) { return message.arrives_s <= now_s; });
+    if (decision.is_new) send({decision, snapshot, roster});
+}
+
+void Requests::send(const Moment& moment) {
+    const core::Seconds now = moment.snapshot.time;
+    vehicles_due_ = is_due(vehicles_, now, last_to_vehicles_);
+    signals_due_ = is_due(signals_, now, last_to_signals_);
+    hearings_.clear();
+    signal_senders_.clear();
+    wanted_.clear();
+    sent_.clear();
+    heard_.clear();
+    for (const traffic::Lease& lease : moment.decision.leases) {
+        if (!is_request(lease)) {
+            arrived_.push_back(lease);
+        } else if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
+            ask_vehicle(lease, *vehicle, moment);
+        } else {
+            ask_signal(lease, std::get<core::SignalIndex>(lease.target), moment);
+        }
+    }
+    if (vehicles_due_) judge(moment);
+}
+
+void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment) {
+    if (!vehicles_due_) return;
+    const Asked asked{lease.beneficiary, vehicle, lease.action.index()};
+    wanted_.push_back(asked);
+    const Hearing& hearing = hearing_of(lease.beneficiary, moment);
+    if (hearing.empty() && !vehicles_.is_perfect()) return;
+    ++counts_.sent;
+    sent_.push_back(asked);
+    const auto row = moment.snapshot.row_of(vehicle);
+    const int hops = row && !is_unreachable(vehicle, moment) ? hearing[*row] : 0;
+    if (hops > 0) {
+        ++counts_.heard;
+        if (hops > 1) ++counts_.relayed;
+        heard_.push_back(asked);
+        asked_.insert(vehicle);
+        counts_.vehicles_asked = asked_.size();
+    }
+    // Perfect channels leave it to actuation to refuse what does not arrive, for its reasons are known there.
+    if (hops > 0 || vehicles_.is_perfect()) {
+        deliver(lease, vehicles_.config().latency_s * hops, moment.snapshot.time);
+    } else {
+        lost_.push_back(lease);
+    }
+}
+
+const Requests::Hearing& Requests::hearing_of(core::VehicleKey sender, const Moment& moment) {
+    const auto [found, is_first] = hearings_.try_emplace(sender);
+    if (is_first) found->second = spread(sender, moment);
+    return found->second;
+}
+
+Requests::Hearing Requests::spread(core::VehicleKey sender, const Moment& moment) {
+    if (vehicles_.is_perfect()) {
+        ++counts_.messages;
+        return Hearing(moment.snapshot.size(), 1);
+    }
+    const auto row = moment.snapshot.row_of(sender);
+    if (!row || vehicles_.is_silent(sender.value, vehicles_.message_at(moment.snapshot.time))) return {};
+    Hearing hearing(moment.snapshot.size(), 0);
+    transmit(*row, 1, moment.snapshot, hearing);
+    for (int hop = 2; hop <= vehicles_.config().hops; ++hop) {
+        for (core::VehicleIndex relay = 0; relay < hearing.size(); ++relay) {
+            const bool relays = hearing[relay] == hop - 1 &&
+                                moment.snapshot.vehicle_class[relay] == traffic::VehicleClass::automated &&
+                                !is_unreachable(moment.snapshot.key[relay], moment);
+            if (relays) transmit(relay, hop, moment.snapshot, hearing);
+        }
+    }
+    return hearing;
+}
+
+void Requests::transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing) {
+    ++counts_.messages;
+    const sensing::MessageNumber number = vehicles_.message_at(snapshot.time);
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (row == from || hearing[row] != 0) continue;
+        const double apart_m = distance_m(snapshot, row, snapshot.x_m[from], snapshot.y_m[from]);
+        if (equipment_.equipped(snapshot.key[row], snapshot.vehicle_class[row]) &&
+            vehicles_.hears(snapshot.key[from].value, snapshot.key[row].value, number, apart_m))
+            hearing[row] = hop;
+    }
+}
+
+bool Requests::is_unreachable(core::VehicleKey vehicle, const Moment& moment) {
+    return std::ranges::binary_search(moment.decision.unreachable, vehicle);
+}
+
+void Requests::ask_signal(const traffic::Lease& lease, core::SignalIndex signal, const Moment& moment) {
+    if (!signals_due_) return;
+    const auto sender = moment.snapshot.row_of(lease.beneficiary);
+    const sensing::MessageNumber number = signals_.message_at(moment.snapshot.time);
+    const bool speaks =
+        signals_.is_perfect() || (sender && !signals_.is_silent(lease.beneficiary.value, number));
+    if (!speaks) return;
+    ++counts_.signal_sent;
+    if (signal_senders_.insert(lease.beneficiary).second) ++counts_.signal_messages;
+    const auto& place = signal_places_.at(signal.value);
+    const bool hears =
+        signals_.is_perfect() ||
+        (place && signals_.hears(lease.beneficiary.value, signal.value, number,
+                                 distance_m(moment.snapshot, *sender, place->x_m, place->y_m)));
+    if (hears) {
+        ++counts_.signal_heard;
+        deliver(lease, signals_.config().latency_s, moment.snapshot.time);
+    } else {
+        lost_.push_back(lease);
+    }
+}
+
+void Requests::deliver(const traffic::Lease& lease, double latency_s, core::Seconds now) {
+    if (latency_s > 0.0) {
+        on_their_way_.push_back({now.value + latency_s, lease});
+    } else {
+        arrived_.push_back(lease);
+    }
+}
+
+void Requests::judge(const Moment& moment) {
+    sort_unique(sent_);
+    sort_unique(heard_);
+    needed_ = wanted_;
+    if (informed_) {
+        needed_.clear();
+        informed_->observe(moment.snapshot, moment.roster);
+        informed_->decide();
+        for (const traffic::Lease& lease : informed_->leases()) {
+            const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+            if (vehicle != nullptr && is_request(lease))
+                needed_.push_back({lease.beneficiary, *vehicle, lease.action.index()});
+        }
+    }
+    sort_unique(needed_);
+    counts_.needed += needed_.size();
+    counts_.useless += count_missing(sent_, needed_);
+    counts_.missed += count_missing(needed_, heard_);
+}
+
+}  // namespace clearway::pipeline

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "experiment/condition.hpp"
+#include "pipeline/decision_chain.hpp"
+#include "sensing/channel.hpp"
+#include "sensing/line_of_sight.hpp"
+#include "sensing/processes.hpp"
+#include "traffic/lease.hpp"
+#include "traffic/request_counts.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::pipeline {
+
+/// Brings what policies ask for to those who hear it. Part of the environment: it knows the truth, and
+/// nothing of it comes back to a policy.
+///
+/// A lease is a request when its beneficiary is another than its target. All requests of an emergency vehicle
+/// to vehicles at one decision are one message, those to signals another. A vehicle hears it from the
+/// emergency vehicle or, with more than one hop, from an automated vehicle that has heard it and sends it on;
+/// each hop adds the latency. Human-driven vehicles that are not equipped hear nothing. Leases of vehicles
+/// and signals about themselves need no message. With perfect channels, every lease arrives at once. One
+/// thread.
+class Requests {
+  public:
+    /// Throws core::InputError as DecisionChain does.
+    Requests(const experiment::ConditionSpec& condition, const ChainContext& context);
+
+    /// What a chain decided at this step.
+    struct Decision {
+        std::span<const traffic::Lease> leases;
+        /// Vehicles that commands cannot reach, ordered by key: they hear nothing.
+        std::span<const core::VehicleKey> unreachable;
+        bool is_new = false;  ///< Whether a decision was made at this step.
+    };
+    /// Call at every step.
+    void step(const Decision& decision, const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    /// Leases that arrive at this step, and those that a message lost; valid until the next step.
+    std::span<const traffic::Lease> arrived() const { return arrived_; }
+    std::span<const traffic::Lease> lost() const { return lost_; }
+    const traffic::RequestCounts& counts() const { return counts_; }
+
+  private:
+    Requests(const experiment::ConditionSpec& condition, const ChainContext& context,
+             const sensing::FailureConfig& failure);
+
+    /// Who asks whom for what kind of action.
+    struct Asked {
+        core::VehicleKey sender;
+        core::VehicleKey vehicle;
+        std::size_t action = 0;
+        auto operator<=>(const Asked&) const = default;
+    };
+    struct OnItsWay {
+        double arrives_s = 0.0;
+        traffic::Lease lease;
+    };
+    /// Who hears a message, by row of the snapshot: after how many hops; 0: not at all. Empty when no message
+    /// is sent.
+    using Hearing = std::vector<int>;
+    /// Everything about one decision.
+    struct Moment {
+        const Decision& decision;
+        const truth::Snapshot& snapshot;
+        const traffic::Roster& roster;
+    };
+
+    static bool is_request(const traffic::Lease& lease);
+    /// Whether the channel's next message is due; a perfect one sends at every decision.
+    static bool is_due(const sensing::Channel& channel, core::Seconds now,
+                       std::optional<sensing::MessageNumber>& last);
+    void send(const Moment& moment);
+    void ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment);
+    void ask_signal(const traffic::Lease& lease, core::SignalIndex signal, const Moment& moment);
+    /// Those who hear what the sender asks of vehicles now; the message is sent when it is asked for first.
+    const Hearing& hearing_of(core::VehicleKey sender, const Moment& moment);
+    Hearing spread(core::VehicleKey sender, const Moment& moment);
+    /// Marks the rows that hear a message of the row `from` and had not heard it with fewer hops.
+    void transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing);
+    static bool is_unreachable(core::VehicleKey vehicle, const Moment& moment);
+    void deliver(const traffic::Lease& lease, double latency_s, core::Seconds now);
+    void judge(const Moment& moment);
+
+    sensing::Channel vehicles_, signals_;
+    sensing::EquipmentProcess equipment_;
+    std::vector<std::optional<sensing::Place>> signal_places_;
+    /// The same policies with perfect sensors. Null where the condition has them itself, and where a policy is
+    /// a user's code, which is asked once: what it wanted counts as needed.
+    std::unique_ptr<DecisionChain> informed_;
+
+    std::optional<sensing::MessageNumber> last_to_vehicles_, last_to_signals_;
+    std::vector<OnItsWay> on_their_way_;
+    std::vector<traffic::Lease> arrived_, lost_;
+    std::set<core::VehicleKey> asked_;
+    traffic::RequestCounts counts_;
+    // Of the present decision.
+    bool vehicles_due_ = false;
+    bool signals_due_ = false;
+    std::map<core::VehicleKey, Hearing> hearings_;
+    std::set<core::VehicleKey> signal_senders_;
+    std::vector<Asked> wanted_, sent_, heard_, needed_;  ///< Wanted: whether or not it could be sent.
+};
+
+}  // namespace clearway::pipeline
