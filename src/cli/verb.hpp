@@ -48,6 +48,7 @@ Action configure_verify(CLI::App& app);
 Action configure_dataset(CLI::App& app);
 Action configure_train(CLI::App& app);
 Action configure_links(CLI::App& app);
+Action configure_live(CLI::App& app);
 Action configure_list(CLI::App& app);
 Action configure_init(CLI::App& app);
 Action configure_import(CLI::App& app);

@@ -71,6 +71,7 @@ void write(Json& object, const RunJob& job) {
     object["memory_limit_mib"] = job.limits.memory_mib;
     object["output"] = job.output.string();
     if (job.window) core::write_fields(object["window"], *job.window);
+    if (job.live) core::write_fields(object["live"], *job.live);
 }
 
 void read(const Source& source, ObjectReader& reader, RunJob& job) {
@@ -83,8 +84,12 @@ void read(const Source& source, ObjectReader& reader, RunJob& job) {
     if (!(job.limits.wall_s > 0.0)) reader.problem("wall_limit_s", "is not above 0");
     reader.read("memory_limit_mib", job.limits.memory_mib);
     reader.read("output", job.output);
-    if (!source.object.contains("window")) return;
-    read_object(source.member("window", reader.child("window", Json::value_t::object)), job.window.emplace());
+    const auto read_if_there = [&](const char* key, auto& member) {
+        if (!source.object.contains(key)) return;
+        read_object(source.member(key, reader.child(key, Json::value_t::object)), member.emplace());
+    };
+    read_if_there("window", job.window);
+    read_if_there("live", job.live);
 }
 
 void write(Json& object, const DatasetJob& job) {

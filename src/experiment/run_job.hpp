@@ -46,6 +46,19 @@ struct WindowSpec {
     bool operator==(const WindowSpec&) const = default;
 };
 
+/// A run that is watched while it happens, through a server that decides how far it may go. Does not change
+/// results.
+struct LiveSpec {
+    std::filesystem::path socket;  ///< Where the server listens (view/run_stream.hpp, server/feed.hpp).
+
+    static constexpr auto fields() {
+        using Self = LiveSpec;
+        return std::make_tuple(core::Field{"socket", "", &Self::socket, 0, 0,
+                                           "Local socket of the server that shows the run", "given"});
+    }
+    bool operator==(const LiveSpec&) const = default;
+};
+
 /// Several conditions of one simulation and traffic model, forked from one warm-up.
 struct RunJob : Simulation {
     TrafficModel traffic_model = TrafficModel::standard;
@@ -54,6 +67,7 @@ struct RunJob : Simulation {
     RunLimits limits;
     std::filesystem::path output;  ///< Run folder of the study: what `results::Store` opens.
     std::optional<WindowSpec> window = std::nullopt;  ///< Only for a job with one condition.
+    std::optional<LiveSpec> live = std::nullopt;      ///< Likewise; not together with a window.
 
     bool operator==(const RunJob&) const = default;
 };

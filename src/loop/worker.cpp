@@ -19,6 +19,7 @@
 #include "loop/attached_run.hpp"
 #include "loop/dataset.hpp"
 #include "loop/evaluate_links.hpp"
+#include "loop/live_run.hpp"
 #include "loop/shown_run.hpp"
 #include "loop/unit_run.hpp"
 #include "loop/watch.hpp"
@@ -205,6 +206,7 @@ struct Work {
     std::filesystem::path file;  ///< Of the job.
 
     core::ExitCode operator()(const experiment::RunJob& job) const {
+        if (job.live) return run_live(job, std::filesystem::absolute(file).parent_path());
         return job.window ? run_shown(job, std::filesystem::absolute(file).parent_path())
                           : run_unit(job, file);
     }

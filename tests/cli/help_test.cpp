@@ -11,9 +11,9 @@ namespace clearway::cli {
 namespace {
 
 const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit", "merge",
-                                             "report",    "compare", "results", "replay", "verify", "dataset",
-                                             "train",     "list",    "init",    "doctor", "links",  "import",
-                                             "check",     "attach",  "python"};
+                                             "report",    "compare", "results", "replay", "live",   "verify",
+                                             "dataset",   "train",   "list",    "init",   "doctor", "links",
+                                             "import",    "check",   "attach",  "python"};
 
 class HelpTest : public UserTest {};
 

@@ -30,17 +30,6 @@ void require_display() {
         "-X, or leave --gui out");
 }
 
-/// The job that makes the first replication of a condition.
-experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
-    for (const study::PlannedUnit& planned : plan.units) {
-        if (planned.unit.traffic_model != shown.traffic_model) continue;
-        experiment::RunJob unit = planned.unit;
-        unit.conditions = {shown};
-        return unit;
-    }
-    throw std::logic_error("the shown condition is not in the plan");
-}
-
 /// Shows the run. Returns ok, or why it did not finish.
 core::ExitCode show(const experiment::RunJob& unit) {
     const std::string label =
@@ -56,6 +45,16 @@ core::ExitCode show(const experiment::RunJob& unit) {
 }
 
 }  // namespace
+
+experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
+    for (const study::PlannedUnit& planned : plan.units) {
+        if (planned.unit.traffic_model != shown.traffic_model) continue;
+        experiment::RunJob unit = planned.unit;
+        unit.conditions = {shown};
+        return unit;
+    }
+    throw std::logic_error("the shown condition is not in the plan");
+}
 
 core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& options,
                               const experiment::ConditionSpec& shown, const experiment::WindowSpec& window) {

@@ -5,6 +5,9 @@
 
 namespace clearway::cli {
 
+/// The job that makes the first replication of a condition of the plan, and nothing else.
+experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& condition);
+
 /// As `run_and_print`, but the first replication of the condition `shown` runs in a window, before the other
 /// runs. If the folder already holds this run, it is shown again and must give the same record. If the shown
 /// run does not finish, a new folder is removed. Also returns incomplete, when the window is closed early,
