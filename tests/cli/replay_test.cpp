@@ -69,6 +69,68 @@ TEST_F(ReplayTest, recording_changes_no_result_and_adds_what_a_complete_folder_l
     EXPECT_EQ(read(recording), bytes);
 }
 
+TEST_F(ReplayTest, a_run_or_two_side_by_side_become_one_page) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const Ended one = clearway({"replay", run_of_mine, "--view"});
+    ASSERT_EQ(one.code, 0) << one.err;
+    EXPECT_EQ(one.out, "line-mine-0.html\n");
+    EXPECT_THAT(read("line-mine-0.html"), testing::HasSubstr("script-src 'sha256-"));
+    const Ended two =
+        clearway({"replay", "out/line/baseline/0", run_of_mine, "--view", "--out", "both.html"});
+    ASSERT_EQ(two.code, 0) << two.err;
+    EXPECT_THAT(read("both.html"), testing::HasSubstr("line/baseline/0 and line/mine/0"));
+    EXPECT_GT(read("both.html").size(), read("line-mine-0.html").size());
+    const Ended cut = clearway({"replay", run_of_mine, "--view", "--to", "30", "--out", "cut.html"});
+    ASSERT_EQ(cut.code, 0) << cut.err;
+    EXPECT_LT(read("cut.html").size(), read("line-mine-0.html").size());
+}
+
+TEST_F(ReplayTest, bad_input_of_a_page_is_told) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const Ended without = clearway({"replay", run_of_mine, run_of_mine});
+    EXPECT_EQ(without.code, 3);
+    EXPECT_THAT(without.err, testing::HasSubstr("two with --view"));
+    EXPECT_EQ(clearway({"replay", run_of_mine, "--view", "--predictor", "none"}).code, 2);
+    EXPECT_EQ(clearway({"replay", run_of_mine, "--view", "--csv", "links"}).code, 2);
+    EXPECT_EQ(clearway({"replay", run_of_mine, "--out", "page.html"}).code, 2);
+    const Ended window = clearway({"replay", run_of_mine, "--view", "--from", "9000"});
+    EXPECT_EQ(window.code, 3);
+    EXPECT_THAT(window.err, testing::HasSubstr("no recorded step lies in the window"));
+    EXPECT_EQ(clearway({"replay", run_of_mine, "--view", "--out", "none/page.html"}).code, 4);
+    const std::string whole = read(recording);
+    core::write_atomically(folder() / recording, whole.substr(0, whole.size() / 2));
+    const Ended cut = clearway({"replay", run_of_mine, "--view", "--out", "page.html"});
+    EXPECT_EQ(cut.code, 3) << cut.err;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "page.html"));
+}
+
+TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "3", "--out", "out", "--no-solo", "--policy",
+                        "dissertation", "--name", "mine"})
+                  .code,
+              0);
+    EXPECT_THAT(read("out/report.html"), testing::Not(testing::HasSubstr("id=\"replays\"")));
+    const std::string before = read("out/runs.csv");
+    const Ended made = clearway({"report", "out", "--replays"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const std::string report = read("out/report.html");
+    EXPECT_LT(report.size(), 5'000'000U);
+    for (const char* const part :
+         {"id=\"replays\"", "script-src 'sha256-", "line: the median trip", "line: the best trip",
+          "line: the worst trip", "\"condition\":\"baseline\""})
+        EXPECT_THAT(report, testing::HasSubstr(part));
+    EXPECT_EQ(read("out/runs.csv"), before) << "the runs that were made again gave the same records";
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out/recordings")) << "they are not recorded for good";
+
+    ASSERT_EQ(clearway({"report", "out"}).code, 0);
+    EXPECT_EQ(read("out/report.html"), report) << "later reports keep them";
+    const std::string stored = read("out/replays.html");
+    core::write_atomically(folder() / "out/replays.html", "<!-- clearway replays 0 -->\n" + stored);
+    const Ended stale = clearway({"report", "out"});
+    EXPECT_THAT(stale.err, testing::HasSubstr("does not fit the results any more"));
+    EXPECT_THAT(read("out/report.html"), testing::Not(testing::HasSubstr("id=\"replays\"")));
+}
+
 TEST_F(ReplayTest, tables_of_a_window_are_csv) {
     ASSERT_EQ(run({"--record"}).code, 0);
     for (const char* const table : {"snapshot", "signals", "events", "observation", "belief", "leases"}) {

@@ -72,9 +72,10 @@ void say_how_to_continue(const std::filesystem::path& folder, const study::Study
                progress.done, progress.total, folder.string(), command);
 }
 
-void write_report(const report::StudyFacts& facts, const std::filesystem::path& file) {
+void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
+                  const std::filesystem::path& file) {
     std::ostringstream page;
-    report::write_html(facts, page);
+    report::write_html(facts, page, {replays.markup, replays.script_source});
     core::write_atomically(file, page.str());
 }
 
@@ -181,7 +182,7 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const report::StudyFacts facts =
         report::facts_of(results, analysis::summarise(results), store.folder(), options.least_relevant_s);
-    write_report(facts, store.folder() / "report.html");
+    write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
     name_errors(store, results);

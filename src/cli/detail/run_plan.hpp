@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/report_replays.hpp"
 #include "core/error.hpp"
 #include "report/facts.hpp"
 #include "results/store.hpp"
@@ -29,6 +30,7 @@ struct PublishOptions {
     Printing printing = Printing::text;
     report::Tables tables = report::Tables::essential;
     double least_relevant_s = report::usual_least_relevant_s;  ///< Smaller EV time differences do not count.
+    MakeReplays replays = MakeReplays::no;
 };
 
 /// Checks names and makes the plan with the installed versions. An empty `options.folder` becomes

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "roads/network.hpp"
+#include "view/frame_builder.hpp"
+
+namespace clearway::view {
+
+/// The places within some `radius_m` of the points of a path, in cells of 25 m: a place is shown or not as
+/// the middle of its cell. The points of a path are less than a cell apart for vehicles slower than 50 m/s.
+Area near_path(const std::vector<roads::Point>& path, double radius_m);
+
+}  // namespace clearway::view
