@@ -91,8 +91,8 @@ class Requests {
     sensing::Channel vehicles_, signals_;
     sensing::EquipmentProcess equipment_;
     std::vector<std::optional<sensing::Place>> signal_places_;
-    /// The same policies with perfect sensors. Null where the condition has them itself, and where a policy is
-    /// a user's code, which is asked once: what it wanted counts as needed.
+    /// The same policies with perfect sensors. Null where the condition has them itself, and where a policy
+    /// is a user's code, which is asked once: what it wanted counts as needed.
     std::unique_ptr<DecisionChain> informed_;
 
     std::optional<sensing::MessageNumber> last_to_vehicles_, last_to_signals_;

@@ -19,8 +19,8 @@ void plan_section(const StudyFacts& study, Writer& writer) {
              grouped(finding.pairs), p_text(finding.p), p_text(finding.holm_p),
              finding_words(finding, Script::typeset)});
     }
-    writer.markup(
-        fmt::format("<p>{} Everything else on this page is exploratory.</p>\n", escaped(plan_sentence(study))));
+    writer.markup(fmt::format("<p>{} Everything else on this page is exploratory.</p>\n",
+                              escaped(plan_sentence(study))));
     writer.table({"plan", "Findings of the plan", std::move(table)});
 }
 
