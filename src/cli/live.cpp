@@ -190,6 +190,7 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
         arguments.server.token = new_token();
     const std::vector<experiment::ConditionSpec> conditions = watched(arguments);
     RunPlanOptions options{.folder = arguments.folder,
+                           .limits = {},
                            .printing = arguments.printing,
                            .command = invocation.command,
                            .tables = arguments.tables};
