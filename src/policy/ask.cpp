@@ -30,7 +30,7 @@ std::vector<int> hops_from(const traffic::BelievedGraph& belief, core::VehicleIn
 
 Audience::Audience(const traffic::BelievedGraph& belief, core::VehicleKey emergency,
                    const AskSettings& settings)
-    : ask_(settings.ask) {
+    : ask_(settings.ask), with_humans_(settings.ask_humans != 0) {
     if (ask_ == Ask::everyone) return;
     const traffic::BelievedVehicle* const itself = belief.find(emergency);
     if (itself == nullptr) return;
@@ -41,8 +41,10 @@ Audience::Audience(const traffic::BelievedGraph& belief, core::VehicleKey emerge
     }
 }
 
-bool Audience::has(core::VehicleKey vehicle) const {
-    return ask_ == Ask::everyone || std::ranges::binary_search(linked_, vehicle);
+bool Audience::has(const traffic::BelievedVehicle& vehicle) const {
+    const bool can_be_asked = vehicle.vehicle_class == traffic::VehicleClass::automated ||
+                              (with_humans_ && vehicle.vehicle_class == traffic::VehicleClass::human);
+    return can_be_asked && (ask_ == Ask::everyone || std::ranges::binary_search(linked_, vehicle.key));
 }
 
 }  // namespace clearway::policy

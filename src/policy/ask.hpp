@@ -24,22 +24,25 @@ struct AskSettings {
     Ask ask = Ask::everyone;
     double ask_probability = 0.5;
     int ask_hops = 1;
+    int ask_humans = 0;
 
-    /// The same fields as those of a type that has these members.
-    template <class Owner>
-    static constexpr auto fields_of() {
+    static constexpr auto fields() {
+        using C = AskSettings;
         using core::Field;
         return std::make_tuple(
-            Field{"ask", "", &Owner::ask, 0, 0,
+            Field{"ask", "", &C::ask, 0, 0,
                   "Whom it asks: every vehicle, or those that the emergency vehicle is believed to be linked "
                   "with",
                   "everyone: older conditions read places alone"},
-            Field{"ask_probability", "1", &Owner::ask_probability, 0.0, 1.0,
+            Field{"ask_probability", "1", &C::ask_probability, 0.0, 1.0,
                   "linked: a believed link counts when its probability is at least this", "even odds"},
-            Field{"ask_hops", "1", &Owner::ask_hops, 1, 5,
+            Field{"ask_hops", "1", &C::ask_hops, 1, 5,
                   "linked: links from the emergency vehicle, the ones in between being automated vehicles; "
                   "more than 1 needs loop.automated_links=1",
-                  "1: no relays"});
+                  "1: no relays"},
+            Field{"ask_humans", "1", &C::ask_humans, 0, 1,
+                  "1: human drivers are asked, too; those who comply (requests.compliance) do it",
+                  "0: automated vehicles alone"});
     }
 };
 
@@ -49,10 +52,11 @@ class Audience {
   public:
     /// O(links) for `linked`, nothing otherwise.
     Audience(const traffic::BelievedGraph& belief, core::VehicleKey emergency, const AskSettings& settings);
-    bool has(core::VehicleKey vehicle) const;
+    bool has(const traffic::BelievedVehicle& vehicle) const;
 
   private:
     Ask ask_;
+    bool with_humans_;
     std::vector<core::VehicleKey> linked_;  ///< Ascending.
 };
 

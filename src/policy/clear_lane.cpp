@@ -44,15 +44,11 @@ class Way {
         }
         for (const VehicleAhead& ahead : ahead_) {
             if (ahead.distance_m > config_.horizon_m) break;
-            if (may_ask(*ahead.vehicle)) ask(ahead);
+            if (audience_.has(*ahead.vehicle)) ask(ahead);
         }
     }
 
   private:
-    bool may_ask(const traffic::BelievedVehicle& vehicle) const {
-        return vehicle.vehicle_class == traffic::VehicleClass::automated && audience_.has(vehicle.key);
-    }
-
     /// The lane `distance_m` ahead when the emergency vehicle starts on lane `start`.
     core::LaneIndex lane_at(core::LaneIndex start, double distance_m) const {
         traffic::MotionState state = emergency_.state;
@@ -146,7 +142,7 @@ class Way {
             if (nearest == nullptr || vehicle.state.lane_position_m > nearest->state.lane_position_m)
                 nearest = &vehicle;
         }
-        if (nearest == nullptr || !may_ask(*nearest)) return;
+        if (nearest == nullptr || !audience_.has(*nearest)) return;
         drive_at(*nearest, config_.gap_factor * emergency_.state.speed_mps, "opens a gap");
     }
 
@@ -160,7 +156,7 @@ class Way {
         if (wanted.gain_s - back_m / gap->flow_mps < config_.gap_worth_s) return;
         drive_at(emergency_, gap->flow_mps - std::min(config_.fall_back_mps, back_m / config_.fall_back_s),
                  "falls back to a gap");
-        if (gap->behind == nullptr || !may_ask(*gap->behind)) return;
+        if (gap->behind == nullptr || !audience_.has(*gap->behind)) return;
         const double room_m = emergency_.state.lane_position_m - back_m - gap->behind->state.lane_position_m;
         if (room_m < config_.keep_open_m)
             drive_at(*gap->behind, config_.gap_factor * gap->flow_mps, "keeps a gap open");

@@ -87,9 +87,7 @@ struct ClearLaneConfig : AskSettings {
     }
 
   public:
-    static constexpr auto fields() {
-        return std::tuple_cat(own_fields(), AskSettings::fields_of<ClearLaneConfig>());
-    }
+    static constexpr auto fields() { return std::tuple_cat(own_fields(), AskSettings::fields()); }
 };
 
 /// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the

@@ -36,13 +36,14 @@ void HoldCross::act(const traffic::BelievedGraph& belief, std::vector<traffic::L
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
+        const Audience audience(belief, emergency.key, config_);
         const double speed_mps = std::max<double>(emergency.state.speed_mps, config_.slowest_mps);
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.horizon_m))) {
             if (approach.distance_m / speed_mps > config_.lead_s) break;
             const std::set<core::LaneIndex> lanes = crossing_lanes(view, approach);
             for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
-                if (!config_.asks(vehicle) || !lanes.contains(vehicle.state.lane)) continue;
+                if (!audience.has(vehicle) || !lanes.contains(vehicle.state.lane)) continue;
                 const double to_line_m =
                     view.network().lane(vehicle.state.lane).length_m - vehicle.state.lane_position_m;
                 if (to_line_m <= config_.near_m)

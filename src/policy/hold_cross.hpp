@@ -2,13 +2,14 @@
 
 #include <tuple>
 
+#include "policy/ask.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of HoldCross.
-struct HoldCrossConfig : detail::Asking {
+struct HoldCrossConfig : AskSettings {
     double lead_s = 6.0;
     double horizon_m = 200.0;
     double near_m = 80.0;
@@ -31,7 +32,7 @@ struct HoldCrossConfig : detail::Asking {
                   "Arrival is estimated with at least this speed",
                   "assumed: an emergency vehicle passes red with 20 km/h"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, Asking::fields());
+        return std::tuple_cat(own, AskSettings::fields());
     }
 };
 

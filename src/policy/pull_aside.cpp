@@ -29,13 +29,14 @@ void PullAside::act(const traffic::BelievedGraph& belief, std::vector<traffic::L
             write);
         const std::vector<detail::VehicleAhead> ahead = view.vehicles_ahead(emergency, horizon);
         if (ahead.empty()) continue;
-        const detail::LanePlan plan(view, emergency, ahead, config_, config_.horizon_m);
+        const Audience audience(belief, emergency.key, config_);
+        const detail::LanePlan plan(view, emergency, ahead, audience, config_, config_.horizon_m);
         const double slow_mps = config_.slow_share * view.allowed_speed(emergency).value;
         for (const detail::VehicleAhead& other : ahead) {
             const traffic::BelievedVehicle& vehicle = *other.vehicle;
             const auto column = plan.column_of(vehicle.state.lane);
             const bool in_the_way = column && column == plan.column_at(other.distance_m);
-            if (!in_the_way || !config_.asks(vehicle) || vehicle.state.speed_mps > slow_mps) continue;
+            if (!in_the_way || !audience.has(vehicle) || vehicle.state.speed_mps > slow_mps) continue;
             write.add(vehicle.key, traffic::PullAside{}, "in an emergency vehicle's way", emergency.key);
             memory_.note(emergency, vehicle);
         }

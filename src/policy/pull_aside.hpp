@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "policy/detail/cooperation.hpp"
 #include "policy/detail/lane_plan.hpp"
 #include "policy/policy.hpp"
 

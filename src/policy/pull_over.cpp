@@ -47,20 +47,21 @@ void PullOver::act(const traffic::BelievedGraph& belief, std::vector<traffic::Le
                    is_oncoming(emergency.state, place, config_.oncoming_m);
         };
         memory_.renew(view, emergency, in_the_way, write);
+        const Audience audience(belief, emergency.key, config_);
         const double slow_mps = config_.slow_share * view.allowed_speed(emergency).value;
         bool has_stranger = false;
         for (const detail::VehicleAhead& other : view.vehicles_ahead(emergency, horizon)) {
             const traffic::BelievedVehicle& vehicle = *other.vehicle;
             if (!has_shoulder(view, vehicle) || vehicle.state.speed_mps > slow_mps) continue;
-            has_stranger = has_stranger || !config_.asks(vehicle);
-            if (!config_.asks(vehicle)) continue;
+            has_stranger = has_stranger || !audience.has(vehicle);
+            if (!audience.has(vehicle)) continue;
             write.add(vehicle.key, traffic::PullAside{}, "pulls over for an emergency vehicle",
                       emergency.key);
             memory_.note(emergency, vehicle);
         }
         if (!has_stranger) continue;
         for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
-            if (!config_.asks(vehicle) || !has_shoulder(view, vehicle) ||
+            if (!audience.has(vehicle) || !has_shoulder(view, vehicle) ||
                 !is_oncoming(emergency.state, vehicle.state, config_.oncoming_m))
                 continue;
             write.add(vehicle.key, traffic::PullAside{}, "keeps the oncoming lane free", emergency.key);

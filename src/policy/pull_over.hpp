@@ -2,13 +2,14 @@
 
 #include <tuple>
 
+#include "policy/ask.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of PullOver.
-struct PullOverConfig : detail::Asking {
+struct PullOverConfig : AskSettings {
     double horizon_m = 300.0;
     double slow_share = 0.95;
     double oncoming_m = 600.0;
@@ -28,7 +29,7 @@ struct PullOverConfig : detail::Asking {
                   "to be overtaken; 0: never",
                   "assumed: overtaking at 100 km/h takes 10 s, and the oncoming vehicle comes as far"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, Asking::fields());
+        return std::tuple_cat(own, AskSettings::fields());
     }
 };
 

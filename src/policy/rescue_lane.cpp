@@ -30,7 +30,12 @@ class Rescue {
   public:
     Rescue(const View& view, const RescueLaneConfig& config, const traffic::BelievedVehicle& emergency,
            std::uint32_t& place, LeaseWriter& write)
-        : view_(view), config_(config), emergency_(emergency), place_(place), write_(write) {
+        : view_(view),
+          config_(config),
+          emergency_(emergency),
+          place_(place),
+          write_(write),
+          audience_(view.belief(), emergency.key, config) {
         for (const VehicleAhead& other : view.vehicles_ahead(emergency, core::Metres(config.horizon_m))) {
             const bool is_slow = other.vehicle->state.speed_mps < config.slow_mps;
             if (is_slow && !view.network().edge(*view.edge_of(*other.vehicle)).internal)
@@ -42,7 +47,7 @@ class Rescue {
         choose_place();
         for (const VehicleAhead& other : ahead_) {
             const auto from_left = lanes_from_left(*other.vehicle);
-            if (!from_left || !config_.asks(*other.vehicle)) continue;
+            if (!from_left || !audience_.has(*other.vehicle)) continue;
             const traffic::Side side = *from_left <= place_ ? traffic::Side::left : traffic::Side::right;
             write_.add(other.vehicle->key, traffic::PullAside{side}, "forms a rescue lane", emergency_.key);
         }
@@ -62,7 +67,7 @@ class Rescue {
     double strangers_beside(std::uint32_t place) const {
         return static_cast<double>(std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
             const auto from_left = lanes_from_left(*other.vehicle);
-            return from_left && !config_.asks(*other.vehicle) &&
+            return from_left && !audience_.has(*other.vehicle) &&
                    (*from_left == place || *from_left == place + 1);
         }));
     }
@@ -93,7 +98,7 @@ class Rescue {
     double reach_m(const VehicleAhead& other) const {
         const double width_m = info_of(*other.vehicle).width_m;
         const double lane_m = view_.network().lane(other.vehicle->state.lane).width_m;
-        return config_.asks(*other.vehicle) ? width_m : (lane_m + width_m) / 2.0;
+        return audience_.has(*other.vehicle) ? width_m : (lane_m + width_m) / 2.0;
     }
 
     bool leave_room(const VehicleAhead& left, const VehicleAhead& right) const {
@@ -125,7 +130,7 @@ class Rescue {
     }
 
     bool slow_down(const VehicleAhead& other) {
-        if (!config_.asks(*other.vehicle)) return false;
+        if (!audience_.has(*other.vehicle)) return false;
         const double speed_mps = std::max(config_.stagger_share * other.vehicle->state.speed_mps, least_mps);
         write_.add(other.vehicle->key, traffic::DriveAt{core::MetresPerSecond(speed_mps)},
                    "moves apart from one abreast that blocks the rescue lane", emergency_.key);
@@ -146,6 +151,7 @@ class Rescue {
     const traffic::BelievedVehicle& emergency_;
     std::uint32_t& place_;
     LeaseWriter& write_;
+    Audience audience_;
     std::vector<VehicleAhead> ahead_;
 };
 

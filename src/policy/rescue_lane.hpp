@@ -3,13 +3,14 @@
 #include <map>
 #include <tuple>
 
+#include "policy/ask.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::policy {
 
 /// Settings of RescueLane.
-struct RescueLaneConfig : detail::Asking {
+struct RescueLaneConfig : AskSettings {
     double horizon_m = 300.0;
     double slow_mps = 14.0;
     double stagger_m = 60.0;
@@ -46,7 +47,7 @@ struct RescueLaneConfig : detail::Asking {
                 "not asked",
                 "assumed: moving it takes longer than passing one"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, Asking::fields());
+        return std::tuple_cat(own, AskSettings::fields());
     }
 };
 

@@ -27,7 +27,8 @@ class Vacating {
           emergency_(emergency),
           write_(write),
           ahead_(view.vehicles_ahead(emergency, core::Metres(config.horizon_m))),
-          plan_(view, emergency, ahead_, config, config.horizon_m) {}
+          audience_(view.belief(), emergency.key, config),
+          plan_(view, emergency, ahead_, audience_, config, config.horizon_m) {}
 
     void ask() {
         if (ahead_.empty()) return;
@@ -37,7 +38,7 @@ class Vacating {
             write_.add(emergency_.key, traffic::ChangeLane{*lane}, "the way that is being cleared",
                        emergency_.key);
         for (const VehicleAhead& other : ahead_) {
-            if (config_.asks(*other.vehicle)) ask(other);
+            if (audience_.has(*other.vehicle)) ask(other);
         }
     }
 
@@ -78,6 +79,7 @@ class Vacating {
     const traffic::BelievedVehicle& emergency_;
     LeaseWriter& write_;
     std::vector<VehicleAhead> ahead_;
+    Audience audience_;
     LanePlan plan_;
 };
 

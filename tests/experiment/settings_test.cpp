@@ -73,6 +73,7 @@ TEST(Settings, OfEveryPartThatAConditionHasAreAccepted) {
                 set(condition, component + "." + row.name, row.preset);
         }
     }
+    set(condition, "clear_lane.ask", "linked");  // without it, how it asks the linked has no effect
     EXPECT_THAT(problems_of(condition), IsEmpty());
     EXPECT_THAT(components_of(condition),
                 testing::ElementsAre("loop", "failure", "graphsage", "preempt_signals", "recover_signals",

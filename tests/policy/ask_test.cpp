@@ -1,6 +1,8 @@
 // Whom a policy asks: everyone, or those that the believed graph links with the emergency vehicle.
 #include "policy/ask.hpp"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "policy/clear_lane.hpp"
@@ -10,6 +12,7 @@ namespace clearway::testing {
 namespace {
 
 using policy::Ask;
+using policy::AskSettings;
 using policy::Audience;
 
 constexpr const char* chain = R"(
@@ -19,46 +22,55 @@ constexpr const char* chain = R"(
 constexpr graph::LinkRules with_relays = {.radius_m = 50.0,
                                           .automated_automated = graph::LinkRules::Pairs::included};
 
-TEST(Audience, OfEveryoneHasThoseWithoutALink) {
-    const support::Scene scene(chain);
-    const Audience all(support::perfect_belief(scene), scene.key("e1"), {});
-    EXPECT_TRUE(all.has(scene.key("a1")));
-    EXPECT_TRUE(all.has(scene.key("a4")));
+class AudienceTest : public ::testing::Test {
+  protected:
+    /// Whether the emergency vehicle asks the named one.
+    bool asks(const std::string& name, const AskSettings& settings) const {
+        return Audience(belief_, scene_.key("e1"), settings).has(*belief_.find(scene_.key(name)));
+    }
+
+    support::Scene scene_{chain};
+    traffic::BelievedGraph belief_ = support::perfect_belief(scene_, with_relays);
+};
+
+TEST_F(AudienceTest, of_everyone_has_automated_vehicles_without_a_link) {
+    EXPECT_TRUE(asks("a1", {}));
+    EXPECT_TRUE(asks("a4", {}));
+    EXPECT_FALSE(asks("h1", {}));
+    EXPECT_FALSE(asks("e1", {}));
 }
 
-TEST(Audience, OfTheLinkedHasTheEndsOfItsLinksAlone) {
-    const support::Scene scene(chain);
-    const Audience linked(support::perfect_belief(scene), scene.key("e1"), {.ask = Ask::linked});
-    EXPECT_TRUE(linked.has(scene.key("a1"))) << "40 m";
-    EXPECT_FALSE(linked.has(scene.key("a2"))) << "80 m";
-    EXPECT_FALSE(linked.has(scene.key("e1")));
+TEST_F(AudienceTest, has_human_drivers_where_they_are_asked) {
+    EXPECT_TRUE(asks("h1", {.ask_humans = 1}));
+    EXPECT_FALSE(asks("e1", {.ask_humans = 1}));
 }
 
-TEST(Audience, GrowsByRelaysOfAutomatedVehicles) {
-    const support::Scene scene(chain);
-    const traffic::BelievedGraph belief = support::perfect_belief(scene, with_relays);
-    const Audience two(belief, scene.key("e1"), {.ask = Ask::linked, .ask_hops = 2});
-    EXPECT_TRUE(two.has(scene.key("a2")));
-    EXPECT_FALSE(two.has(scene.key("h1"))) << "three links away";
-    const Audience five(belief, scene.key("e1"), {.ask = Ask::linked, .ask_hops = 5});
-    EXPECT_TRUE(five.has(scene.key("h1")));
-    EXPECT_FALSE(five.has(scene.key("a3"))) << "a human driver sends nothing on, and a2 is 80 m behind";
+TEST_F(AudienceTest, of_the_linked_has_the_ends_of_its_links_alone) {
+    EXPECT_TRUE(asks("a1", {.ask = Ask::linked})) << "40 m";
+    EXPECT_FALSE(asks("a2", {.ask = Ask::linked})) << "80 m";
+    EXPECT_FALSE(asks("e1", {.ask = Ask::linked}));
 }
 
-TEST(Audience, CountsLinksFromItsThresholdUp) {
-    const support::Scene scene(chain);
-    traffic::BelievedGraph belief = support::perfect_belief(scene);
-    for (traffic::BelievedLink& link : belief.links)
+TEST_F(AudienceTest, grows_by_relays_of_automated_vehicles) {
+    EXPECT_TRUE(asks("a2", {.ask = Ask::linked, .ask_hops = 2}));
+    EXPECT_FALSE(asks("h1", {.ask = Ask::linked, .ask_hops = 2, .ask_humans = 1})) << "three links away";
+    EXPECT_TRUE(asks("h1", {.ask = Ask::linked, .ask_hops = 5, .ask_humans = 1}));
+    EXPECT_FALSE(asks("a3", {.ask = Ask::linked, .ask_hops = 5}))
+        << "a human driver sends nothing on, and a2 is 80 m behind";
+}
+
+TEST_F(AudienceTest, counts_links_from_its_threshold_up) {
+    for (traffic::BelievedLink& link : belief_.links)
         link.probability = 0.6F;
-    EXPECT_TRUE(Audience(belief, scene.key("e1"), {Ask::linked, 0.6}).has(scene.key("a1")));
-    EXPECT_FALSE(Audience(belief, scene.key("e1"), {Ask::linked, 0.61}).has(scene.key("a1")));
+    EXPECT_TRUE(asks("a1", {Ask::linked, 0.6}));
+    EXPECT_FALSE(asks("a1", {Ask::linked, 0.61}));
 }
 
-TEST(Audience, OfAnEmergencyVehicleThatNobodyHasHeardIsEmpty) {
-    const support::Scene scene(chain);
+TEST_F(AudienceTest, of_an_emergency_vehicle_that_nobody_has_heard_is_empty) {
     traffic::BelievedGraph nothing;
     nothing.first_link = {0};
-    EXPECT_FALSE(Audience(nothing, scene.key("e1"), {.ask = Ask::linked}).has(scene.key("a1")));
+    EXPECT_FALSE(
+        Audience(nothing, scene_.key("e1"), {.ask = Ask::linked}).has(*belief_.find(scene_.key("a1"))));
 }
 
 constexpr const char* queue = R"(

@@ -11,9 +11,9 @@
 
 namespace clearway::testing {
 
-/// The scene that every policy has something to do in, except those that need a shoulder: an emergency vehicle
-/// `to_line_m` before a red signal, automated vehicles ahead of it on its lane and beside it, queues of human
-/// drivers ahead of it and on the crossing street, and an automated vehicle there.
+/// The scene that every policy has something to do in, except those that need a shoulder: an emergency
+/// vehicle `to_line_m` before a red signal, automated vehicles ahead of it on its lane and beside it, queues
+/// of human drivers ahead of it and on the crossing street, and an automated vehicle there.
 void add_helpful_scene(ActuationBench& bench, double to_line_m = 120.0);
 /// The scene in which no policy has: traffic of all kinds, but the emergency vehicle is past the last signal
 /// and alone.

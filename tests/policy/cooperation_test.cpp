@@ -75,6 +75,21 @@ TEST(VacateLane, asks_human_drivers_only_where_told_to) {
     EXPECT_EQ(road.asked_lane("h1"), 0U);
 }
 
+TEST(VacateLane, that_asks_the_linked_plans_round_those_it_is_not_linked_with) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 12 m/s
+        ......e...a.......a.............................................
+        ................................................................
+    )");
+    stop(road, {"a1", "a2"});
+    policy::VacateLaneConfig config;
+    config.ask = policy::Ask::linked;
+    policy::VacateLane policy({road.scene.network()}, config);
+    road.act(policy);
+    EXPECT_FALSE(road.asked_lane("a2")) << "120 m ahead: no link";
+    EXPECT_EQ(road.asked_lane("e1"), 0U) << "round the one that stays";
+}
+
 TEST(VacateLane, asks_nobody_beyond_its_horizon) {
     StraightRoad road(R"(
         10 m per cell, limit 20 m/s, speed 12 m/s
@@ -124,7 +139,8 @@ TEST(PullAside, renews_for_those_who_vanished_beside_the_road_until_it_has_passe
     traffic::BelievedGraph belief = support::perfect_belief(road.scene);
     const auto renewals = [&](float emergency_m) {
         traffic::BelievedGraph alone = belief;
-        std::erase_if(alone.vehicles, [&](const auto& vehicle) { return vehicle.key == road.scene.key("a1"); });
+        std::erase_if(alone.vehicles,
+                      [&](const auto& vehicle) { return vehicle.key == road.scene.key("a1"); });
         alone.first_link.assign(alone.vehicles.size() + 1, 0);
         alone.links.clear();
         alone.vehicles.front().state.lane_position_m = emergency_m;
@@ -205,15 +221,18 @@ TEST(RescueLane, moves_two_abreast_apart_who_leave_too_little_room) {
 
 TEST(HoldCross, stops_cross_traffic_that_has_green_and_only_shortly_before_the_arrival) {
     ActuationBench bench;
-    const auto emergency = bench.add(
-        {"e", traffic::VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 1, 450.0, 12.0});
-    const auto near = bench.add({"n", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 250.0, 8.0});
-    const auto far = bench.add({"f", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 100.0, 8.0});
+    const auto emergency =
+        bench.add({"e", traffic::VehicleClass::emergency, {"west_A", "A_B", "B_east"}, 1, 450.0, 12.0});
+    const auto near =
+        bench.add({"n", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 250.0, 8.0});
+    const auto far =
+        bench.add({"f", traffic::VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 100.0, 8.0});
     policy::HoldCross policy({two_crossings()});
     traffic::BelievedGraph& belief = bench.scene.belief();
     const roads::Signal& signal = two_crossings().signal(two_crossings().find_signal("A").value());
     const auto asked = [&](char cross, float emergency_m) {
-        belief.signals.state.assign(two_crossings().signals().size(), std::string(signal.links.size(), cross));
+        belief.signals.state.assign(two_crossings().signals().size(),
+                                    std::string(signal.links.size(), cross));
         for (auto* states : {&belief.vehicles, &belief.own_states}) {
             for (traffic::BelievedVehicle& vehicle : *states) {
                 if (vehicle.key == emergency) vehicle.state.lane_position_m = emergency_m;
@@ -241,19 +260,20 @@ roads::Network rural_road(const support::TemporaryFolder& folder) {
         const std::string x1 = east ? "1000" : "0";
         const auto lane = [&](int number, int at, const char* more) {
             return "<lane id=\"" + std::string(id) + "_" + std::to_string(number) + "\" index=\"" +
-                   std::to_string(number) + "\" speed=\"27.78\" length=\"1000\" width=\"3\" shape=\"" + x0 + "," +
-                   std::to_string(at) + " " + x1 + "," + std::to_string(at) + "\"" + more + "/>";
+                   std::to_string(number) + "\" speed=\"27.78\" length=\"1000\" width=\"3\" shape=\"" + x0 +
+                   "," + std::to_string(at) + " " + x1 + "," + std::to_string(at) + "\"" + more + "/>";
         };
-        return "<edge id=\"" + std::string(id) + "\" from=\"" + from + "\" to=\"" + to + "\" priority=\"1\">" +
-               lane(0, right_y, " disallow=\"all\"") + lane(1, y, "") + "</edge>";
+        return "<edge id=\"" + std::string(id) + "\" from=\"" + from + "\" to=\"" + to +
+               "\" priority=\"1\">" + lane(0, right_y, " disallow=\"all\"") + lane(1, y, "") + "</edge>";
     };
     const std::filesystem::path file = folder.path() / "rural.net.xml";
-    std::ofstream(file) << "<net version=\"1.9\"><location netOffset=\"0,0\" convBoundary=\"0,0,1000,10\" "
-                           "origBoundary=\"0,0,1000,10\" projParameter=\"!\"/>"
-                        << edge("east", "w", "e", -2, -5) << edge("west", "e", "w", 2, 5)
-                        << "<junction id=\"w\" type=\"dead_end\" x=\"0\" y=\"0\" incLanes=\"\" intLanes=\"\" "
-                           "shape=\"0,0\"/><junction id=\"e\" type=\"dead_end\" x=\"1000\" y=\"0\" incLanes=\"\" "
-                           "intLanes=\"\" shape=\"0,0\"/></net>";
+    std::ofstream(file)
+        << "<net version=\"1.9\"><location netOffset=\"0,0\" convBoundary=\"0,0,1000,10\" "
+           "origBoundary=\"0,0,1000,10\" projParameter=\"!\"/>"
+        << edge("east", "w", "e", -2, -5) << edge("west", "e", "w", 2, 5)
+        << "<junction id=\"w\" type=\"dead_end\" x=\"0\" y=\"0\" incLanes=\"\" intLanes=\"\" "
+           "shape=\"0,0\"/><junction id=\"e\" type=\"dead_end\" x=\"1000\" y=\"0\" incLanes=\"\" "
+           "intLanes=\"\" shape=\"0,0\"/></net>";
     return roads::Network::read(file);
 }
 
@@ -261,8 +281,8 @@ class RuralRoad {
   public:
     RuralRoad() : network_(rural_road(folder_)) { belief_.roster = &roster_; }
 
-    core::VehicleKey add(const char* id, traffic::VehicleClass vehicle_class, const char* edge, float position_m,
-                         float speed_mps) {
+    core::VehicleKey add(const char* id, traffic::VehicleClass vehicle_class, const char* edge,
+                         float position_m, float speed_mps) {
         const core::EdgeIndex on = network_.find_edge(edge).value();
         traffic::VehicleInfo info;
         info.key = core::vehicle_key(id);

@@ -110,10 +110,9 @@ TEST(Plan, RefusesAnEmptyStudy) {
 TEST(Plan, RefusesDrivingBetweenLanesWithoutTheSublaneModel) {
     StudyConfig config = example();
     config.scenarios[1].privilege.between_lanes = 1;
-    EXPECT_THAT(problems_of(config),
-                testing::AllOf(testing::HasSubstr("condition corridor, scenario beta"),
-                               testing::HasSubstr("\"standard\" cannot show"),
-                               testing::HasSubstr("--traffic-model sublane")));
+    EXPECT_THAT(problems_of(config), testing::AllOf(testing::HasSubstr("condition corridor, scenario beta"),
+                                                    testing::HasSubstr("\"standard\" cannot show"),
+                                                    testing::HasSubstr("--traffic-model sublane")));
 }
 
 /// What is wrong when a policy runs in a scenario of this name, changed by `change`.
@@ -143,9 +142,10 @@ TEST(Situation, RefusesAnEmergencyVehicleThatIsWiderThanTheGapBetweenTwoLanes) {
         config.privilege.between_lanes = 1;
         config.emergency_kinds = {.ambulance = 0.0, .fire_engine = 1.0};
     };
-    EXPECT_THAT(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, engine),
-                testing::AllOf(testing::HasSubstr("a fire_engine of 2.5 m and 0.4 m of margin"),
-                               testing::HasSubstr("at most 2.80 m"), testing::HasSubstr("--emergency-kinds")));
+    EXPECT_THAT(
+        problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, engine),
+        testing::AllOf(testing::HasSubstr("a fire_engine of 2.5 m and 0.4 m of margin"),
+                       testing::HasSubstr("at most 2.80 m"), testing::HasSubstr("--emergency-kinds")));
     const auto ambulance = [](scenario::ScenarioConfig& config) { config.privilege.between_lanes = 1; };
     EXPECT_EQ(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, ambulance), "none");
 }

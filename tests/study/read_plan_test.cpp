@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* study = R"(
+constexpr const char* study_text = R"(
 name = "planned"
 seed = 77
 scenarios = ["merge", "intersection"]
 conditions = ["baseline", "corridor", "solo"]
 )";
-constexpr const char* plan = R"(
+constexpr const char* plan_text = R"(
 [plan]
 alpha = 0.01
 margin_s = 2
@@ -63,7 +63,7 @@ class PlannedStudy : public testing::Test {
 };
 
 TEST_F(PlannedStudy, ReadsItsComparisons) {
-    const StudyConfig config = read(std::string(study) + plan);
+    const StudyConfig config = read(std::string(study_text) + plan_text);
     ASSERT_TRUE(config.plan);
     EXPECT_EQ(config.plan->metric, "emergency_restricted_travel_time_s");
     EXPECT_DOUBLE_EQ(config.plan->alpha, 0.01);
@@ -74,12 +74,12 @@ TEST_F(PlannedStudy, ReadsItsComparisons) {
                                                                        results::Claim::difference}));
     EXPECT_EQ(config.plan->comparisons[1].scenario, "merge");
     EXPECT_EQ(config.plan->comparisons[1].claim, results::Claim::equivalence);
-    EXPECT_FALSE(read(study).plan);
+    EXPECT_FALSE(read(study_text).plan);
 }
 
 TEST_F(PlannedStudy, KeepsThePlanInTheManifest) {
     results::Manifest manifest;
-    manifest.plan = read(std::string(study) + plan).plan;
+    manifest.plan = read(std::string(study_text) + plan_text).plan;
     const results::Manifest same = results::manifest_from_json(results::to_json(manifest), "manifest.json");
     EXPECT_EQ(same.plan, manifest.plan);
     results::Manifest other = manifest;
@@ -88,7 +88,7 @@ TEST_F(PlannedStudy, KeepsThePlanInTheManifest) {
 }
 
 TEST_F(PlannedStudy, RefusesAPlanThatDoesNotFit) {
-    const auto with = [&](const std::string& more) { return problems(std::string(study) + more); };
+    const auto with = [&](const std::string& more) { return problems(std::string(study_text) + more); };
     EXPECT_THAT(with("[plan]\n"), AllOf(HasSubstr("plan.comparison"), HasSubstr("is missing")));
     EXPECT_THAT(with("[plan]\nalpha = 0.5\n[[plan.comparison]]\nname='x'\ncondition='corridor'\n"
                      "against='baseline'\n"),
@@ -104,12 +104,13 @@ TEST_F(PlannedStudy, RefusesAPlanThatDoesNotFit) {
     EXPECT_THAT(with("[plan]\n[[plan.comparison]]\nname='x'\nscenario='city'\ncondition='corridor'\n"
                      "against='baseline'\n"),
                 AllOf(HasSubstr("'city' is not in the study"), HasSubstr("merge, intersection")));
-    EXPECT_THAT(with(std::string(plan) + "[precision]\nmetric='emergency_travel_time_s'\nhalf_width=1\n"),
-                HasSubstr("is given together with [plan]"));
+    EXPECT_THAT(
+        with(std::string(plan_text) + "[precision]\nmetric='emergency_travel_time_s'\nhalf_width=1\n"),
+        HasSubstr("is given together with [plan]"));
 }
 
 TEST_F(PlannedStudy, NeedsTheTimeAloneOnTheRoadForItsMargin) {
-    std::string without_solo = std::string(study) + plan;
+    std::string without_solo = std::string(study_text) + plan_text;
     without_solo.replace(without_solo.find(", \"solo\""), 8, "");
     EXPECT_THAT(problems(without_solo),
                 AllOf(HasSubstr("plan.margin_share"), HasSubstr("Add solo to the conditions")));
@@ -118,9 +119,9 @@ TEST_F(PlannedStudy, NeedsTheTimeAloneOnTheRoadForItsMargin) {
 }
 
 TEST_F(PlannedStudy, TriesOutOnOtherSeedsAndConfirmsNothingThere) {
-    const std::string same = std::string(study) + plan + "[quick]\nreplications = 2\n";
+    const std::string same = std::string(study_text) + plan_text + "[quick]\nreplications = 2\n";
     EXPECT_THAT(problems(same), AllOf(HasSubstr("quick.seed"), HasSubstr("77 is that of the study")));
-    const std::string other = std::string(study) + plan + "[quick]\nseed = 78\nreplications = 2\n";
+    const std::string other = std::string(study_text) + plan_text + "[quick]\nseed = 78\nreplications = 2\n";
     EXPECT_EQ(problems(other), "none");
     const StudyConfig quick = read(other, Extent::quick);
     EXPECT_EQ(quick.seed, 78U);
@@ -128,7 +129,7 @@ TEST_F(PlannedStudy, TriesOutOnOtherSeedsAndConfirmsNothingThere) {
 }
 
 TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
-    const fs::path file = folder_.write("study.toml", std::string(study) + plan);
+    const fs::path file = folder_.write("study.toml", std::string(study_text) + plan_text);
     const StudyConfig config = read_study(file);
     const auto check = [&] { check_fresh_seed(config, file, folder_.path() / "runs" / "planned"); };
     EXPECT_EQ(refusal(check), "none");
@@ -145,7 +146,7 @@ TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
 }
 
 TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyRanOnItsSeed) {
-    const fs::path file = folder_.write("study.toml", std::string(study) + plan);
+    const fs::path file = folder_.write("study.toml", std::string(study_text) + plan_text);
     const StudyConfig config = read_study(file);
     const fs::path runs = folder_.path() / "runs";
     const auto ran = [&](const std::string& name, const std::string& study, std::uint64_t seed,

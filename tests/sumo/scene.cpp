@@ -45,8 +45,8 @@ std::filesystem::path Scene::straight_road() const {
 }
 
 std::filesystem::path Scene::two_way_road() const {
-    const auto nodes = write("two_way.nod.xml",
-                             R"(<nodes><node id="w" x="0" y="0"/><node id="e" x="2000" y="0"/></nodes>)");
+    const auto nodes =
+        write("two_way.nod.xml", R"(<nodes><node id="w" x="0" y="0"/><node id="e" x="2000" y="0"/></nodes>)");
     const auto one_lane = [](const char* id, const char* from, const char* to, const char* beside) {
         return fmt::format(
             R"(<edge id="{}" from="{}" to="{}" numLanes="1" speed="27.78"><lane index="0"><neigh lane="{}_0"/></lane></edge>)",

@@ -31,9 +31,9 @@ std::uint32_t row_of(const std::vector<std::string>& names, const std::string& n
 
 TEST(Session, VehicleThatOvertakesOnTheOncomingLaneCountsAsOnItsOwn) {
     const Scene scene;
-    const auto config = scene.config(
-        scene.two_way_road(), vehicle("slow", "hv", 0, "east", R"(departPos="100" departSpeed="10")") +
-                                  vehicle("fast", "ev", 1, "east", R"(departSpeed="20")"));
+    const auto config = scene.config(scene.two_way_road(),
+                                     vehicle("slow", "hv", 0, "east", R"(departPos="100" departSpeed="10")") +
+                                         vehicle("fast", "ev", 1, "east", R"(departSpeed="20")"));
     Session session(config);
     session.step();
     const traffic::Command crawl = traffic::SetSpeed{key("slow"), core::MetresPerSecond(10.0)};

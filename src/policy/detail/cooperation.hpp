@@ -10,24 +10,6 @@
 
 namespace clearway::policy::detail {
 
-/// Whom a part asks; members of its settings.
-struct Asking {
-    int ask_humans = 0;
-
-    /// Whether the vehicle is asked at all.
-    bool asks(const traffic::BelievedVehicle& vehicle) const {
-        if (vehicle.vehicle_class == traffic::VehicleClass::human) return ask_humans != 0;
-        return vehicle.vehicle_class == traffic::VehicleClass::automated;
-    }
-
-    static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"ask_humans", "1", &Asking::ask_humans, 0, 1,
-                        "1: human drivers are asked, too; those who comply (requests.compliance) do it",
-                        "0: automated vehicles alone"});
-    }
-};
-
 /// Pulling aside goes before changing lanes: who stands in a queue cannot do the latter.
 inline constexpr int aside_priority = 1;
 

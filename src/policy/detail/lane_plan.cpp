@@ -16,10 +16,11 @@ std::size_t cell_of(double distance_m) {
 }  // namespace
 
 LanePlan::LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
-                   const std::vector<VehicleAhead>& ahead, const LanePlanConfig& config, double horizon_m) {
+                   const std::vector<VehicleAhead>& ahead, const Audience& audience,
+                   const LanePlanConfig& config, double horizon_m) {
     find_columns(view, emergency, horizon_m);
     plan_.resize(cell_of(horizon_m) + 1, own_);
-    choose(costs(view, emergency, ahead, config), config.change_s);
+    choose(costs(view, emergency, ahead, audience, config), config.change_s);
 }
 
 void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m) {
@@ -42,6 +43,7 @@ void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& em
 
 std::vector<std::vector<double>> LanePlan::costs(const View& view, const traffic::BelievedVehicle& emergency,
                                                  const std::vector<VehicleAhead>& ahead,
+                                                 const Audience& audience,
                                                  const LanePlanConfig& config) const {
     std::vector<std::vector<double>> cost(plan_.size(), std::vector<double>(numbers_.size(), 0.0));
     const double free_mps = std::max(view.allowed_speed(emergency).value, slowest_limit_mps);
@@ -53,7 +55,7 @@ std::vector<std::vector<double>> LanePlan::costs(const View& view, const traffic
         double delay_s = config.slow_s * std::max(0.0, 1.0 - speed_mps / free_mps);
         if (speed_mps < config.halted_mps) delay_s = config.blocked_s;
         cost[cell][column->second] +=
-            config.asks(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
+            audience.has(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
     }
     return cost;
 }

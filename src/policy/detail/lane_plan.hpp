@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "policy/detail/cooperation.hpp"
+#include "policy/ask.hpp"
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy::detail {
 
 /// How an emergency vehicle's way through the lanes is chosen; members of the settings of parts that clear
 /// it.
-struct LanePlanConfig : Asking {
+struct LanePlanConfig : AskSettings {
     double blocked_s = 15.0;
     double slow_s = 4.0;
     double clears_s = 0.5;
@@ -35,7 +35,7 @@ struct LanePlanConfig : Asking {
             Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"});
-        return std::tuple_cat(own, Asking::fields());
+        return std::tuple_cat(own, AskSettings::fields());
     }
 };
 
@@ -45,7 +45,8 @@ struct LanePlanConfig : Asking {
 class LanePlan {
   public:
     LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
-             const std::vector<VehicleAhead>& ahead, const LanePlanConfig& config, double horizon_m);
+             const std::vector<VehicleAhead>& ahead, const Audience& audience, const LanePlanConfig& config,
+             double horizon_m);
 
     /// Lane number on the present edge from whose way the plan is at this distance; nothing beyond the plan.
     std::optional<std::uint32_t> column_at(double distance_m) const;
@@ -58,7 +59,7 @@ class LanePlan {
   private:
     void find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m);
     std::vector<std::vector<double>> costs(const View& view, const traffic::BelievedVehicle& emergency,
-                                           const std::vector<VehicleAhead>& ahead,
+                                           const std::vector<VehicleAhead>& ahead, const Audience& audience,
                                            const LanePlanConfig& config) const;
     void choose(const std::vector<std::vector<double>>& cost, double change_s);
 
