@@ -50,11 +50,11 @@ std::string planned_table(const StudyFacts& study) {
     std::string text = printable(plan_sentence(study)) + "\n\n";
     text.replace(text.find(". ") + 1, 1, "\n");  // A line for each sentence.
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{:<38}{:<24}{:>5}  {:>7}  {}\n{:-<100}\n", "Comparison", "difference, s", "pairs",
+    fmt::format_to(out, "{:<37}{:<24}{:>5}  {:>7}  {}\n{:-<100}\n", "Comparison", "difference, s", "pairs",
                    "p, Holm", "finding", "");
     for (const PlannedFinding& finding : study.planned) {
         const results::PlannedComparison& comparison = finding.comparison;
-        fmt::format_to(out, "{}\n    {:<34}{:<24}{:>5}  {:>7}  {}\n",
+        fmt::format_to(out, "{}\n    {:<33}{:<24}{:>5}  {:>7}  {}\n",
                        printable(fmt::format("{} ({})", comparison.name, finding.scenario)),
                        printable(fmt::format("{} - {}", comparison.condition, comparison.against)),
                        estimate(finding.difference, {.decimals = 2, .sign = Sign::always}), finding.pairs,

@@ -19,6 +19,7 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
     static bool needs_shoulder() {
         const auto& known = policy::policies();
         const auto entry = std::ranges::find(known, GetParam(), &policy::PolicyEntry::name);
+        if (entry == known.end()) return false;  // written in Python
         return std::ranges::find(entry->needs, policy::Need::shoulder) != entry->needs.end();
     }
 };

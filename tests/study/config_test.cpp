@@ -111,7 +111,7 @@ conditions = ["baseline", "b"]
 TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
     const std::string text = "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n";
     const std::string wrong = problems(
-        text + "[quick]\nreplications = 0\nscenarios = [\"merg\"]\nconditions = [\"solo\"]\nseed = 3\n");
+        text + "[quick]\nreplications = 0\nscenarios = [\"merg\"]\nconditions = [\"solo\"]\nseeds = 3\n");
     EXPECT_THAT(wrong, testing::AllOf(HasSubstr("replications"), HasSubstr("Did you mean 'merge'?"),
                                       HasSubstr("'solo' is not in the study"), HasSubstr("unknown key")));
     try {
