@@ -3,6 +3,7 @@
 #include <set>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/fields.hpp"
 #include "policy/policy.hpp"
@@ -17,7 +18,8 @@ struct PreemptSignalsConfig {
     double slowest_share = 0.5;
     double horizon_m = 600.0;
     double halted_mps = 0.5;
-    double exit_room_m = 0.0;
+    double short_block_m = 150.0;
+    double exit_room_m = 10.0;
     int signals_ahead = 0;
     double lease_s = 0.0;
 
@@ -38,14 +40,18 @@ struct PreemptSignalsConfig {
                   "assumed: the longest lead at 15 m/s"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
+            Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
+                  "Signals on closed loops of blocks shorter than this are held only as `exit_room_m` and "
+                  "`signals_ahead` allow; 0: none is on one",
+                  "docs/findings/short-blocks.md; no scenario of the other findings has such loops"},
             Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
-                  "No green is asked for while standing vehicles leave less than this free behind the "
-                  "signal; 0: "
-                  "however full it is",
-                  "0: as all figures were measured that do not name it"},
+                  "There no request begins while standing vehicles leave less than this free behind the "
+                  "signal; 0: however full it is",
+                  "docs/findings/short-blocks.md"},
             Field{"signals_ahead", "1", &C::signals_ahead, 0.0, 50.0,
-                  "At most so many of the next signals are held for one emergency vehicle; 0: all of them",
-                  "0: as all figures were measured that do not name it"},
+                  "There at most so many of the next signals are held for one emergency vehicle; 0: all of "
+                  "them",
+                  "docs/findings/short-blocks.md"},
             Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,
                   "Lifetime of a request that is not renewed; 0: two periods",
                   "short, because the next emergency vehicle waits for its end; longer where messages are "
@@ -55,7 +61,8 @@ struct PreemptSignalsConfig {
 
 /// Preempts the signals on the route of every emergency vehicle: green for its approach, early enough that
 /// the queue ahead is gone when it arrives. Yellow, all-red, the longest hold, lockout and the return to the
-/// background plan are up to actuation.
+/// background plan are up to actuation. Where short blocks form closed loops, no request begins while the
+/// block behind the signal is full.
 class PreemptSignals : public Policy {
   public:
     explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {});
@@ -66,6 +73,7 @@ class PreemptSignals : public Policy {
   private:
     PolicyContext context_;
     PreemptSignalsConfig config_;
+    std::vector<bool> is_careful_;  ///< By signal; empty if none is on a loop of short blocks.
     /// Vehicles and the signals requested for them at the last call. A request stands until the vehicle has
     /// passed, because a queue that begins to move is not gone yet.
     std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked_;

@@ -6,6 +6,7 @@
 
 #include "policy/detail/approach.hpp"
 #include "policy/detail/room.hpp"
+#include "policy/detail/short_loops.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::policy {
@@ -79,7 +80,8 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 
 RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config)
     : context_(context), config_(config) {
-    if (config_.short_block_m > 0.0) blocks_m_ = detail::shortest_blocks_m(context_.network);
+    if (config_.short_block_m > 0.0)
+        keeps_cycle_ = detail::on_short_loops(context_.network, config_.short_block_m);
 }
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
@@ -88,8 +90,7 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.near_m))) {
-            const bool is_free =
-                blocks_m_.empty() || blocks_m_[approach.signal.value] >= config_.short_block_m;
+            const bool is_free = keeps_cycle_.empty() || !keeps_cycle_[approach.signal.value];
             if (is_free) until_s_[approach.signal] = belief.time.value + config_.lasting_s;
         }
     }

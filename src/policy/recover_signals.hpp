@@ -18,7 +18,7 @@ struct RecoverSignalsConfig {
     double halted_mps = 0.5;
     double lease_s = 2.0;
     double exit_room_m = 0.0;
-    double short_block_m = 0.0;
+    double short_block_m = 150.0;
 
     static constexpr auto fields() {
         using C = RecoverSignalsConfig;
@@ -45,15 +45,15 @@ struct RecoverSignalsConfig {
                   "0: however full it is",
                   "0: as all figures were measured that do not name it"},
             Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
-                  "Signals with another signal nearer than this keep their cycle; 0: none does",
-                  "0: as all figures were measured that do not name it"});
+                  "Signals on closed loops of blocks shorter than this keep their cycle; 0: none does",
+                  "docs/findings/short-blocks.md; no scenario of the other findings has such loops"});
     }
 };
 
 /// Gives time back after a signal was preempted: asks that its background plan resume with the phase that
 /// serves the most vehicles believed to wait there, and that, for a while, greens which serve fewer end
-/// early. Where blocks are short it can stand back: a signal that leaves the cycle of its neighbours fills
-/// the block between them.
+/// early. It stands back where short blocks form closed loops: a signal that leaves the cycle of its
+/// neighbours fills the block between them.
 class RecoverSignals : public Policy {
   public:
     explicit RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config = {});
@@ -65,7 +65,7 @@ class RecoverSignals : public Policy {
     PolicyContext context_;
     RecoverSignalsConfig config_;
     std::map<core::SignalIndex, double> until_s_;
-    std::vector<double> blocks_m_;  ///< By signal, the shortest; empty if no block is too short.
+    std::vector<bool> keeps_cycle_;  ///< By signal; empty if none does.
 };
 
 }  // namespace clearway::policy

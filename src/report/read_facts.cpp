@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -385,8 +386,6 @@ void add_files(const results::Manifest& manifest, const fs::path& folder, StudyF
             }
         }
         scenario.wide_edges = wide_edges_in(folder / "scenarios" / scenario.name / "wide_edges.json");
-        if (const auto roads = detail::roads_in(folder / "scenarios" / scenario.name / "roads.json"))
-            scenario.signals = roads->signals.size();
         for (const results::ScenarioEntry& entry : manifest.scenarios) {
             if (entry.name != scenario.name) continue;
             scenario.attribution = entry.attribution;
@@ -425,8 +424,12 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     const results::Store store = results::Store::open(folder);
     for (ScenarioFacts& scenario : study.scenarios)
         scenario.journeys = detail::journeys_in(store, scenario);
-    for (ScenarioFacts& scenario : study.scenarios)
-        scenario.map = detail::map_in(store, study, scenario);
+    for (ScenarioFacts& scenario : study.scenarios) {
+        auto roads = detail::roads_in(store.scenario_folder(scenario.name) / "roads.json");
+        if (!roads) continue;
+        scenario.signals = roads->signals.size();
+        scenario.map = detail::map_in(store, study, scenario, std::move(*roads));
+    }
     for (ScenarioFacts& scenario : study.scenarios) {
         if (scenario.conditions.empty()) continue;
         const fs::path home = folder / "scenarios" / scenario.name;

@@ -33,6 +33,13 @@ CrossingScene emergency_at(double before_line_m, double speed_mps = 16.0,
     return scene;
 }
 
+/// Comes from the west, 30 m before the first of two crossings.
+CrossingScene emergency_in_the_square() {
+    CrossingScene scene(100.0, short_square());
+    scene.add({"e", VehicleClass::emergency, {"left0A0", "A0B0", "B0T"}, 0, 160.0, 10.0});
+    return scene;
+}
+
 TEST(PreemptSignals, asks_eight_seconds_before_arrival_and_not_earlier) {
     policy::PreemptSignals policy({two_crossings()});
     CrossingScene far = emergency_at(130.0);
@@ -128,29 +135,40 @@ TEST(PreemptSignals, knows_the_emergency_vehicle_from_itself_when_no_sensor_saw_
     EXPECT_EQ(leases.size(), 1U);
 }
 
-TEST(PreemptSignals, asks_for_no_green_into_a_full_block_where_it_looks_at_the_room) {
-    policy::PreemptSignals looks({two_crossings()}, {.exit_room_m = 8.0});
-    policy::PreemptSignals does_not({two_crossings()});
-    CrossingScene scene = emergency_at(50.0);
-    scene.add({"last", VehicleClass::human, {"A_B", "B_east"}, 0, 12.0, 0.0});
-    EXPECT_EQ(act(looks, scene).size(), 1U) << "the other lane is free";
-    scene.add({"other", VehicleClass::human, {"A_B", "B_east"}, 1, 12.0, 0.0});
-    EXPECT_TRUE(act(looks, scene).empty()) << "7 m behind cars of 5 m on both lanes";
-    EXPECT_EQ(act(does_not, scene).size(), 1U);
-    CrossingScene moving = emergency_at(50.0);
-    moving.add({"last", VehicleClass::human, {"A_B", "B_east"}, 0, 12.0, 3.0});
-    moving.add({"other", VehicleClass::human, {"A_B", "B_east"}, 1, 12.0, 3.0});
+TEST(PreemptSignals, asks_for_no_green_into_a_full_block_of_a_closed_loop) {
+    policy::PreemptSignals looks({short_square()}, {.exit_room_m = 8.0});
+    policy::PreemptSignals anyway({short_square()}, {.exit_room_m = 0.0});
+    policy::PreemptSignals long_enough({short_square()}, {.short_block_m = 80.0, .exit_room_m = 8.0});
+    CrossingScene scene = emergency_in_the_square();
+    CrossingScene moving = scene;
+    scene.add({"last", VehicleClass::human, {"A0B0", "B0T"}, 0, 12.0, 0.0});
+    EXPECT_TRUE(act(looks, scene).empty()) << "7 m behind a car of 5 m";
+    EXPECT_EQ(act(anyway, scene).size(), 1U);
+    EXPECT_EQ(act(long_enough, scene).size(), 1U) << "no block is shorter than 80 m";
+    moving.add({"last", VehicleClass::human, {"A0B0", "B0T"}, 0, 12.0, 3.0});
     EXPECT_EQ(act(looks, moving).size(), 1U) << "who drives makes room";
+    EXPECT_EQ(act(looks, scene).size(), 1U) << "a request once made stands until the vehicle has passed";
 }
 
-TEST(PreemptSignals, holds_no_more_signals_than_it_may) {
-    policy::PreemptSignals both({two_crossings()}, {.lead_s = 60.0});
-    policy::PreemptSignals next({two_crossings()}, {.lead_s = 60.0, .signals_ahead = 1});
+TEST(PreemptSignals, looks_at_no_room_where_no_loop_is_closed) {
+    policy::PreemptSignals policy({two_crossings()}, {.short_block_m = 1000.0, .exit_room_m = 200.0});
     CrossingScene scene = emergency_at(50.0);
+    for (const std::uint32_t lane : {0U, 1U})
+        scene.add({"last" + std::to_string(lane), VehicleClass::human, {"A_B", "B_east"}, lane, 12.0, 0.0});
+    EXPECT_EQ(act(policy, scene).size(), 1U);
+}
+
+TEST(PreemptSignals, holds_no_more_signals_of_a_closed_loop_than_it_may) {
+    policy::PreemptSignals both({short_square()}, {.lead_s = 60.0});
+    policy::PreemptSignals next({short_square()}, {.lead_s = 60.0, .signals_ahead = 1});
+    CrossingScene scene = emergency_in_the_square();
     EXPECT_EQ(act(both, scene).size(), 2U);
     const auto leases = act(next, scene);
     ASSERT_EQ(leases.size(), 1U);
-    EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), two_crossings().find_signal("A"));
+    EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), short_square().find_signal("A0"));
+    policy::PreemptSignals elsewhere({two_crossings()}, {.lead_s = 60.0, .signals_ahead = 1});
+    CrossingScene chain = emergency_at(50.0);
+    EXPECT_EQ(act(elsewhere, chain).size(), 2U);
 }
 
 TEST(RecoverSignals, counts_nobody_whose_way_is_full_where_it_looks_at_the_room) {
@@ -166,13 +184,19 @@ TEST(RecoverSignals, counts_nobody_whose_way_is_full_where_it_looks_at_the_room)
     EXPECT_EQ(act(does_not, scene).size(), 1U);
 }
 
-TEST(RecoverSignals, leaves_signals_near_others_their_cycle_where_it_is_told_to) {
-    CrossingScene scene = emergency_at(100.0);
-    scene.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
-    policy::RecoverSignals near({two_crossings()}, {.short_block_m = 250.0});
-    EXPECT_EQ(act(near, scene).size(), 1U) << "the crossings are some 280 m of edge apart";
-    policy::RecoverSignals far({two_crossings()}, {.short_block_m = 300.0});
-    EXPECT_TRUE(act(far, scene).empty());
+TEST(RecoverSignals, leaves_signals_of_a_closed_loop_of_short_blocks_their_cycle) {
+    CrossingScene scene = emergency_in_the_square();
+    scene.add({"h1", VehicleClass::human, {"bottom0A0", "A0A1"}, 0, 180.0, 0.0});
+    policy::RecoverSignals short_blocks({short_square()});
+    EXPECT_TRUE(act(short_blocks, scene).empty());
+    policy::RecoverSignals anyway({short_square()}, {.short_block_m = 0.0});
+    EXPECT_FALSE(act(anyway, scene).empty());
+    policy::RecoverSignals long_enough({short_square()}, {.short_block_m = 80.0});
+    EXPECT_FALSE(act(long_enough, scene).empty());
+    CrossingScene chain = emergency_at(100.0);
+    chain.add({"h1", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0});
+    policy::RecoverSignals no_loop({two_crossings()}, {.short_block_m = 1000.0});
+    EXPECT_EQ(act(no_loop, chain).size(), 1U);
 }
 
 TEST(GreenWave, opens_each_signal_around_the_planned_arrival_whatever_happens) {

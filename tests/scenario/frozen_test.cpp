@@ -30,6 +30,9 @@ constexpr Frozen frozen_v1[] = {
      "60eeb22866b11a437b19f1449b547834"},
     {"random_town", "b49ef19a637bbc1524bea3e752151e6c", "f391b453afdd5aaf8b379b4ad8210149",
      "65425a95a88b702b25b929fb50c312c1"},
+    {"short_grid", "e608d108bcd3d28871ef007ceca20b72", "7d66ceeef0e7acb14eff43e42461d8c5", ""},
+    {"short_ring", "7776cf8e1f0aa00bb19f83fcdfd14d03", "62912f26ffaf56c6118b2a837e219ca7", ""},
+    {"short_town", "988206843d17c5cc69b3ae278179d9b7", "8fb3facc7562e7119ee4358a6266a1da", ""},
     {"bologna", "e45a580d8534cd552226c0993a8c9460", "714c3e0b25043cbdf0ed2bca5cc4aec7", ""},
 };
 

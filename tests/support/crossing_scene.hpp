@@ -23,6 +23,14 @@ inline const roads::Network& two_crossings() {
     return network;
 }
 
+/// Four signalised crossings at the corners of a square of 110 m, A0 and A1 in the west, B0 and B1 in the
+/// east, and a fifth one, T, 110 m east of B0; see data/short_square.net.xml.
+inline const roads::Network& short_square() {
+    static const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/short_square.net.xml");
+    return network;
+}
+
 /// A vehicle of a scene.
 struct SceneVehicle {
     std::string id;
@@ -33,13 +41,16 @@ struct SceneVehicle {
     double speed_mps = 0.0;
 };
 
-/// Vehicles on the two crossings, and what is believed of them when sensors are perfect.
+/// Vehicles on a network, and what is believed of them when sensors are perfect.
 class CrossingScene {
   public:
-    explicit CrossingScene(double time_s = 100.0) { belief_.time = core::Seconds(time_s); }
+    explicit CrossingScene(double time_s = 100.0, const roads::Network& network = two_crossings())
+        : network_(&network) {
+        belief_.time = core::Seconds(time_s);
+    }
 
     core::VehicleKey add(const SceneVehicle& vehicle) {
-        const roads::Network& network = two_crossings();
+        const roads::Network& network = *network_;
         std::vector<core::EdgeIndex> edges;
         for (const std::string& edge : vehicle.route)
             edges.push_back(network.find_edge(edge).value());
@@ -78,7 +89,7 @@ class CrossingScene {
             belief_.first_link.push_back(static_cast<std::uint32_t>(belief_.links.size()));
         }
         belief_.signals.state.clear();
-        for (const roads::Signal& signal : two_crossings().signals()) {
+        for (const roads::Signal& signal : network_->signals()) {
             belief_.signals.state.push_back(signals.value_or(signal.program.front().state));
         }
         belief_.roster = &roster_;
@@ -99,6 +110,7 @@ class CrossingScene {
         if (distance < 50.0F) belief_.links.push_back({row, distance, 1.0F});
     }
 
+    const roads::Network* network_;
     traffic::Roster roster_;
     traffic::BelievedGraph belief_;
 };

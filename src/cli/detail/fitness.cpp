@@ -114,9 +114,10 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
 
 Finding signals_finding(const roads::Network& network) {
     const std::size_t count = network.signals().size();
-    return {"signals", count == 0 ? Grade::note : Grade::ok, fmt::format("{} in the network", count),
-            count == 0 ? "policies at signals have nothing to do here; only vehicles that make way can help"
-                       : ""};
+    if (count > 0) return {"signals", Grade::ok, fmt::format("{} in the network", count)};
+    return {"signals", Grade::note,
+            "0 in the network: policies at signals have nothing to do here; only vehicles that make way can "
+            "help"};
 }
 
 double lane_km(const roads::Network& network) {

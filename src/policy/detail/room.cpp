@@ -1,7 +1,6 @@
 #include "policy/detail/room.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace clearway::policy::detail {
 namespace {
@@ -33,28 +32,6 @@ bool Room::is_blocked(const std::vector<roads::SignalLink>& ways, double least_m
     return !ways.empty() && std::ranges::all_of(ways, [&](const roads::SignalLink& way) {
         return rear_m_.contains(way.to.value) && at_start_of_m(way.to) < least_m;
     });
-}
-
-std::vector<double> shortest_blocks_m(const roads::Network& network) {
-    std::vector<core::SignalIndex> from(network.edges().size(), core::SignalIndex::none());
-    const auto for_each_way = [&](const auto& visit) {
-        for (std::uint32_t row = 0; row < network.signals().size(); ++row)
-            for (const auto& ways : network.signal(core::SignalIndex{row}).links)
-                for (const roads::SignalLink& way : ways)
-                    visit(core::SignalIndex{row}, way);
-    };
-    for_each_way([&](core::SignalIndex signal, const roads::SignalLink& way) {
-        from[network.lane(way.to).edge.value] = signal;
-    });
-    std::vector<double> blocks_m(network.signals().size(), std::numeric_limits<double>::infinity());
-    for_each_way([&](core::SignalIndex signal, const roads::SignalLink& way) {
-        const core::EdgeIndex edge = network.lane(way.from).edge;
-        const core::SignalIndex before = from[edge.value];
-        if (!before.exists() || before == signal || network.edge(edge).internal) return;
-        for (const core::SignalIndex end : {before, signal})
-            blocks_m[end.value] = std::min<double>(blocks_m[end.value], network.edge(edge).length_m);
-    });
-    return blocks_m;
 }
 
 }  // namespace clearway::policy::detail

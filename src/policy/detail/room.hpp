@@ -27,7 +27,4 @@ class Room {
     std::unordered_map<std::uint32_t, double> rear_m_;  ///< By lane: of the last standing vehicle.
 };
 
-/// By signal: length of the shortest edge that joins it to another signal, m; infinity if none does.
-std::vector<double> shortest_blocks_m(const roads::Network& network);
-
 }  // namespace clearway::policy::detail

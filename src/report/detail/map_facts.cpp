@@ -120,14 +120,13 @@ std::optional<RoadMap> roads_in(const std::filesystem::path& file) {
 }
 
 std::optional<ScenarioMap> map_in(const results::Store& store, const StudyFacts& study,
-                                  const ScenarioFacts& scenario) {
+                                  const ScenarioFacts& scenario, RoadMap roads) {
     const ConditionFacts* const condition = featured_condition(study, scenario);
-    std::optional<RoadMap> roads = roads_in(store.scenario_folder(scenario.name) / "roads.json");
-    if (condition == nullptr || !roads) return std::nullopt;
+    if (condition == nullptr) return std::nullopt;
     const ConditionFacts& baseline = scenario.conditions[*condition->baseline];
     std::map<std::string, std::size_t> edges;
-    for (std::size_t edge = 0; edge < roads->edges.size(); ++edge)
-        edges[roads->edges[edge].id] = edge;
+    for (std::size_t edge = 0; edge < roads.edges.size(); ++edge)
+        edges[roads.edges[edge].id] = edge;
     Sums sums;
     for (std::uint32_t replication = 0; replication < scenario.replications; ++replication) {
         const auto without = store.read_traffic({scenario.name, baseline.name, replication});
@@ -137,7 +136,7 @@ std::optional<ScenarioMap> map_in(const results::Store& store, const StudyFacts&
     }
     if (sums.times.empty()) return std::nullopt;
     ScenarioMap map;
-    map.roads = std::move(*roads);
+    map.roads = std::move(roads);
     map.condition = static_cast<std::size_t>(condition - scenario.conditions.data());
     fill(sums, map);
     map.reach = reach_of(map.roads, map.times, station_edges(map.roads),

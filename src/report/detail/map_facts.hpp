@@ -13,9 +13,9 @@ namespace clearway::report::detail {
 std::optional<RoadMap> roads_in(const std::filesystem::path& file);
 
 /// The maps of the condition that a scenario's first screen is about, from all replications that it shares
-/// with its baseline. Nothing without `roads.json`, without a condition to compare, or if the runs did not
-/// keep edge times.
+/// with its baseline. `roads` are the scenario's. Nothing without a condition to compare, or if the runs did
+/// not keep edge times.
 std::optional<ScenarioMap> map_in(const results::Store& store, const StudyFacts& study,
-                                  const ScenarioFacts& scenario);
+                                  const ScenarioFacts& scenario, RoadMap roads);
 
 }  // namespace clearway::report::detail
