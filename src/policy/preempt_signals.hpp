@@ -19,7 +19,7 @@ struct PreemptSignalsConfig {
     double horizon_m = 600.0;
     double halted_mps = 0.5;
     double short_block_m = 150.0;
-    double exit_room_m = 10.0;
+    double exit_room_m = 0.0;
     int signals_ahead = 0;
     double lease_s = 0.0;
 
@@ -47,11 +47,11 @@ struct PreemptSignalsConfig {
             Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
                   "There no request begins while standing vehicles leave less than this free behind the "
                   "signal; 0: however full it is",
-                  "docs/findings/short-blocks.md"},
+                  "0: no gain by it is shown, docs/findings/short-blocks.md"},
             Field{"signals_ahead", "1", &C::signals_ahead, 0.0, 50.0,
                   "There at most so many of the next signals are held for one emergency vehicle; 0: all of "
                   "them",
-                  "docs/findings/short-blocks.md"},
+                  "0: no gain by it is shown, docs/findings/short-blocks.md"},
             Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,
                   "Lifetime of a request that is not renewed; 0: two periods",
                   "short, because the next emergency vehicle waits for its end; longer where messages are "
@@ -61,8 +61,7 @@ struct PreemptSignalsConfig {
 
 /// Preempts the signals on the route of every emergency vehicle: green for its approach, early enough that
 /// the queue ahead is gone when it arrives. Yellow, all-red, the longest hold, lockout and the return to the
-/// background plan are up to actuation. Where short blocks form closed loops, no request begins while the
-/// block behind the signal is full.
+/// background plan are up to actuation. Where short blocks form closed loops it can be told to hold back.
 class PreemptSignals : public Policy {
   public:
     explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {});
