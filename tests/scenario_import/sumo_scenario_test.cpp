@@ -223,7 +223,7 @@ TEST_F(SumoScenario, a_shared_scenario_imports_where_it_is) {
     made.begin_s = 900.0;
     const Findings hamburg = run(made);
     EXPECT_EQ(hamburg.signals, 43U);
-    EXPECT_EQ(hamburg.vehicles.at("bus"), 4) << "two at 1,080 s and two at 1,125 s";
+    EXPECT_EQ(hamburg.vehicles.at("bus"), 18) << "14 at 900 s, two at 1,080 s, two at 1,125 s";
 }
 
 TEST_F(SumoScenario, a_shared_map_imports_where_it_is) {
