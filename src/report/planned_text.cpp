@@ -54,7 +54,7 @@ std::string planned_table(const StudyFacts& study) {
                    "p, Holm", "finding", "");
     for (const PlannedFinding& finding : study.planned) {
         const results::PlannedComparison& comparison = finding.comparison;
-        fmt::format_to(out, "{}\n    {:<33}{:<24}{:>5}  {:>7}  {}\n",
+        fmt::format_to(out, "{}\n    {:<33} {:<23}{:>5}  {:>7}  {}\n",
                        printable(fmt::format("{} ({})", comparison.name, finding.scenario)),
                        printable(fmt::format("{} - {}", comparison.condition, comparison.against)),
                        estimate(finding.difference, {.decimals = 2, .sign = Sign::always}), finding.pairs,
