@@ -150,7 +150,7 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
         .loop = experiment::loop_config(condition),
         .siren = config_.siren,
-        .privilege = config_.privilege,
+        .privilege = static_cast<const traffic::PrivilegeConfig&>(config_.privilege),
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians(),
         .guest = guest_};

@@ -30,7 +30,7 @@ void PullAside::act(const traffic::BelievedGraph& belief, std::vector<traffic::L
         const std::vector<detail::VehicleAhead> ahead = view.vehicles_ahead(emergency, horizon);
         if (ahead.empty()) continue;
         const Audience audience(belief, emergency.key, config_);
-        const detail::LanePlan plan(view, emergency, ahead, audience, config_, config_.horizon_m);
+        const detail::LanePlan plan({view, emergency, ahead, audience}, config_, config_.horizon_m);
         const double slow_mps = config_.slow_share * view.allowed_speed(emergency).value;
         for (const detail::VehicleAhead& other : ahead) {
             const traffic::BelievedVehicle& vehicle = *other.vehicle;

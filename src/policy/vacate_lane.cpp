@@ -28,7 +28,7 @@ class Vacating {
           write_(write),
           ahead_(view.vehicles_ahead(emergency, core::Metres(config.horizon_m))),
           audience_(view.belief(), emergency.key, config),
-          plan_(view, emergency, ahead_, audience_, config, config.horizon_m) {}
+          plan_({view, emergency, ahead_, audience_}, config, config.horizon_m) {}
 
     void ask() {
         if (ahead_.empty()) return;

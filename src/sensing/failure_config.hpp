@@ -150,7 +150,12 @@ struct FailureConfig {
                   "Time from measurement to arrival of every report", "off; preset DL2: 2 s"},
             Field{"connected_share", "1", &C::connected_share, 0.0, 1.0,
                   "Share of the human-driven vehicles that report at all; all other vehicles do",
-                  "all of them, as the dissertation assumes"},
+                  "all of them, as the dissertation assumes"});
+    }
+    static constexpr auto sight_fields() {
+        using C = FailureConfig;
+        using core::Field;
+        return std::make_tuple(
             Field{"roadside_range_m", "m", &C::roadside_range_m, 0.0, 1000.0,
                   "Roadside units at signals see every vehicle within this distance, equipped or not", "off"},
             Field{"roadside_sigma_m", "m", &C::roadside_sigma_m, 0.0, 100.0,
@@ -165,7 +170,12 @@ struct FailureConfig {
                   "0.5 m assumed: lidar or radar, with the observer's own error"},
             Field{"occlusion", "", &C::occlusion, 0, 0,
                   "Whether a vehicle in between hides others from on-board sensors and link detection",
-                  "ignored: presets C have none"},
+                  "ignored: presets C have none"});
+    }
+    static constexpr auto knowledge_fields() {
+        using C = FailureConfig;
+        using core::Field;
+        return std::make_tuple(
             Field{
                 "dark_commands", "", &C::dark_commands, 0, 0,
                 "Whether a vehicle whose newest report was lost still receives commands: one radio for both "
@@ -251,7 +261,8 @@ struct FailureConfig {
 
   public:
     static constexpr auto fields() {
-        return std::tuple_cat(report_fields(), request_fields(), signal_request_fields());
+        return std::tuple_cat(report_fields(), sight_fields(), knowledge_fields(), request_fields(),
+                              signal_request_fields());
     }
 };
 

@@ -19,7 +19,7 @@ struct ConditionWords {
 /// Declares `--condition`.
 void add_condition_words(CLI::App& app, ConditionWords& words);
 /// Declares the options that describe a condition of one's own.
-void add_own_condition_options(CLI::App& app, DescribedCondition& own);
+void add_own_condition_options(CLI::App& app, DescribedCondition& described);
 
 /// The conditions that the words mean; may be empty. Throws core::InputError.
 std::vector<experiment::ConditionSpec> chosen_conditions(const ConditionWords& words);

@@ -5,8 +5,8 @@
 
 namespace clearway::cli {
 
-/// The job that makes the first replication of a condition of the plan, and nothing else.
-experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& condition);
+/// The job that makes the first replication of the condition `shown` of the plan, and nothing else.
+experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown);
 
 /// As `run_and_print`, but the first replication of the condition `shown` runs in a window, before the other
 /// runs. If the folder already holds this run, it is shown again and must give the same record. If the shown

@@ -47,7 +47,7 @@ LiveFeed::~LiveFeed() {
     ::close(socket_);
 }
 
-void LiveFeed::send(std::string_view blocks) {
+void LiveFeed::send(std::string_view blocks) const {
     while (!blocks.empty()) {
         const ssize_t sent = ::send(socket_, blocks.data(), blocks.size(), MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR) continue;

@@ -16,7 +16,7 @@ class LiveFeed {
     LiveFeed& operator=(const LiveFeed&) = delete;
 
     /// Throws core::Error with code incomplete when the server is gone; so does the other.
-    void send(std::string_view blocks);
+    void send(std::string_view blocks) const;
     /// Returns once the run may go beyond `time_s`.
     void wait_until_allowed(double time_s);
 

@@ -15,12 +15,10 @@ std::size_t cell_of(double distance_m) {
 
 }  // namespace
 
-LanePlan::LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
-                   const std::vector<VehicleAhead>& ahead, const Audience& audience,
-                   const LanePlanConfig& config, double horizon_m) {
-    find_columns(view, emergency, horizon_m);
+LanePlan::LanePlan(const PlanScene& scene, const LanePlanConfig& config, double horizon_m) {
+    find_columns(scene.view, scene.emergency, horizon_m);
     plan_.resize(cell_of(horizon_m) + 1, own_);
-    choose(costs(view, emergency, ahead, audience, config), config.change_s);
+    choose(costs(scene, config), config.change_s);
 }
 
 void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m) {
@@ -41,13 +39,10 @@ void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& em
     }
 }
 
-std::vector<std::vector<double>> LanePlan::costs(const View& view, const traffic::BelievedVehicle& emergency,
-                                                 const std::vector<VehicleAhead>& ahead,
-                                                 const Audience& audience,
-                                                 const LanePlanConfig& config) const {
+std::vector<std::vector<double>> LanePlan::costs(const PlanScene& scene, const LanePlanConfig& config) const {
     std::vector<std::vector<double>> cost(plan_.size(), std::vector<double>(numbers_.size(), 0.0));
-    const double free_mps = std::max(view.allowed_speed(emergency).value, slowest_limit_mps);
-    for (const VehicleAhead& other : ahead) {
+    const double free_mps = std::max(scene.view.allowed_speed(scene.emergency).value, slowest_limit_mps);
+    for (const VehicleAhead& other : scene.ahead) {
         const auto column = column_of_.find(other.vehicle->state.lane);
         const std::size_t cell = cell_of(other.distance_m);
         if (column == column_of_.end() || cell >= cost.size()) continue;
@@ -55,7 +50,7 @@ std::vector<std::vector<double>> LanePlan::costs(const View& view, const traffic
         double delay_s = config.slow_s * std::max(0.0, 1.0 - speed_mps / free_mps);
         if (speed_mps < config.halted_mps) delay_s = config.blocked_s;
         cost[cell][column->second] +=
-            audience.has(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
+            scene.audience.has(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
     }
     return cost;
 }

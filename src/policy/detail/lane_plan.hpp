@@ -39,14 +39,20 @@ struct LanePlanConfig : AskSettings {
     }
 };
 
+/// What a plan is made from; refers to all of it.
+struct PlanScene {
+    const View& view;
+    const traffic::BelievedVehicle& emergency;
+    const std::vector<VehicleAhead>& ahead;
+    const Audience& audience;  ///< Who is asked to make room.
+};
+
 /// The way of an emergency vehicle through the lanes ahead, round those who will not make room: the cheapest
 /// sequence of lanes over cells of 10 m, by dynamic programming. So one vehicle that does not cooperate costs
 /// two lane changes and not the lane. Refers to the view; use it within one `act`.
 class LanePlan {
   public:
-    LanePlan(const View& view, const traffic::BelievedVehicle& emergency,
-             const std::vector<VehicleAhead>& ahead, const Audience& audience, const LanePlanConfig& config,
-             double horizon_m);
+    LanePlan(const PlanScene& scene, const LanePlanConfig& config, double horizon_m);
 
     /// Lane number on the present edge from whose way the plan is at this distance; nothing beyond the plan.
     std::optional<std::uint32_t> column_at(double distance_m) const;
@@ -58,9 +64,7 @@ class LanePlan {
 
   private:
     void find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m);
-    std::vector<std::vector<double>> costs(const View& view, const traffic::BelievedVehicle& emergency,
-                                           const std::vector<VehicleAhead>& ahead, const Audience& audience,
-                                           const LanePlanConfig& config) const;
+    std::vector<std::vector<double>> costs(const PlanScene& scene, const LanePlanConfig& config) const;
     void choose(const std::vector<std::vector<double>>& cost, double change_s);
 
     std::size_t own_ = 0;                 ///< Row of the present lane in `numbers_`.

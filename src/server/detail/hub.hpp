@@ -24,13 +24,14 @@ class Hub {
   public:
     explicit Hub(std::size_t runs) : runs_(runs) {}
 
-    /// Takes one block of a run. Returns the message for clients, if it is one, and the time of a frame.
+    /// Takes one block of the run `number`. Returns the message for clients, if it is one, and the time of a
+    /// frame.
     struct Taken {
         SharedMessage message;  ///< Null for words between run and server.
         double time_s = -1.0;   ///< Of a frame; negative for others.
         bool ended = false;
     };
-    Taken take(std::size_t run, std::uint8_t kind, std::string_view content);
+    Taken take(std::size_t number, std::uint8_t kind, std::string_view content);
 
     /// Whether every run has said who it is and what its network looks like.
     bool has_begun() const;
