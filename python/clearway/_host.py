@@ -5,6 +5,7 @@ It loads the file, makes the part and answers questions until its pipe ends. Wha
 from __future__ import annotations
 
 import importlib.util
+import inspect
 import json
 import os
 import sys
@@ -13,16 +14,46 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-
 from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
 from .parts import Belief, Network, Observation, checked_leases, checked_probabilities
 
 METHODS = {"policy": "act", "predictor": "predict"}
 
 
-def load(file: Path, name: str) -> Any:
+class SettingError(ValueError):
+    """Settings do not fit the class. The message says all, so no traceback is shown."""
+
+
+def _value(setting: str, text: str, default: Any) -> Any:
+    """The text of a setting as a value of its default's type."""
+    kind = type(default)
+    try:
+        if kind is bool:
+            return {"true": True, "false": False}[text]
+        return kind(text)
+    except (KeyError, ValueError):
+        allowed = {bool: "true, false", int: "a whole number", float: "a number"}[kind]
+        raise SettingError(f"{setting} is {text!r} (allowed: {allowed}, as its default {default!r})") from None
+
+
+def keyword_arguments(kind: type, settings: dict[str, str]) -> dict[str, Any]:
+    """Settings as arguments of a class: those whose default is a truth value, a number or a text can be set."""
+    if not settings:
+        return {}
+    parameters = inspect.signature(kind).parameters
+    defaults = {name: one.default for name, one in parameters.items() if type(one.default) in (bool, int, float, str)}
+    for name in settings:
+        if name not in defaults:
+            there = ", ".join(f"{one}={default!r}" for one, default in defaults.items())
+            raise SettingError(f"{kind.__name__}.{name} is unknown (allowed: arguments of __init__ that have a default: {there or 'none'})")
+    return {name: _value(f"{kind.__name__}.{name}", text, defaults[name]) for name, text in settings.items()}
+
+
+def load(file: Path, name: str, settings: dict[str, str]) -> Any:
     """Makes the object that a part is named by."""
     if not name:
+        if settings:
+            raise SettingError(f"{file.stem}.{next(iter(settings))} is unknown: a TorchScript module has no settings of its own")
         from .torchscript import TorchScript
         return TorchScript(str(file))
     sys.path.insert(0, str(file.parent))  # so that it can import its neighbours
@@ -35,11 +66,11 @@ def load(file: Path, name: str) -> Any:
     if not isinstance(kind, type):
         classes = [word for word, value in vars(module).items() if isinstance(value, type) and value.__module__ == file.stem]
         raise AttributeError(f"{file} has no class {name!r}; it has {', '.join(classes) or 'none'}")
-    return kind()
+    return kind(**keyword_arguments(kind, settings))
 
 
 def make_part(greeting: dict[str, Any]) -> Any:
-    part = load(Path(greeting["file"]), greeting["object"])
+    part = load(Path(greeting["file"]), greeting["object"], greeting["settings"])
     method = METHODS[greeting["kind"]]
     if not callable(getattr(part, method, None)):
         raise TypeError(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs")
@@ -90,6 +121,10 @@ def main() -> None:
         serve(channel)
     except KeyboardInterrupt:
         pass
+    except SettingError as error:
+        channel.write_text(str(error))
+        channel.ring(FAILED)
+        sys.exit(1)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure
         channel.write_text(traceback.format_exc().strip())
         channel.ring(FAILED)

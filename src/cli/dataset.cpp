@@ -14,6 +14,7 @@
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/dataset_job.hpp"
 #include "prediction/repair_net.hpp"
 #include "samples/dataset_plan.hpp"
@@ -51,6 +52,8 @@ void apply_policies(const std::vector<std::string>& settings, experiment::Datase
     condition.name = "dataset";
     if (job.policies == std::vector<std::string>{"none"}) job.policies.clear();
     condition.policies = job.policies;
+    experiment::resolve_parts(condition, {}, "--");
+    job.policies = condition.policies;
     std::vector<core::Problem> problems;
     for (const std::string& words : settings) {
         const std::string name = assignment("--set", words).first;

@@ -21,6 +21,8 @@
 #include "experiment/link_job.hpp"
 #include "links/link_plan.hpp"
 #include "prediction/predictor.hpp"
+#include "prediction/python_predictor.hpp"
+#include "python/part_process.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -97,15 +99,29 @@ std::vector<std::string> usual_predictors(const Arguments& arguments, const link
     return names;
 }
 
+/// A predictor of Clearway, or one in Python, which tables know by its class.
+links::LinkPredictor predictor_from(const std::string& word) {
+    const std::string part = python::resolved(word, {}, "--predictor");
+    if (!python::part_name_from(part)) return {.name = word, .model_file = {}, .settings = {}};
+    return {.name = python::short_name(part), .model_file = {}, .settings = {}, .part = part};
+}
+
+void append(links::LinkPredictor predictor, std::vector<links::LinkPredictor>& predictors) {
+    const auto same = std::ranges::find(predictors, predictor.name, &links::LinkPredictor::name);
+    if (same != predictors.end() && same->part == predictor.part) return;
+    if (same != predictors.end() || (!predictor.part.empty() && is_predictor(predictor.name)))
+        throw core::InputError({"--predictor", fmt::format("two are called `{}`", predictor.name),
+                                "a name of its own for each", "Rename the class"});
+    predictors.push_back(std::move(predictor));
+}
+
 std::vector<links::LinkPredictor> predictors_of(const Arguments& arguments,
                                                 const links::LinkBenchmark& benchmark) {
     std::vector<links::LinkPredictor> predictors;
     const std::vector<std::string> usual = usual_predictors(arguments, benchmark);
     const std::vector<std::string>& names = arguments.predictors.empty() ? usual : arguments.predictors;
-    for (const std::string& name : names) {
-        if (std::ranges::find(predictors, name, &links::LinkPredictor::name) == predictors.end())
-            predictors.push_back({.name = name, .model_file = {}, .settings = {}});
-    }
+    for (const std::string& name : names)
+        append(predictor_from(name), predictors);
     for (const std::string& words : arguments.settings) {
         const auto [target, text] = assignment("--set", words);
         const std::string value = number_text("--set " + target, text);
@@ -213,11 +229,16 @@ void check(const links::LinkPlan& plan) {
             problems.push_back({"--predictor " + predictor.name,
                                 "knows the truth: its links are as good as its settings say",
                                 core::listed(links::judged_predictors()), "Judge a repair"});
-        else
+        else if (predictor.part.empty())
             check_name("--predictor", predictor.name, links::judged_predictors());
         present.push_back(predictor.name);
-        prediction::check_settings(predictor.name, predictor.settings, "--set " + predictor.name, problems);
-        if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
+        prediction::check_settings(predictor.part.empty() ? predictor.name : predictor.part,
+                                   predictor.settings, "--set " + predictor.name, problems);
+        if (!predictor.part.empty() && !predictor.model_file.empty()) {
+            problems.push_back({"--model " + predictor.name, "is a predictor in Python, which takes none",
+                                core::listed(prediction::learned_predictor_names()),
+                                "Its class loads what it needs"});
+        } else if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
             problems.push_back({"--model " + predictor.name,
                                 fmt::format("{} is not a file", predictor.model_file),
                                 "a .weights file of clearway train", ""});
@@ -233,6 +254,11 @@ void check(const links::LinkPlan& plan) {
                                           plan.benchmark.links.link_radius_m, "--link-radius", problems);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
+    for (const links::LinkPredictor& predictor : plan.predictors) {
+        if (!predictor.part.empty())
+            python::check_part(*python::part_name_from(predictor.part), python::PartKind::predictor,
+                               prediction::parted_settings(predictor.settings).own, "--predictor");
+    }
 }
 
 links::LinkPlan plan_of(const Arguments& arguments) {
@@ -294,6 +320,8 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     }
     for (const links::LinkPredictor& predictor : plan.predictors) {
         facts.predictors.push_back(predictor.name);
+        if (!predictor.part.empty())
+            facts.provenance.emplace_back("Predictor " + predictor.name, predictor.part);
         const std::string settings = links::settings_text(predictor);
         if (!settings.empty()) facts.provenance.emplace_back("Settings of " + predictor.name, settings);
         if (!predictor.model_file.empty())
@@ -366,7 +394,7 @@ void add_what(CLI::App& app, Arguments& arguments) {
     app.add_option("--exits", arguments.exits, "Whether it is known that a vehicle has left the network")
         ->check(CLI::IsMember({"known", "unknown", "both"}))
         ->option_text("known|unknown|both [both]");
-    app.add_option("--predictor", arguments.predictors, "Predictors (clearway list)")
+    app.add_option("--predictor", arguments.predictors, "Predictors (clearway list, FILE.py:CLASS, FILE.pt)")
         ->option_text("NAME ... [all, or the benchmark's]");
     app.add_option("--model", arguments.models, "Model file of a learned predictor")
         ->option_text("PREDICTOR=FILE ... [as shipped]");

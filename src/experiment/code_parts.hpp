@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/condition.hpp"
 
@@ -10,5 +12,10 @@ namespace clearway::experiment {
 /// Makes the names of parts in Python absolute, below `folder`, with the hashes of their files
 /// (python::resolved). Throws core::InputError, naming `where`.
 void resolve_parts(ConditionSpec& condition, const std::filesystem::path& folder, const std::string& where);
+
+/// What settings, leases and tables call a part in Python (python::short_name); nothing for other words.
+std::optional<std::string> part_called(const std::string& word);
+/// The names of the parts in Python that a condition has.
+std::vector<std::string> part_names(const ConditionSpec& condition);
 
 }  // namespace clearway::experiment

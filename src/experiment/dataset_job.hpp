@@ -77,6 +77,9 @@ struct DatasetJob : Simulation, LinkSettings {
 /// `corridor+red_privilege`; empty without a policy.
 std::string joined_policies(const DatasetJob& job);
 
+/// The same in names of files: `-under-corridor`; of one in Python, class and hash, `-under-Yield-3f2a9c01`.
+std::string under_policies(const DatasetJob& job);
+
 /// The file for the job's samples of one failure. `ending` tells the kind of samples; see
 /// samples::sample_ending.
 std::filesystem::path sample_file(const DatasetJob& job, const std::string& failure, std::string_view ending);

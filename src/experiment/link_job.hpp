@@ -17,6 +17,7 @@ struct JudgedPredictor {
     std::string model_file;
     core::Settings settings;
     std::filesystem::path output;
+    std::string part = {};  ///< Of one in Python: file, class and hash; empty: `name` says which.
 
     static constexpr auto fields() {
         using Self = JudgedPredictor;
@@ -25,7 +26,8 @@ struct JudgedPredictor {
             core::Field{"model_file", "", &Self::model_file, 0, 0, "Weights; empty: as shipped", "shipped"},
             core::Field{"settings", "", &Self::settings, 0, 0, "Settings that differ from their defaults",
                         "none"},
-            core::Field{"output", "", &Self::output, 0, 0, "The file of its LinkRun", "given"});
+            core::Field{"output", "", &Self::output, 0, 0, "The file of its LinkRun", "given"},
+            core::Field{"part", "", &Self::part, 0, 0, "File, class and hash of one in Python", "none"});
     }
     bool operator==(const JudgedPredictor&) const = default;
 };

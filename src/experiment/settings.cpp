@@ -10,6 +10,7 @@
 
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "policy/ask.hpp"
 #include "policy/policy.hpp"
@@ -226,6 +227,8 @@ std::vector<std::string> components_of(const ConditionSpec& condition) {
     for (const Component& component : components()) {
         if (std::ranges::find(present, component.name) != present.end()) ordered.push_back(component.name);
     }
+    const std::vector<std::string> parts = part_names(condition);
+    ordered.insert(ordered.end(), parts.begin(), parts.end());
     return ordered;
 }
 
@@ -285,13 +288,17 @@ std::string checked_model(const ConditionSpec& condition) {
 }
 
 std::vector<core::Problem> check_setting(const std::string& name, const std::string& value,
-                                         const std::string& where) {
+                                         const std::string& where, const std::vector<std::string>& parts) {
     const auto [component, field] = parted(name);
     const Component* const known = component_named(component);
-    if (known == nullptr)
+    if (std::ranges::find(parts, component) != parts.end()) return {};
+    if (known == nullptr) {
+        std::vector<std::string> all = component_names();
+        const std::string near = meant(name, all);
+        all.insert(all.end(), parts.begin(), parts.end());
         return {{where + name, "is unknown",
-                 "COMPONENT.NAME, the component being one of " + core::listed(component_names()),
-                 question(meant(name, component_names()))}};
+                 "COMPONENT.NAME, the component being one of " + core::listed(all), question(near)}};
+    }
     return known->table.check({{field, value}}, where + component + ".");
 }
 
@@ -348,9 +355,12 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
                  question(meant(name, present))});
             continue;
         }
-        const std::vector<core::Problem> found = check_setting(name, value, where);
+        const std::vector<core::Problem> found = check_setting(name, value, where, part_names(condition));
         problems.insert(problems.end(), found.begin(), found.end());
     }
+    if (const auto part = part_called(condition.predictor))
+        prediction::check_settings(condition.predictor, predictor_settings(condition), where + *part,
+                                   problems);
     if (needs(condition, policy::Need::sublane_model) && condition.traffic_model != TrafficModel::sublane)
         problems.push_back(
             {where + "policy",
@@ -398,6 +408,10 @@ std::string described_name(const ConditionSpec& condition) {
         text = text.substr(0, longest_name - digits - 1) + "_" + core::content_hash(text).substr(0, digits);
     }
     return text;
+}
+
+core::Settings predictor_settings(const ConditionSpec& condition) {
+    return core::settings_of(condition.settings, python::short_name(condition.predictor));
 }
 
 LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual) {

@@ -26,7 +26,7 @@ struct Component {
 /// `siren`, `requests`, `privilege`.
 const std::vector<Component>& components();
 
-/// Names of the components that a condition has, in the order of `components`.
+/// Names of the components that a condition has, in the order of `components`; then its parts in Python.
 std::vector<std::string> components_of(const ConditionSpec& condition);
 
 /// Names of the policies that a condition consists of, those that combine others taken apart: as leases name
@@ -63,15 +63,17 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
 /// condition does not have, a value of the wrong type or out of range, a model that its predictor does not
 /// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves
-/// are not checked.
+/// are not checked, nor are settings of classes in Python: python::check_part does it.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
 
 /// Whether a policy of the condition has this need.
 bool needs(const ConditionSpec& condition, policy::Need need);
 
-/// What is wrong with one setting, regardless of the condition; empty if some condition may have it.
+/// What is wrong with one setting, regardless of the condition; empty if some condition may have it. Any
+/// setting of `parts`, names of parts in Python, is one.
 std::vector<core::Problem> check_setting(const std::string& name, const std::string& value,
-                                         const std::string& where);
+                                         const std::string& where,
+                                         const std::vector<std::string>& parts = {});
 
 /// `preempt_signals.lead_s=12 model=net.weights`; empty when a condition has neither settings nor a model.
 std::string settings_text(const ConditionSpec& condition);
@@ -81,6 +83,8 @@ std::string described_name(const ConditionSpec& condition);
 
 // The configurations of a condition. Each throws core::InputError for unknown settings.
 
+/// Settings of its predictor, without their prefix.
+core::Settings predictor_settings(const ConditionSpec& condition);
 /// Settings of the condition applied to `usual`, which may come from a recording.
 LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual = {});
 /// Settings of the condition applied to `usual`.

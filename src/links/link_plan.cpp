@@ -47,7 +47,7 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
         core::Settings settings = predictor.settings;
         if (plan.benchmark.candidates == prediction::CandidateReach::reported)
             settings.emplace("reach_by_twin", "0");
-        jobs.push_back({predictor.name, model.string(), settings, file});
+        jobs.push_back({predictor.name, model.string(), settings, file, predictor.part});
     }
     return jobs;
 }
@@ -157,7 +157,7 @@ std::string LinkRunFiles::key(const BenchmarkScenario& entry, const LinkPredicto
     content += fmt::format("{} {} {} ", core::name(plan_.benchmark.candidates),
                            plan_.benchmark.links.link_radius_m, plan_.benchmark.links.automated_links);
     if (!entry.policy.empty()) content += fmt::format("policy {} ", entry.policy);
-    content += predictor.name + " " + settings_text(predictor);
+    content += (predictor.part.empty() ? predictor.name : predictor.part) + " " + settings_text(predictor);
     if (!predictor.model_file.empty()) content += core::content_hash(core::read_file(predictor.model_file));
     return core::content_hash(content).substr(0, 16);
 }

@@ -18,6 +18,7 @@ struct LinkPredictor {
     std::string name;
     std::string model_file;   ///< Empty: as shipped.
     core::Settings settings;  ///< Those that differ from the defaults.
+    std::string part = {};  ///< Of one in Python: its file, class and hash; `name` is then that of its class.
 };
 /// `link_threshold=0.4 `, one setting after another; empty for defaults.
 std::string settings_text(const LinkPredictor& predictor);

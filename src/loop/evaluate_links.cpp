@@ -14,8 +14,9 @@ namespace {
 
 std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& job,
                                             const roads::Network& network, const graph::LinkRules& rules) {
-    return prediction::make_predictor(
-        job.name, {.network = network, .rules = rules, .model_file = job.model_file}, job.settings);
+    return prediction::make_predictor(job.part.empty() ? job.name : job.part,
+                                      {.network = network, .rules = rules, .model_file = job.model_file},
+                                      job.settings);
 }
 
 void add_trials(const experiment::LinkJob& job, const roads::Network& network, const graph::LinkRules& rules,

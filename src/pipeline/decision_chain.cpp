@@ -48,7 +48,7 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
                                              .model_file = experiment::checked_model(condition),
                                              .config = {},
                                              .random = context.random},
-                                            core::settings_of(condition.settings, condition.predictor));
+                                            experiment::predictor_settings(condition));
     const policy::PolicyContext place{.network = context.network, .period = core::Seconds(period_s_)};
     for (const std::string& name : condition.policies)
         policies_.push_back(policy::make_policy(name, place, condition.settings));

@@ -7,10 +7,11 @@
 namespace clearway::policy {
 
 struct PythonPolicy::State {
-    State(const PolicyContext& context, const std::string& word)
+    State(const PolicyContext& context, const std::string& word, const core::Settings& settings)
         : network(context.network),
           process(*python::part_name_from(python::resolved(word, {}, "policy")),
                   {.kind = python::PartKind::policy,
+                   .settings = settings,
                    .question = detail::belief_columns(),
                    .network = &context.network,
                    .period_s = context.period.value}) {}
@@ -19,8 +20,10 @@ struct PythonPolicy::State {
     python::PartProcess process;
 };
 
-PythonPolicy::PythonPolicy(const PolicyContext& context, const std::string& word)
-    : name_(&detail::kept_text(python::short_name(word))), state_(std::make_unique<State>(context, word)) {}
+PythonPolicy::PythonPolicy(const PolicyContext& context, const std::string& word,
+                           const core::Settings& settings)
+    : name_(&detail::kept_text(python::short_name(word))),
+      state_(std::make_unique<State>(context, word, settings)) {}
 
 PythonPolicy::~PythonPolicy() = default;
 

@@ -15,8 +15,9 @@ namespace clearway::policy {
 /// as those of any policy, under the name of its class.
 class PythonPolicy : public Policy {
   public:
-    /// Throws core::InputError when the file has changed, python::PartError when it cannot be loaded.
-    PythonPolicy(const PolicyContext& context, const std::string& word);
+    /// `settings` are those of its class. Throws core::InputError when the file has changed,
+    /// python::PartError when it cannot be loaded.
+    PythonPolicy(const PolicyContext& context, const std::string& word, const core::Settings& settings);
     ~PythonPolicy() override;
 
     std::string_view name() const override { return *name_; }

@@ -106,7 +106,9 @@ const std::vector<PolicyEntry>& policies() {
 
 std::unique_ptr<Policy> make_policy(const std::string& name, const PolicyContext& context,
                                     const core::Settings& settings) {
-    if (python::part_name_from(name)) return std::make_unique<PythonPolicy>(context, name);
+    if (python::part_name_from(name))
+        return std::make_unique<PythonPolicy>(context, name,
+                                              core::settings_of(settings, python::short_name(name)));
     std::vector<std::string> names;
     for (const PolicyEntry& known : policies()) {
         if (known.name == name) return known.make(context, settings);

@@ -155,10 +155,14 @@ core::SettingsTable settings_of(const std::string& name) {
 
 void check_settings(const std::string& name, const core::Settings& settings, const std::string& where,
                     std::vector<core::Problem>& problems) {
-    for (const Registration& registration : registry) {
-        if (name != registration.name) continue;
-        const std::vector<core::Problem> found = registration.table().check(settings, where + " ");
+    const auto append = [&](const core::SettingsTable& table, const core::Settings& some) {
+        const std::vector<core::Problem> found = table.check(some, where + " ");
         problems.insert(problems.end(), found.begin(), found.end());
+    };
+    if (python::part_name_from(name))
+        append(core::settings_table<PredictionConfig>(), parted_settings(settings).shared);
+    for (const Registration& registration : registry) {
+        if (name == registration.name) append(registration.table(), settings);
     }
 }
 
@@ -190,7 +194,7 @@ void check_link_radius(const std::string& name, const std::string& file, double 
 
 std::unique_ptr<Predictor> make_predictor(const std::string& name, const PredictorContext& context,
                                           const core::Settings& settings) {
-    if (python::part_name_from(name)) return make_python_predictor(context, name);
+    if (python::part_name_from(name)) return make_python_predictor(context, name, settings);
     return registration_of(name).make(context, settings);
 }
 

@@ -93,11 +93,12 @@ void write_tracks(const Tracks& tracks, Sheet& sheet) {
 
 class PythonPredictor final : public detail::PairwisePredictor {
   public:
-    PythonPredictor(const PredictorContext& context, const std::string& word)
+    PythonPredictor(const PredictorContext& context, const std::string& word, const core::Settings& settings)
         : PairwisePredictor(context),
           name_(python::short_name(word)),
           process_(*python::part_name_from(python::resolved(word, {}, "predictor")),
                    {.kind = python::PartKind::predictor,
+                    .settings = settings,
                     .question = columns,
                     .answer = answer_columns,
                     .network = &context.network,
@@ -142,8 +143,21 @@ class PythonPredictor final : public detail::PairwisePredictor {
 
 }  // namespace
 
-std::unique_ptr<Predictor> make_python_predictor(const PredictorContext& context, const std::string& word) {
-    return std::make_unique<PythonPredictor>(context, word);
+PartedSettings parted_settings(const core::Settings& settings) {
+    PartedSettings parted;
+    const std::vector<core::SettingInfo> rows = core::field_rows<PredictionConfig>();
+    for (const auto& setting : settings) {
+        const bool is_shared = std::ranges::find(rows, setting.first, &core::SettingInfo::name) != rows.end();
+        (is_shared ? parted.shared : parted.own).insert(setting);
+    }
+    return parted;
+}
+
+std::unique_ptr<Predictor> make_python_predictor(PredictorContext context, const std::string& word,
+                                                 const core::Settings& settings) {
+    const PartedSettings parted = parted_settings(settings);
+    core::set_all(parted.shared, "predictor ", context.config);
+    return std::make_unique<PythonPredictor>(context, word, parted.own);
 }
 
 }  // namespace clearway::prediction

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "python/sources.hpp"
 
 namespace clearway::python {
 namespace {
@@ -60,11 +60,13 @@ std::string resolved(const std::string& word, const std::filesystem::path& folde
         throw core::InputError(
             {where, fmt::format("{} is not a file", name->file.string()), "FILE.py:CLASS or FILE.pt",
              "A file is looked for below the present folder, or below that of the study file"});
-    const std::string hash = core::content_hash(core::read_file(name->file));
+    const std::vector<std::filesystem::path> files = sources_of(name->file, where);
+    const std::string hash = hash_of(files);
     if (!name->hash.empty() && name->hash != hash)
         throw core::InputError({where,
-                                fmt::format("{} has changed since the study began", name->file.string()),
-                                "content hash " + name->hash, "Restore that file, or begin a new study"});
+                                fmt::format("{}{} changed since the study began", name->file.string(),
+                                            files.size() > 1 ? " or a file that it imports has" : " has"),
+                                "content hash " + name->hash, "Restore what it was, or begin a new study"});
     name->hash = hash;
     return to_text(*name);
 }

@@ -8,12 +8,12 @@
 namespace clearway::python {
 
 /// A part of a condition that is code of the user: `my_policy.py:Yield`, a class of a file in Python, or
-/// `net.pt`, a TorchScript module. Once resolved, it is absolute and ends in the hash of the file's content,
-/// `/home/me/my_policy.py:Yield@3f...`, so that a changed file makes another condition.
+/// `net.pt`, a TorchScript module. Once resolved, it is absolute and ends in the hash of what it is made of
+/// (sources.hpp), `/home/me/my_policy.py:Yield@3f...`, so that a changed file makes another condition.
 struct PartName {
     std::filesystem::path file;
     std::string object;  ///< The class; empty for TorchScript.
-    std::string hash;    ///< Of the file's content; empty before it is resolved.
+    std::string hash;    ///< Of its files; empty before it is resolved.
 
     bool operator==(const PartName&) const = default;
 };
@@ -22,7 +22,7 @@ struct PartName {
 std::optional<PartName> part_name_from(std::string_view word);
 std::string to_text(const PartName& name);
 
-/// The word with an absolute file and its hash; other words as they are. A relative file is below `folder`.
+/// The word with an absolute file and the hash; other words as they are. A relative file is below `folder`.
 /// Throws core::InputError, saying `where`, for a file that is not there, and for one whose content does not
 /// have the hash that the word states.
 std::string resolved(const std::string& word, const std::filesystem::path& folder, const std::string& where);

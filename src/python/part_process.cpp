@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -12,47 +11,21 @@
 #include <nlohmann/json.hpp>
 
 #include "core/process.hpp"
-#include "core/shipped_files.hpp"
+#include "python/interpreter.hpp"
 
 namespace clearway::python {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* usual_python = "/usr/bin/python3";
-
-std::string setting_of(const char* name, const std::string& usual) {
-    const char* const value = std::getenv(name);
-    return value != nullptr && *value != '\0' ? value : usual;
-}
-
-/// Where the package is: beside what imported it, or in the tree.
-std::string package_folder() {
-    const std::string given = setting_of("CLEARWAY_PACKAGE", "");
-    if (!given.empty()) return given;
-    const auto host = core::shipped("python/clearway/_host.py");
-    if (!host)
-        throw core::EnvironmentError(
-            "python/clearway is not there: parts in Python need Clearway's source tree. Set CLEARWAY_HOME to "
-            "it");
-    return host->parent_path().parent_path().string();
-}
-
-core::Command command_of(const Descriptors& theirs) {
-    std::string path = package_folder();
-    const std::string before = setting_of("PYTHONPATH", "");
-    if (!before.empty()) path += ":" + before;
-    return {.program = setting_of("CLEARWAY_PYTHON", usual_python),
-            .arguments = {"-m", "clearway._host", std::to_string(theirs.memory), std::to_string(theirs.read),
-                          std::to_string(theirs.write)},
-            .environment = {{"PYTHONPATH", path}}};
-}
-
 /// Starts Python, which inherits the descriptors: this process has one thread, so nothing else can.
 pid_t start(const Descriptors& theirs) {
     for (const int descriptor : {theirs.memory, theirs.read, theirs.write})
         ::fcntl(descriptor, F_SETFD, 0);
-    return core::start(command_of(theirs)).pid;
+    return core::start(
+               run_module("clearway._host", {std::to_string(theirs.memory), std::to_string(theirs.read),
+                                             std::to_string(theirs.write)}))
+        .pid;
 }
 
 Json lanes_of(const roads::Network& network) {
@@ -87,6 +60,7 @@ std::string to_json(const PartName& name, const Greeting& greeting) {
     const Json object = {
         {"file", name.file.string()},
         {"object", name.object},
+        {"settings", greeting.settings},
         {"kind", greeting.kind == PartKind::policy ? "policy" : "predictor"},
         {"question", Json::parse(to_json(greeting.question))},
         {"answer", Json::parse(to_json(greeting.answer))},
@@ -142,9 +116,10 @@ void PartProcess::report_end() {
                     child_.wait()));
 }
 
-void check_part(const PartName& name, PartKind kind, const std::string& where) {
+void check_part(const PartName& name, PartKind kind, const core::Settings& settings,
+                const std::string& where) {
     try {
-        const PartProcess process(name, {.kind = kind});
+        const PartProcess process(name, {.kind = kind, .settings = settings});
     } catch (const PartError& error) {
         throw core::InputError(
             {where, error.what(), "", "Correct the file; CLEARWAY_PYTHON names another Python"});

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include "core/settings.hpp"
 #include "python/channel.hpp"
 #include "python/part_name.hpp"
 #include "python/sheet.hpp"
@@ -17,6 +18,7 @@ enum class PartKind : std::uint8_t { policy, predictor };
 /// What a part is told once, before its first question.
 struct Greeting {
     PartKind kind = PartKind::policy;
+    core::Settings settings = {};  ///< Keyword arguments of its class that differ from their defaults.
     std::span<const Column> question = {};  ///< Columns of the sheets that it will get.
     std::span<const Column> answer = {};    ///< Columns of its answers; none: it answers with text (JSON).
     const roads::Network* network = nullptr;
@@ -69,8 +71,9 @@ class PartProcess {
     OwnedChild child_;
 };
 
-/// Loads a part and lets it go: what the user is told before a study begins. Throws core::InputError with the
-/// traceback, saying `where`.
-void check_part(const PartName& name, PartKind kind, const std::string& where);
+/// Makes a part with its settings and lets it go: what the user is told before a study begins. Throws
+/// core::InputError, saying `where`, with the traceback, or with the settings that the part has.
+void check_part(const PartName& name, PartKind kind, const core::Settings& settings,
+                const std::string& where);
 
 }  // namespace clearway::python

@@ -33,8 +33,8 @@ std::vector<experiment::DatasetJob> dataset_jobs(const experiment::DatasetJob& s
 }
 
 std::filesystem::path job_file(const experiment::DatasetJob& job) {
-    const std::string under = job.policies.empty() ? "" : "-under-" + experiment::joined_policies(job);
-    return job.scenario_file.parent_path() / "jobs" / fmt::format("{:04}{}.json", job.replication, under);
+    return job.scenario_file.parent_path() / "jobs" /
+           fmt::format("{:04}{}.json", job.replication, experiment::under_policies(job));
 }
 
 std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job) {

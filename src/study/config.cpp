@@ -95,7 +95,8 @@ scenario::Options options_with(const toml::table& overrides, const detail::Assig
 /// Reads settings and model of a condition whose failure and predictor have been read.
 void read_settings(StrictTable& reader, TomlReading& reading, experiment::ConditionSpec& condition) {
     if (const toml::table* const table = reader.table("set")) {
-        for (const auto& [name, value] : detail::read_settings(*table, reading.file, reading.problems))
+        for (const auto& [name, value] : detail::read_settings(
+                 *table, {reading.file, experiment::part_names(condition)}, reading.problems))
             experiment::set(condition, name, value);
     }
     std::string model;
@@ -286,6 +287,25 @@ void vary_conditions(const detail::Factors& factors, Problems& problems, StudyCo
     config.conditions = std::move(varied);
 }
 
+/// Names of the parts in Python in a study file, wherever they stand.
+std::vector<std::string> parts_in(const toml::node& node) {
+    std::vector<std::string> names;
+    const auto append = [&](const toml::node& below) {
+        const std::vector<std::string> more = parts_in(below);
+        names.insert(names.end(), more.begin(), more.end());
+    };
+    if (const auto text = node.value_exact<std::string>()) {
+        if (const auto name = experiment::part_called(*text)) names.push_back(*name);
+    } else if (const toml::array* const list = node.as_array()) {
+        for (const toml::node& below : *list)
+            append(below);
+    } else if (const toml::table* const table = node.as_table()) {
+        for (const auto& [key, below] : *table)
+            append(below);
+    }
+    return names;
+}
+
 /// Files in Python are relative to the study file.
 void resolve_parts(TomlReading& reading, StudyConfig& config) {
     const std::filesystem::path file(reading.file);
@@ -411,7 +431,7 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     const toml::table* const factor_table = root.table("factors");
     detail::Factors factors;
     if (factor_table != nullptr)
-        factors = detail::read_factors(*factor_table, reading.file, reading.problems);
+        factors = detail::read_factors(*factor_table, {reading.file, parts_in(table)}, reading.problems);
     read_scenarios(root, factors, reading, config);
     read_conditions(root, reading, config);
     read_quick(root, extent, config);

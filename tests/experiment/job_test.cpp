@@ -69,7 +69,8 @@ LinkJob link_job() {
     job.exits = {sensing::Exits::known};
     job.policy = "corridor";
     job.predictors = {{"kalman", "", {{"link_threshold", "0.25"}}, "out.links"},
-                      {"none", "a.weights", {}, "b"}};
+                      {"none", "a.weights", {}, "b"},
+                      {"Mine", "", {}, "c", "/a/mine.py:Mine@0123456789abcdef0123456789abcdef"}};
     return job;
 }
 

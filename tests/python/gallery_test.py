@@ -107,6 +107,9 @@ class TorchTest(FolderCase):
         (self.folder / "no.pt").write_bytes(b"nothing")
         self.assertIn("is not a TorchScript file", self.message_of(clearway.InputError, lambda: clearway.run(
             "intersection", [clearway.Condition("no", policy="corridor", predictor="no.pt")], seeds=1, out="other")))
+        self.assertIn("near.reach is unknown", self.message_of(clearway.InputError, lambda: clearway.run(
+            "intersection", [clearway.Condition("no", policy="corridor", predictor="near.pt", set={"near.reach": 1})], seeds=1,
+            out="other")))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 """Policies and predictors in Python: they equal the same parts in C++, and what goes wrong is told and ends."""
+import json
 import os
 import signal
 import subprocess
+import sys
 import time
 import unittest
 from pathlib import Path
@@ -82,9 +84,13 @@ def hosts_of(folder: Path) -> list[int]:
             place = os.readlink(process / "cwd")
         except OSError:
             continue
-        if (b"clearway._host" in words or b"clearway-run" in words) and place == str(folder):
+        if (b"clearway._host" in words or b"bin/clearway" in words) and place == str(folder):
             found.append(int(process.name))
     return found
+
+
+#: Members of a result of `links evaluate` that differ although two predictors do the same.
+UNLIKE = {"predictor", "us_per_report"}
 
 
 class EqualPartsTest(FolderCase):
@@ -125,6 +131,170 @@ class EqualPartsTest(FolderCase):
         program(*arguments, code=3)
 
 
+SLOW = """
+from clearway import Lease
+class Slow:
+    def __init__(self, share: float = 1.0, within_m: float = 200.0, most: int = 100, on: bool = True, reason: str = "slow", other=None):
+        self.share, self.within_m, self.most, self.on, self.reason = share, within_m, most, on, reason
+        assert (type(share), type(within_m), type(most), type(on), type(reason)) == (float, float, int, bool, str)
+    def act(self, belief):
+        rows = [row for ev in belief.emergency_vehicles for row in ev.ahead(self.within_m) if belief.vehicles.is_automated[row]]
+        return [Lease.drive_at(belief.vehicles.key[row], 13.9 * self.share, reason=self.reason) for row in rows[:self.most] if self.on]
+class Near:
+    def __init__(self, scale=1.0):
+        self.scale = scale
+    def predict(self, observation):
+        return observation.pair_dead_reckoned_m < self.scale * observation.link_radius_m
+"""
+
+
+class SettingsTest(FolderCase):
+    """Arguments of a class that have defaults are settings, as those of parts in C++."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("slow.py", SLOW)
+
+    def test_they_change_what_is_done_and_stand_in_the_manifest(self) -> None:
+        changed = {"Slow.share": 0.2, "Slow.within_m": 150, "Slow.most": 3, "Slow.reason": "slower", "Near.scale": 0.1,
+                   "Near.link_threshold": 0.4}
+        parts = {"policy": "slow.py:Slow", "failure": "B10", "predictor": "slow.py:Near"}
+        results = clearway.run("intersection", [
+            clearway.Condition("usual", **parts), clearway.Condition("changed", **parts, set=changed),
+            clearway.Condition("off", **parts, set={"Slow.on": False})], seeds=1, out="runs", variant="dense")
+        self.assertEqual(results.errors.row_count, 0)
+        leases = {name: results.leases.where(condition=name)["leases"].sum() for name in ("usual", "changed", "off")}
+        self.assertGreater(leases["usual"], leases["changed"])
+        self.assertGreater(leases["changed"], 0)
+        self.assertEqual(leases["off"], 0)
+        found = {name: results.runs.where(condition=name)["dark_links_true_positive"][0] for name in ("usual", "changed")}
+        self.assertGreater(found["usual"], found["changed"])
+        (spec,) = (one for one in json.loads(Path("runs/manifest.json").read_text())["conditions"] if one["name"] == "changed")
+        self.assertEqual(spec["settings"], {name: str(value) for name, value in changed.items()})
+
+    def test_they_are_factors_of_a_study(self) -> None:
+        self.write("study.toml", 'replications = 1\nscenarios = ["intersection"]\nconditions = ["baseline"]\n[[condition]]\n'
+                   'name = "mine"\npolicy = "slow.py:Slow"\nset = { "Slow.within_m" = 100 }\n[factors]\nSlow.share = [0.2, 0.6]\n'
+                   '"Slow.most" = [1, 2]\n')
+        said = program("study", "study.toml", "--dry-run", "--out", "runs")
+        for share in ("0.2", "0.6"):
+            for most in ("1", "2"):
+                self.assertIn(f"mine+share={share}+most={most}", said)
+
+    def test_what_does_not_fit_is_told_before_anything_runs(self) -> None:
+        for setting, says in (("Slow.shares=1", "Slow.shares is unknown (allowed: arguments of __init__ that have a default: share=1.0"),
+                              ("Slow.other=1", "Slow.other is unknown"), ("Slow.share=fast", "Slow.share is 'fast' (allowed: a number"),
+                              ("Slow.most=1.5", "Slow.most is '1.5' (allowed: a whole number"), ("Slow.on=1", "allowed: true, false"),
+                              ("Fast.share=1", ", Slow). `clearway list settings`")):
+            ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "slow.py:Slow", "--set", setting,
+                                    "--out", "runs"], capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 3, setting)
+            self.assertIn(says, ended.stderr)
+            self.assertNotIn("Traceback", ended.stderr)
+            self.assertFalse(Path("runs").exists())
+        for predictor, setting, says in (("slow.py:Near", "Near.link_threshold=7", "7 is out of range"),
+                                         ("slow.py:Near", "Near.scales=7", "scale=1.0")):
+            ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--predictor", predictor, "--policy", "corridor",
+                                    "--set", setting, "--out", "runs"], capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 3, setting)
+            self.assertIn(says, ended.stderr)
+
+    def test_two_parts_of_one_name_are_refused(self) -> None:
+        self.write("again.py", SLOW)
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "slow.py:Slow", "again.py:Slow", "--out",
+                                "runs"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("two are called `Slow`", ended.stderr)
+
+
+class SourcesTest(FolderCase):
+    """The hash of a part is that of its file and of what it imports from its own folder."""
+
+    def files_of(self, name: str) -> list[str]:
+        script = SOURCE / "python/clearway/_sources.py"
+        ended = subprocess.run([sys.executable, "-I", "-S", str(script), str(self.folder / name)], capture_output=True, text=True,
+                               check=True)
+        return [str(Path(line).relative_to(self.folder)) for line in ended.stdout.splitlines()]
+
+    def test_finds_modules_and_packages_of_the_folder(self) -> None:
+        (self.folder / "kit/deep").mkdir(parents=True)
+        for name in ("kit/__init__.py", "kit/deep/__init__.py", "unused.py", "kit/unused.py"):
+            self.write(name, "")
+        self.write("mine.py", "import os, numpy\ndef f():\n    from near import thing\nif 1:\n    import kit.deep.low as low\n")
+        self.write("near.py", "from kit import (side,\n    not_a_module)\nimport mine\n")
+        self.write("kit/side.py", "from . import beside\nfrom .deep import *\n")
+        self.write("kit/beside.py", "from ..near import x\n")
+        self.write("kit/deep/low.py", "from ..last import y\n")
+        self.write("kit/last.py", "class Broken(:\n")
+        self.assertEqual(self.files_of("mine.py"), ["mine.py", "kit/__init__.py", "kit/beside.py", "kit/deep/__init__.py",
+                                                    "kit/deep/low.py", "kit/last.py", "kit/side.py", "near.py"])
+        self.assertEqual(self.files_of("kit/last.py"), ["kit/last.py"])
+
+    def test_a_changed_import_is_another_study(self) -> None:
+        self.write("mine.py", "import helper\nclass Mine:\n    def act(self, belief):\n        return helper.leases(belief)\n")
+        self.write("helper.py", "def leases(belief):\n    return []\n")
+        arguments = ["run", "intersection", "--policy", "mine.py:Mine", "--seeds", "1", "--no-solo", "--out", "runs"]
+        program(*arguments)
+        program(*arguments)
+        self.write("unrelated.py", "")
+        program(*arguments)
+        self.write("helper.py", "def leases(belief):\n    return list()\n")
+        program(*arguments, code=3)
+
+
+class JudgedTest(FolderCase):
+    """A predictor in Python is judged as any other, and acts where data sets are recorded."""
+
+    def test_links_evaluate_judges_it_as_the_same_in_cpp(self) -> None:
+        gallery = SOURCE / "examples/python/distance_predictor.py"
+        said = json.loads(program("links", "evaluate", "intersection", "--predictor", f"{gallery}:ByDistance", "dead_reckoning",
+                                  "--failure", "B10", "--exits", "known", "--seeds", "1", "--validation-seeds", "1", "--against", "ByDistance",
+                                  "--out", "runs", "--json"))
+        results = {one["predictor"]: one for one in said["results"]}
+        self.assertEqual(set(results), {"ByDistance", "dead_reckoning"})
+        python, cpp = results["ByDistance"], results["dead_reckoning"]
+        self.assertGreater(python["ap"], 0.5)
+        self.assertEqual(python.keys(), cpp.keys())
+        for key in python.keys() - UNLIKE:
+            if isinstance(cpp[key], float):
+                self.assertAlmostEqual(python[key], cpp[key], places=5, msg=key)  # probabilities differ in the last digits of a float
+            else:
+                self.assertEqual(python[key], cpp[key], key)
+        self.assertRegex(Path("runs/links.html").read_text(), f"{gallery}:ByDistance@[0-9a-f]{{32}}")
+
+    def test_links_evaluate_tells_what_is_wrong(self) -> None:
+        self.write("bad.py", FAULTS)
+        self.write("slow.py", SLOW)
+        self.write("other.py", SLOW + "class kalman(Near):\n    pass\n")
+        for words, says in ((["--predictor", "nowhere.py:Mine"], "nowhere.py is not a file"),
+                            (["--predictor", "bad.py:NoAct"], "NoAct has no method predict()"),
+                            (["--predictor", "slow.py:Near", "other.py:Near"], "two are called `Near`"),
+                            (["--predictor", "other.py:kalman"], "two are called `kalman`"),
+                            (["--predictor", "slow.py:Near", "--model", "Near=bad.py"], "takes none"),
+                            (["--predictor", "slow.py:Near", "--set", "Near.sclae=2"], "Near.sclae is unknown")):
+            ended = subprocess.run([str(PROGRAMS / "clearway"), "links", "evaluate", "intersection", *words, "--seeds", "1", "--out", "runs"],
+                                   capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 3, ended.stderr)
+            self.assertIn(says, ended.stderr)
+            self.assertFalse(Path("runs").exists())
+
+    def test_links_evaluate_ends_with_the_traceback_of_a_predictor_that_fails(self) -> None:
+        self.write("bad.py", FAULTS)
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "links", "evaluate", "intersection", "--predictor", "bad.py:WrongShape",
+                                "--failure", "B10", "--exits", "known", "--seeds", "1", "--validation-seeds", "1", "--out", "runs"],
+                               capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("one number for each of the", ended.stderr)
+
+    def test_a_data_set_is_recorded_under_a_policy_in_python(self) -> None:
+        self.write("slow.py", SLOW)
+        arguments = ["dataset", "intersection", "--samples", "--policy", "slow.py:Slow", "--set", "Slow.share=0.5", "--out", "data"]
+        program(*arguments)
+        self.assertRegex(str(list(Path("data").glob("*.samples"))), r"intersection-B10-under-Slow-[0-9a-f]{8}-0000.samples")
+        (sample, *_) = clearway.dataset("data")
+        self.assertRegex(sample.origin["traffic"], f"{self.folder}/slow.py:Slow@[0-9a-f]{{32}}.*Slow.share=0.5")
+
+
 class StudyFileTest(FolderCase):
     def test_a_file_is_relative_to_the_study_file(self) -> None:
         (self.folder / "sub").mkdir()
@@ -158,7 +328,8 @@ class FaultTest(FolderCase):
                 "Nothing": "act returned None", "Writes": "read-only"}
         results = self.run_all(list(says))
         for name, message in says.items():
-            (found,) = results.errors.where(condition=name)["message"]
+            failed = results.errors.where(condition=name)
+            (found,) = failed["message"]
             self.assertIn(message, found)
             if name != "Dies":
                 self.assertIn("Traceback", found)
@@ -198,10 +369,20 @@ class FaultTest(FolderCase):
         self.assertIn("exit code 127", ended.stderr)
         self.assertIn("CLEARWAY_PYTHON", ended.stderr)
 
+    def test_a_python_without_numpy_is_told(self) -> None:
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", "bare"], check=True)
+        bare = str(self.folder / "bare/bin/python3")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Gone", "--out", "runs"],
+                               capture_output=True, text=True, check=False, env={**os.environ, "CLEARWAY_PYTHON": bare})
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn(f"clearway needs numpy, which {bare} does not have", ended.stderr)
+
     def start_sleeping(self) -> subprocess.Popen:
-        process = subprocess.Popen([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo",
-                                    "--seeds", "1", "--out", "runs"], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
+        return self.started([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo", "--seeds", "1",
+                             "--out", "runs"])
+
+    def started(self, words: list[str]) -> subprocess.Popen:
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end = time.monotonic() + 60.0
         while time.monotonic() < end and not self.sleeping():
             time.sleep(0.1)
@@ -213,8 +394,14 @@ class FaultTest(FolderCase):
             b"_host" in Path(f"/proc/{pid}/cmdline").read_bytes() for pid in hosts_of(self.folder))
 
     def test_killed_parents_leave_no_process(self) -> None:
-        process = self.start_sleeping()
-        self.assertGreaterEqual(len(hosts_of(self.folder)), 3)  # worker, its child, the part
+        self.check_kill(self.start_sleeping())
+
+    def test_a_killed_python_leaves_no_study_behind(self) -> None:
+        self.check_kill(self.started([sys.executable, "-c", "import clearway; clearway.run('intersection', [clearway.Condition('mine', "
+                                      "policy='bad.py:Sleeps')], seeds=1, out='runs')"]))
+
+    def check_kill(self, process: subprocess.Popen) -> None:
+        self.assertGreaterEqual(len(hosts_of(self.folder)), 4)  # program, worker, its child, the part
         process.send_signal(signal.SIGKILL)
         process.wait()
         end = time.monotonic() + 20.0

@@ -123,7 +123,8 @@ void apply_settings(const std::vector<std::string>& settings, const std::string&
     std::set<std::string> seen;
     for (const std::string& words : settings) {
         const auto [name, value] = assignment("--set", words);
-        const std::vector<core::Problem> found = experiment::check_setting(name, value, "--set ");
+        const std::vector<core::Problem> found =
+            experiment::check_setting(name, value, "--set ", experiment::part_names(condition));
         problems.insert(problems.end(), found.begin(), found.end());
         if (!seen.insert(name).second)
             problems.push_back({"--set " + name, "is given twice", "each setting once", "Remove one"});

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/detail/common_options.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
+#include "prediction/python_predictor.hpp"
 #include "python/part_process.hpp"
 #include "sensing/failure_config.hpp"
 
@@ -58,18 +61,32 @@ std::vector<std::string> policy_names() {
 
 namespace {
 
+/// Settings, leases and tables know parts in Python by their classes, so those of a condition must differ.
+void check_part_names(const experiment::ConditionSpec& condition, const std::string& where,
+                      std::vector<core::Problem>& problems) {
+    std::vector<std::string> names = experiment::part_names(condition);
+    std::ranges::sort(names);
+    if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+        problems.push_back({where + "parts", fmt::format("two are called `{}`", *twice),
+                            "a name of its own for each", "Rename one of the classes"});
+}
+
 /// Loads each part in Python once, so that what its file cannot do is told before anything runs.
 void check_parts(const std::vector<experiment::ConditionSpec>& conditions) {
-    std::set<std::pair<std::string, python::PartKind>> seen;
-    const auto check = [&](const std::string& where, const std::string& word, python::PartKind kind) {
+    std::set<std::tuple<std::string, python::PartKind, core::Settings>> seen;
+    const auto check = [&](const std::string& where, const std::string& word, python::PartKind kind,
+                           const core::Settings& settings) {
         const auto name = python::part_name_from(word);
-        if (name && seen.emplace(word, kind).second) python::check_part(*name, kind, where);
+        if (name && seen.emplace(word, kind, settings).second)
+            python::check_part(*name, kind, settings, where);
     };
     for (const experiment::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
-        check(where + "predictor", condition.predictor, python::PartKind::predictor);
+        check(where + "predictor", condition.predictor, python::PartKind::predictor,
+              prediction::parted_settings(experiment::predictor_settings(condition)).own);
         for (const std::string& policy : condition.policies)
-            check(where + "policy", policy, python::PartKind::policy);
+            check(where + "policy", policy, python::PartKind::policy,
+                  core::settings_of(condition.settings, python::short_name(policy)));
     }
 }
 
@@ -95,6 +112,8 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
         if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
             problems.push_back({where + "policy", fmt::format("`{}` is given twice", *twice),
                                 "each policy once", "Remove one of the two"});
+        else
+            check_part_names(condition, where, problems);
         const std::vector<core::Problem> unfit = experiment::check_settings(condition, where);
         problems.insert(problems.end(), unfit.begin(), unfit.end());
     }

@@ -20,15 +20,14 @@ constexpr const char* design_key = "design";
 const std::vector<std::string> condition_keys = {"bluelight", "traffic_model", "failure",
                                                  "policy",    "predictor",     "safety_checks"};
 
-/// What a factor may vary: conditions, scenarios, several settings, or any component with settings.
-const std::vector<std::string>& groups() {
-    static const std::vector<std::string> all = [] {
-        std::vector<std::string> names = {"condition", "scenario", several};
-        for (const experiment::Component& component : experiment::components())
-            names.push_back(component.name);
-        return names;
-    }();
-    return all;
+/// What a factor may vary: conditions, scenarios, several settings, or any component with settings, those in
+/// Python included.
+std::vector<std::string> groups(const SettingsPlace& place) {
+    std::vector<std::string> names = {"condition", "scenario", several};
+    for (const experiment::Component& component : experiment::components())
+        names.push_back(component.name);
+    names.insert(names.end(), place.parts.begin(), place.parts.end());
+    return names;
 }
 
 bool is_component(const std::string& group) {
@@ -88,9 +87,9 @@ void read_list(const toml::array& list, Factor factor, std::vector<Factor>& fact
 }
 
 /// `set = [{ "a.b" = 1, "c.d" = 2 }, ...]`: each value sets several settings at once.
-void read_several(const toml::node& node, const std::string& file, std::vector<Factor>& factors,
+void read_several(const toml::node& node, const SettingsPlace& settings, std::vector<Factor>& factors,
                   Problems& problems) {
-    Factor factor{several, several, place(node, file, several), {}};
+    Factor factor{several, several, place(node, settings.file, several), {}};
     const toml::array* const list = node.as_array();
     if (list == nullptr || list->empty() || !list->is_homogeneous(toml::node_type::table)) {
         problems.push_back(
@@ -99,7 +98,7 @@ void read_several(const toml::node& node, const std::string& file, std::vector<F
     }
     for (const toml::node& element : *list) {
         FactorValue value;
-        value.settings = read_settings(*element.as_table(), file, problems);
+        value.settings = read_settings(*element.as_table(), settings, problems);
         if (element.as_table()->empty())
             problems.push_back({factor.where, "sets nothing", R"({ "COMPONENT.NAME" = VALUE, ... })",
                                 "The condition as it is runs too under design = \"one_at_a_time\""});
@@ -169,7 +168,7 @@ void check_design(const Factors& factors, Problems& problems) {
              "Use two study files, or design = \"all_combinations\""});
 }
 
-void check_names(const std::vector<Factor>& factors, Problems& problems) {
+void check_names(const std::vector<Factor>& factors, const SettingsPlace& settings, Problems& problems) {
     for (const Factor& factor : factors) {
         if (factor.group == "condition" &&
             std::ranges::find(condition_keys, factor.key) == condition_keys.end())
@@ -177,7 +176,8 @@ void check_names(const std::vector<Factor>& factors, Problems& problems) {
         if (!is_component(factor.group)) continue;
         const std::string name = factor.group + "." + factor.key;
         for (const FactorValue& value : factor.values) {
-            for (const core::Problem& problem : experiment::check_setting(name, value.text, ""))
+            for (const core::Problem& problem :
+                 experiment::check_setting(name, value.text, "", settings.parts))
                 problems.push_back({factor.where, problem.what, problem.allowed, problem.cure});
         }
     }
@@ -210,13 +210,14 @@ void set_condition_key(const Factor& factor, const FactorValue& value, experimen
 
 /// Reads `"preempt_signals.lead_s" = [4, 8]`, a setting with its full name in quotes. Returns whether `name`
 /// is one.
-bool read_quoted(const std::string& name, const toml::node& node, const std::string& file,
+bool read_quoted(const std::string& name, const toml::node& node, const SettingsPlace& settings,
                  std::vector<Factor>& factors, Problems& problems) {
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) return false;
     const std::string group = name.substr(0, dot);
-    if (std::ranges::find(groups(), group) == groups().end()) return false;
-    const std::string where = place(node, file, name);
+    const std::vector<std::string> known = groups(settings);
+    if (std::ranges::find(known, group) == known.end()) return false;
+    const std::string where = place(node, settings.file, name);
     if (const toml::array* const list = node.as_array()) {
         read_list(*list, {group, name.substr(dot + 1), where, {}}, factors, problems);
     } else {
@@ -227,23 +228,25 @@ bool read_quoted(const std::string& name, const toml::node& node, const std::str
 
 }  // namespace
 
-Factors read_factors(const toml::table& table, const std::string& file, Problems& problems) {
+Factors read_factors(const toml::table& table, const SettingsPlace& settings, Problems& problems) {
     Factors factors;
+    const std::string& file = settings.file;
+    const std::vector<std::string> known = groups(settings);
     for (const auto& [name, node] : table) {
         const std::string group(name.str());
         const std::string where = place(node, file, group);
         if (group == design_key) {
             factors.design = read_design(node, file, problems);
         } else if (group == several) {
-            read_several(node, file, factors.list, problems);
-        } else if (read_quoted(group, node, file, factors.list, problems)) {
+            read_several(node, settings, factors.list, problems);
+        } else if (read_quoted(group, node, settings, factors.list, problems)) {
             continue;
-        } else if (std::ranges::find(groups(), group) == groups().end()) {
+        } else if (std::ranges::find(known, group) == known.end()) {
             const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
             if (bare)
                 problems.push_back(
-                    {where, "is unknown", core::listed(groups()), "Did you mean 'condition." + group + "'?"});
-            if (!bare) add_unknown(where, group, groups(), problems);
+                    {where, "is unknown", core::listed(known), "Did you mean 'condition." + group + "'?"});
+            if (!bare) add_unknown(where, group, known, problems);
         } else if (const toml::table* below = node.as_table()) {
             read_group(*below, file, group, "", factors.list, problems);
         } else {
@@ -251,7 +254,7 @@ Factors read_factors(const toml::table& table, const std::string& file, Problems
                                 group == "failure" ? "Did you mean 'condition.failure'?" : ""});
         }
     }
-    check_names(factors.list, problems);
+    check_names(factors.list, settings, problems);
     check_repeated(factors.list, problems);
     check_design(factors, problems);
     return factors;

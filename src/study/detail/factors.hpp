@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/settings.hpp"
 #include "experiment/condition.hpp"
+#include "study/detail/read_settings.hpp"
 
 namespace clearway::study::detail {
 
@@ -23,7 +24,8 @@ struct FactorValue {
 
 /// A parameter and the values it takes.
 struct Factor {
-    std::string group;  ///< condition, scenario, set, or a component of experiment/settings.hpp.
+    std::string group;  ///< condition, scenario, set, a component of experiment/settings.hpp, or
+                        ///< a part in Python.
     std::string key;    ///< Below the group: `failure`, `mean_outage_s`, `demand.human`.
     std::string where;  ///< Position in the study file, for messages.
     std::vector<FactorValue> values;
@@ -46,7 +48,8 @@ struct Factors {
 
 /// Reads `[factors]`. Adds problems (unknown group, no list, an empty list, a value that is not a number,
 /// text, truth value or list of texts, an unknown setting) to `problems`.
-Factors read_factors(const toml::table& table, const std::string& file, std::vector<core::Problem>& problems);
+Factors read_factors(const toml::table& table, const SettingsPlace& place,
+                     std::vector<core::Problem>& problems);
 
 /// What a factor changes.
 enum class Subject : std::uint8_t { scenarios, conditions };

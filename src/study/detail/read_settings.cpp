@@ -11,7 +11,7 @@ using Problems = std::vector<core::Problem>;
 
 /// The file being read, and where results go.
 struct Reading {
-    const std::string& file;
+    const SettingsPlace& place;
     core::Settings& settings;
     Problems& problems;
 };
@@ -23,14 +23,14 @@ void read_table(const toml::table& table, const std::string& prefix, const Readi
             read_table(*below, name + ".", reading);
             continue;
         }
-        const std::string where =
-            fmt::format("{}:{}:{}: ", reading.file, node.source().begin.line, node.source().begin.column);
+        const std::string where = fmt::format("{}:{}:{}: ", reading.place.file, node.source().begin.line,
+                                              node.source().begin.column);
         const auto text = setting_value(node);
         if (!text) {
             reading.problems.push_back({where + name, "is not a value", "a number or a word", ""});
             continue;
         }
-        const Problems found = experiment::check_setting(name, *text, where);
+        const Problems found = experiment::check_setting(name, *text, where, reading.place.parts);
         reading.problems.insert(reading.problems.end(), found.begin(), found.end());
         if (!reading.settings.emplace(name, *text).second)
             reading.problems.push_back({where + name, "is set twice", "each setting once", "Remove one"});
@@ -47,9 +47,9 @@ std::optional<std::string> setting_value(const toml::node& node) {
     return std::nullopt;
 }
 
-core::Settings read_settings(const toml::table& table, const std::string& file, Problems& problems) {
+core::Settings read_settings(const toml::table& table, const SettingsPlace& place, Problems& problems) {
     core::Settings settings;
-    read_table(table, "", {file, settings, problems});
+    read_table(table, "", {place, settings, problems});
     return settings;
 }
 

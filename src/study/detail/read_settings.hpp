@@ -15,10 +15,15 @@ namespace clearway::study::detail {
 /// others.
 std::optional<std::string> setting_value(const toml::node& node);
 
+/// The file where settings stand, and the names of parts in Python that may have settings there.
+struct SettingsPlace {
+    const std::string& file;
+    std::vector<std::string> parts;
+};
+
 /// Reads a table of settings, `{ "preempt_signals.lead_s" = 12 }` or `{ preempt_signals = { lead_s = 12 } }`.
-/// Adds problems, including unknown names and values out of range, to `problems` with their position in
-/// `file`.
-core::Settings read_settings(const toml::table& table, const std::string& file,
+/// Adds problems, including unknown names and values out of range, to `problems` with their position.
+core::Settings read_settings(const toml::table& table, const SettingsPlace& place,
                              std::vector<core::Problem>& problems);
 
 }  // namespace clearway::study::detail

@@ -1,0 +1,54 @@
+"""Prints the files that a part in Python is made of, its own first: `python3 -I -S _sources.py FILE`. Run by Clearway to hash them.
+
+Besides the file itself these are the modules that it imports from its own folder, and what they import from there. Imports are read
+from the text, so nothing of it is run here; a file that cannot be parsed counts alone, and loading it tells why.
+"""
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+
+def imported_names(tree: ast.AST, package: list[str]) -> Iterator[list[str]]:
+    """Dotted names that a module of ``package`` may import: of ``from a import b`` both ``a`` and ``a.b``."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (name.name.split(".") for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package[:len(package) - node.level + 1] if node.level else []
+            base = above + (node.module.split(".") if node.module else [])
+            yield base
+            yield from (base + [name.name] for name in node.names)
+
+
+def files_of(name: list[str], folder: Path) -> Iterator[Path]:
+    """Files below ``folder`` that the import of a dotted name runs: packages on the way, and the module."""
+    place = folder
+    for word in name:
+        place = place / word
+        for file in (place / "__init__.py", place.with_name(word + ".py")):
+            if file.is_file():
+                yield file
+                break
+
+
+def sources(file: Path) -> list[Path]:
+    folder, found, waiting = file.parent, {file}, [file]
+    while waiting:
+        module = waiting.pop()
+        try:
+            tree = ast.parse(module.read_bytes())
+        except (SyntaxError, ValueError, OSError):
+            continue
+        package = list(module.relative_to(folder).parent.parts)
+        for name in imported_names(tree, package):
+            new = set(files_of(name, folder)) - found
+            found |= new
+            waiting += new
+    return [file, *sorted(found - {file})]
+
+
+if __name__ == "__main__":
+    print("\n".join(str(file) for file in sources(Path(sys.argv[1]))))
