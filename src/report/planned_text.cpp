@@ -50,7 +50,7 @@ std::string planned_table(const StudyFacts& study) {
     std::string text = printable(plan_sentence(study)) + "\n\n";
     text.replace(text.find(". ") + 1, 1, "\n");  // A line for each sentence.
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{:<37}{:<24}{:>5}  {:>7}  {}\n{:-<100}\n", "Comparison", "difference, s", "pairs",
+    fmt::format_to(out, "{:<38}{:<23}{:>5}  {:>7}  {}\n{:-<100}\n", "Comparison", "difference, s", "pairs",
                    "p, Holm", "finding", "");
     for (const PlannedFinding& finding : study.planned) {
         const results::PlannedComparison& comparison = finding.comparison;
