@@ -21,7 +21,8 @@ void Pacer::step() {
 double Pacer::allow(double passed_s) {
     const double now_s = slowest();
     if (paused_ || now_s == waiting || now_s == over) return allowed_s_;
-    const double begun_s = std::max(allowed_s_, now_s);
+    // Not from where the runs are: each goes beyond what is allowed by up to a step.
+    const double begun_s = allowed_s_ == waiting ? now_s : allowed_s_;
     const double wanted_s = speed_ == 0.0 ? now_s + lead_s : begun_s + passed_s * speed_;
     allowed_s_ = std::max(allowed_s_, std::min(wanted_s, now_s + lead_s));
     return allowed_s_;
