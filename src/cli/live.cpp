@@ -90,12 +90,7 @@ study::StudyConfig study_of(const Arguments& arguments,
 /// The processes that make the runs. Those that still run when it is destroyed are ended.
 class Workers {
   public:
-    ~Workers() {
-        for (const Worker& worker : workers_) {
-            if (!worker.exit) ::kill(worker.child.pid, SIGTERM);
-        }
-        wait();
-    }
+    ~Workers() { end(); }
     Workers() = default;
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
@@ -108,7 +103,7 @@ class Workers {
         workers_.push_back(
             {core::start(
                  {.program = sister_program("clearway-run"), .arguments = {file.string()}, .output = log}),
-             unit.conditions.front().name, log, std::nullopt});
+             unit.conditions.front().name, log});
     }
     /// Whether one has ended and was not well.
     bool has_failed() {
@@ -118,6 +113,15 @@ class Workers {
             failed = failed || (worker.exit && !worker.exit->ok());
         }
         return failed;
+    }
+    /// Ends those that still run: nobody allows them to go on.
+    void end() {
+        for (Worker& worker : workers_) {
+            if (worker.exit) continue;
+            ::kill(worker.child.pid, SIGTERM);
+            worker.was_ended = true;
+        }
+        wait();
     }
     void wait() {
         for (Worker& worker : workers_) {
@@ -129,7 +133,7 @@ class Workers {
         constexpr int shown_lines = 10;
         core::ExitCode code = core::ExitCode::ok;
         for (const Worker& worker : workers_) {
-            if (worker.exit->ok()) continue;
+            if (worker.exit->ok() || worker.was_ended) continue;
             fmt::print(stderr, "clearway: {}: {}\n{}", worker.condition, worker.exit->describe(),
                        core::tail(worker.log, shown_lines));
             const auto own = static_cast<core::ExitCode>(worker.exit->code);
@@ -145,7 +149,8 @@ class Workers {
         core::Child child;
         std::string condition;
         std::filesystem::path log;
-        std::optional<core::Exit> exit;
+        std::optional<core::Exit> exit = std::nullopt;
+        bool was_ended = false;  ///< By this program.
     };
     std::vector<Worker> workers_;
 };
@@ -164,11 +169,12 @@ void say_address(const server::LiveConfig& config, std::uint16_t port) {
 core::ExitCode show(const std::vector<experiment::RunJob>& units, const server::LiveConfig& config) {
     const core::InterruptionWatch interruption;
     const core::TemporaryFolder sockets;
-    server::LiveServer server(config, sockets.path() / "runs");
+    server::LiveServer server(config, sockets.path());
     Workers workers;
     const std::filesystem::path work = units.front().output / "work" / fmt::format("live-{}", ::getpid());
+    std::size_t run = 0;
     for (experiment::RunJob unit : units) {
-        unit.live = experiment::LiveSpec{sockets.path() / "runs"};
+        unit.live = experiment::LiveSpec{server::socket_of(sockets.path(), run++)};
         workers.start(unit, work / unit.conditions.front().name);
     }
     say_address(config, server.port());
@@ -177,6 +183,7 @@ core::ExitCode show(const std::vector<experiment::RunJob>& units, const server::
     fmt::print(stderr, "clearway: {} viewers, {} refused; {} frames sent, {} left out for slow viewers\n",
                counts.clients, counts.refused, counts.frames_sent, counts.frames_dropped);
     if (interruption.signal() != 0) return interruption.exit_code(core::ExitCode::ok);
+    if (workers.has_failed()) workers.end();
     workers.wait();
     const core::ExitCode code = workers.report();
     std::error_code ignored;

@@ -20,13 +20,18 @@ bool same_secret(std::string_view one, std::string_view other) {
     return difference == 0;
 }
 
-/// Names of this server in a `Host` header.
-bool is_own_name(std::string_view host, const AccessRules& rules) {
-    const std::string shown = rules.host.find(':') == std::string::npos ? rules.host : "[" + rules.host + "]";
-    const std::array names = {shown, std::string("localhost"), std::string("127.0.0.1"),
-                              std::string("[::1]")};
-    return std::ranges::any_of(
-        names, [&](const std::string& name) { return host == fmt::format("{}:{}", name, rules.port); });
+std::string in_brackets(const std::string& address) {
+    return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
+/// Whether a `Host` header means this server. Browsers leave out port 80.
+bool is_own_name(std::string_view host, const std::string& reached, const AccessRules& rules) {
+    constexpr std::uint16_t usual_port = 80;
+    const std::array names = {in_brackets(rules.host), in_brackets(reached), std::string("localhost"),
+                              std::string("127.0.0.1"), std::string("[::1]")};
+    return std::ranges::any_of(names, [&](const std::string& name) {
+        return host == fmt::format("{}:{}", name, rules.port) || (rules.port == usual_port && host == name);
+    });
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules
     constexpr unsigned not_allowed = 405;
     constexpr unsigned upgrade_required = 426;
     if (request.method != "GET") return Refusal{not_allowed, "only GET is served"};
-    if (!request.host || !is_own_name(*request.host, rules))
+    if (!request.host || !is_own_name(*request.host, request.reached, rules))
         return Refusal{forbidden, "Host is not this server"};
     const std::string_view path = request.target.substr(0, request.target.find('?'));
     if (path != "/" && path != "/stream") return Refusal{not_found, "there are / and /stream"};

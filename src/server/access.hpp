@@ -9,7 +9,7 @@ namespace clearway::server {
 
 /// Who may watch, and who may control.
 struct AccessRules {
-    std::string host = "127.0.0.1";  ///< Address that the server listens at.
+    std::string host = "127.0.0.1";  ///< Address that the server listens at; 0.0.0.0 or :: mean all of them.
     std::uint16_t port = 0;          ///< As bound.
     std::string token;               ///< Empty: none is asked for. Never empty beyond this machine.
 };
@@ -19,6 +19,7 @@ struct RequestWords {
     std::string_view method, target;
     std::optional<std::string_view> host, origin;
     bool is_upgrade = false;
+    std::string reached = {};  ///< Address of this machine at which the connection arrived.
 };
 
 /// Why a request is refused.
@@ -28,8 +29,8 @@ struct Refusal {
 };
 
 /// Nothing for a request that is served: `/` as a page or `/stream` as a WebSocket, with `?token=` where one
-/// is needed. `Host` must be this server, so that no foreign name leads here; a WebSocket must come from this
-/// server's own page (`Origin`). Pure.
+/// is needed. `Host` must be an address of this server or `localhost`, with its port, so that no foreign name
+/// leads here; a WebSocket must come from this server's own page (`Origin`). Pure.
 std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules& rules);
 
 /// Whether an address means this machine alone. Throws core::InputError, naming `where`, for text that is no

@@ -1,6 +1,7 @@
 #include "server/live_server.hpp"
 
 #include <chrono>
+#include <optional>
 #include <vector>
 
 #include <boost/asio/io_context.hpp>
@@ -27,9 +28,22 @@ using detail::Feed;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_clients = 8;
+/// Those that watch, and those that only ask for the page or have not yet said what they want.
+constexpr std::size_t most_connections = 64;
+constexpr std::chrono::seconds last_patience{10};
 constexpr std::chrono::milliseconds beat{20};
 constexpr std::chrono::milliseconds status_period{500};
 constexpr double fastest = 1000.0;
+
+using RunAcceptor = asio::local::stream_protocol::acceptor;
+
+std::vector<RunAcceptor> listen_for_runs(asio::io_context& loop, std::size_t runs,
+                                         const std::filesystem::path& sockets) {
+    std::vector<RunAcceptor> all;
+    for (std::size_t run = 0; run < runs; ++run)
+        all.emplace_back(loop, asio::local::stream_protocol::endpoint(socket_of(sockets, run).string()));
+    return all;
+}
 
 asio::ip::tcp::acceptor listen_at(asio::io_context& loop, const LiveConfig& config) {
     try {
@@ -44,38 +58,43 @@ asio::ip::tcp::acceptor listen_at(asio::io_context& loop, const LiveConfig& conf
 
 }  // namespace
 
+std::filesystem::path socket_of(const std::filesystem::path& folder, std::size_t run) {
+    return folder / fmt::format("run-{}", run);
+}
+
 struct LiveServer::State {
-    State(LiveConfig wanted, const std::filesystem::path& socket)
+    State(LiveConfig wanted, const std::filesystem::path& sockets)
         : config(std::move(wanted)),
           hub(config.runs),
           pacer(config.runs, config.speed),
           browsers(listen_at(loop, config)),
-          runs(loop, asio::local::stream_protocol::endpoint(socket.string())),
+          runs(listen_for_runs(loop, config.runs, sockets)),
+          feeds(config.runs),
           timer(loop),
           rules{config.host, browsers.local_endpoint().port(), config.token},
           host{.rules = rules,
                .page = view::live_page(config.title),
                .allow_control = config.allow_control,
                .counts = counts,
+               .connections = connections,
                .joined = [this](const std::shared_ptr<Client>& client) { return join(client); },
                .control = [this](const std::string& words) { control(words); }} {}
 
     void accept_runs() {
-        runs.async_accept([this](const boost::system::error_code& error, Feed::Socket socket) {
-            if (error) return;
-            if (feeds.size() < config.runs) add_run(std::move(socket));
-            accept_runs();
-        });
+        for (std::size_t run = 0; run < runs.size(); ++run) {
+            runs[run].async_accept([this, run](const boost::system::error_code& error, Feed::Socket socket) {
+                if (!error) add_run(run, std::move(socket));
+            });
+        }
     }
 
-    void add_run(Feed::Socket socket) {
-        const std::size_t run = feeds.size();
-        feeds.push_back(std::make_shared<Feed>(
+    void add_run(std::size_t run, Feed::Socket socket) {
+        feeds[run] = std::make_shared<Feed>(
             std::move(socket),
             Feed::Events{.block = [this, run](std::uint8_t kind,
                                               std::string_view content) { take(run, kind, content); },
-                         .closed = [this, run] { pacer.ended(run), ++ended; }}));
-        feeds.back()->start();
+                         .closed = [this, run] { pacer.ended(run), ++ended; }});
+        feeds[run]->start();
     }
 
     void take(std::size_t run, std::uint8_t kind, std::string_view content) {
@@ -92,8 +111,12 @@ struct LiveServer::State {
 
     void accept_browsers() {
         browsers.async_accept([this](const boost::system::error_code& error, Client::Socket socket) {
-            if (error) return;
-            std::make_shared<Client>(std::move(socket), host)->start();
+            if (error == asio::error::operation_aborted) return;
+            if (!error && connections < most_connections) {
+                std::make_shared<Client>(std::move(socket), host)->start();
+            } else {
+                ++counts.refused;  // One too many for this server, or for the system.
+            }
             accept_browsers();
         });
     }
@@ -130,12 +153,24 @@ struct LiveServer::State {
     void control(const std::string& words) {
         const core::Json json = core::Json::parse(words);
         const std::string what = json.at("do").get<std::string>();
-        if (what == "pause") return pacer.pause();
-        if (what == "go") return pacer.go();
-        if (what == "step") return pacer.step();
-        const double times = what == "speed" ? json.at("times").get<double>() : -1.0;
-        if (!(times >= 0.0 && times <= fastest)) throw std::invalid_argument("no such control");
-        pacer.set_speed(times);
+        if (what == "pause") {
+            pacer.pause();
+        } else if (what == "go") {
+            pacer.go();
+        } else if (what == "step") {
+            pacer.step();
+        } else {
+            const double times = what == "speed" ? json.at("times").get<double>() : -1.0;
+            if (!(times >= 0.0 && times <= fastest)) throw std::invalid_argument("no such control");
+            pacer.set_speed(times);
+        }
+        say_status();
+    }
+
+    void say_status() {
+        last_status = Clock::now();
+        for (const auto& client : clients)
+            client->say(status_of(*client));
     }
 
     bool is_over() const { return ended >= config.runs; }
@@ -151,45 +186,56 @@ struct LiveServer::State {
         last_tick = now;
         const double allowed_s = pacer.allow(passed_s);
         if (allowed_s > Pacer::waiting) {
-            for (const auto& feed : feeds)
-                feed->allow(allowed_s);
+            for (const auto& feed : feeds) {
+                if (feed) feed->allow(allowed_s);
+            }
         }
         if (hub.has_begun()) greet_waiting();
         forget_closed();
-        if (now - last_status >= status_period) {
-            last_status = now;
-            for (const auto& client : clients)
-                client->say(status_of(*client));
-        }
-        if (stop() || (is_over() && clients.empty() && waiting.empty())) return loop.stop();
+        if (now - last_status >= status_period) say_status();
+        if (stop() || (is_over() && said_good_bye(now))) return loop.stop();
         timer.expires_after(beat);
         timer.async_wait([this](const boost::system::error_code& error) {
             if (!error) tick();
         });
     }
 
+    /// Whether everybody has what was queued, or had time enough.
+    bool said_good_bye(Clock::time_point now) {
+        if (!over_since) {
+            over_since = now;
+            say_status();
+        }
+        for (const auto& client : clients)
+            client->finish();
+        forget_closed();
+        return clients.empty() || now - *over_since > last_patience;
+    }
+
     LiveConfig config;
-    asio::io_context loop{1};
     LiveCounts counts;
+    std::size_t connections = 0;
+    asio::io_context loop{1};
     detail::Hub hub;
     Pacer pacer;
     asio::ip::tcp::acceptor browsers;
-    asio::local::stream_protocol::acceptor runs;
+    std::vector<RunAcceptor> runs;
+    std::vector<std::shared_ptr<Feed>> feeds;  ///< Null until the run is there.
     asio::steady_timer timer;
     AccessRules rules;
     Client::Host host;
-    std::vector<std::shared_ptr<Feed>> feeds;
     std::vector<std::shared_ptr<Client>> clients, waiting;
     std::size_t ended = 0;
     std::function<bool()> stop;
     Clock::time_point last_tick = Clock::now(), last_status{};
+    std::optional<Clock::time_point> over_since;
 };
 
-LiveServer::LiveServer(const LiveConfig& config, const std::filesystem::path& socket)
-    : state_(std::make_unique<State>(config, socket)) {
-    if (config.token.empty() && !is_loopback(config.host, "--host"))
+LiveServer::LiveServer(const LiveConfig& config, const std::filesystem::path& sockets) {
+    if (!is_loopback(config.host, "--host") && config.token.empty())
         throw core::InputError(
             {"--host", config.host + " can be reached from other machines", "an address with a token", ""});
+    state_ = std::make_unique<State>(config, sockets);
     state_->accept_runs();
     state_->accept_browsers();
 }

@@ -14,8 +14,10 @@ namespace websocket = boost::beast::websocket;
 
 constexpr std::uint32_t most_header_bytes = 8192;
 constexpr std::size_t most_message_bytes = 1024;
-/// Frames wait in a queue up to this; names and words may fill the double.
+/// Frames wait in a queue up to this.
 constexpr std::size_t most_queued_bytes = std::size_t{4} << 20U;
+/// Names and words, which cannot be left out, wait up to this; the drawing of a large city is some 10 MB.
+constexpr std::size_t most_waiting_bytes = std::size_t{64} << 20U;
 constexpr std::chrono::seconds patience{10};
 
 template <class Fields>
@@ -43,11 +45,14 @@ void Client::start() {
 }
 
 void Client::answer(const Request& request) {
+    boost::system::error_code unknown;
+    const auto here = boost::beast::get_lowest_layer(socket_).socket().local_endpoint(unknown);
     const RequestWords words{.method = {request.method_string().data(), request.method_string().size()},
                              .target = {request.target().data(), request.target().size()},
                              .host = field_of(request, http::field::host),
                              .origin = field_of(request, http::field::origin),
-                             .is_upgrade = websocket::is_upgrade(request)};
+                             .is_upgrade = websocket::is_upgrade(request),
+                             .reached = unknown ? std::string() : here.address().to_string()};
     if (const auto refusal = refusal_of(words, host_.rules))
         return answer(refusal->status, refusal->why + "\n", "text/plain; charset=utf-8");
     constexpr unsigned ok = 200;
@@ -92,7 +97,8 @@ void Client::upgrade(const Request& request) {
         }
         self->parser_.reset();
         self->read();
-        if (!self->queue_.empty()) self->write();
+        if (!self->queue_.empty()) return self->write();
+        if (self->is_finishing_) self->close_when_sent();
     });
 }
 
@@ -141,7 +147,7 @@ void Client::send(const SharedMessage& message) {
         }
         waits_for_key_[message->run] = false;
         ++host_.counts.frames_sent;
-    } else if (queued_bytes_ > 2 * most_queued_bytes) {
+    } else if (queued_bytes_ > most_waiting_bytes) {
         is_open_ = false;  // It reads nothing at all.
         boost::beast::get_lowest_layer(socket_).close();
         return;
@@ -157,8 +163,13 @@ void Client::say(std::string words) {
 }
 
 void Client::finish() {
+    if (is_finishing_) return;
     is_finishing_ = true;
-    if (queue_.empty() && is_open_)
+    close_when_sent();
+}
+
+void Client::close_when_sent() {
+    if (queue_.empty() && is_open_ && !parser_)
         socket_.async_close(
             websocket::close_code::normal,
             [self = shared_from_this()](const boost::system::error_code&) { self->is_open_ = false; });
@@ -177,7 +188,7 @@ void Client::write() {
             self->queued_bytes_ -= message->bytes.size();
             self->queue_.pop_front();
             if (!self->queue_.empty()) return self->write();
-            if (self->is_finishing_) self->finish();
+            if (self->is_finishing_) self->close_when_sent();
         });
 }
 

@@ -32,18 +32,24 @@ class Client : public std::enable_shared_from_this<Client> {
         std::string page;
         bool allow_control = false;
         LiveCounts& counts;
+        std::size_t& connections;  ///< That are open now, whatever they ask for.
         std::function<bool(const std::shared_ptr<Client>&)> joined;  ///< False: there are too many.
         std::function<void(const std::string&)> control;             ///< Throws std::exception for bad words.
     };
     Client(Socket socket, const Host& host)
-        : socket_(boost::beast::tcp_stream(std::move(socket))), host_(host) {}
+        : socket_(boost::beast::tcp_stream(std::move(socket))), host_(host) {
+        ++host_.connections;
+    }
+    ~Client() { --host_.connections; }
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
 
     void start();
     /// Queues a message, or leaves out a frame where the queue is full.
     void send(const SharedMessage& message);
     /// JSON words; always queued.
     void say(std::string words);
-    /// Closes once the queue is empty.
+    /// Takes no more messages, and closes once the queue is empty.
     void finish();
     bool is_open() const { return is_open_; }
     std::uint64_t dropped() const { return dropped_; }
@@ -56,6 +62,7 @@ class Client : public std::enable_shared_from_this<Client> {
     void read();
     void take(const std::string& words);
     void write();
+    void close_when_sent();
     void close(boost::beast::websocket::close_code code, const char* why);
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
