@@ -25,6 +25,7 @@ interface Status {
 class LivePage {
   private readonly said = element("p", "status");
   private drawing: Drawing | undefined;
+  private status: Status | undefined;
   private tracks: Track[] = [];
   private player: Player | undefined;
   private control = false;
@@ -50,6 +51,7 @@ class LivePage {
       if (track === undefined) return;
       track.append(bytes.subarray(1));
       this.startWhenAllBegan();
+      this.player?.arrived();
     } catch (error) {
       this.place.append(element("p", "failure", `The stream cannot be shown: ${String(error)}`));
       this.socket.close();
@@ -75,6 +77,7 @@ class LivePage {
     this.place.append(this.player.element);
     this.player.start();
     this.place.dataset.ready = "yes";
+    if (this.status !== undefined) this.showStatus(this.status);
   }
 
   private liveControl(): LiveControl {
@@ -89,6 +92,9 @@ class LivePage {
   }
 
   private showStatus(status: Status): void {
+    this.status = status;
+    if (status.ended) this.player?.over();
+    else this.player?.follow(status.paused, status.speed);
     const lost = status.dropped === 0 ? "" : ` ${status.dropped} frames were left out because this page was too slow.`;
     const pace = status.paused ? "Paused." : status.speed === 0 ? "As fast as possible." : `At ${status.speed} times real time.`;
     this.said.textContent = (status.ended ? "The run is over; what was seen can be played again." : pace) + lost;
@@ -97,7 +103,8 @@ class LivePage {
   }
 
   private closed(): void {
-    this.said.textContent += " The server has closed the connection.";
+    if (this.status?.ended !== true) this.said.textContent += " The server has closed the connection.";
+    this.player?.over();
     this.place.dataset.closed = "yes";
   }
 }

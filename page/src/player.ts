@@ -10,6 +10,8 @@ import type { Moment, Track } from "./track";
 
 const speeds = [0.25, 0.5, 1, 2, 5, 10, 30];
 const followZoom = 2.2;
+/** Two live runs that are further apart are not in step any more: one of them is over, s. */
+const inStep_s = 1.5;
 /** Seconds that an arrow key moves the clock; with Shift ten times that. */
 const keyStep_s = 1;
 
@@ -26,6 +28,14 @@ export interface PlayOptions {
   note: string;
   followed: string;
   live?: LiveControl;
+}
+
+function speedText(times: number): string {
+  return times === 0 ? "as fast as possible" : `${times}×`;
+}
+
+function speedTexts(): { text: string; value: string }[] {
+  return speeds.map((times) => ({ text: speedText(times), value: String(times) }));
 }
 
 export class Player {
@@ -45,6 +55,11 @@ export class Player {
   private time_s: number;
   private speed = 5;
   private playing = false;
+  /** Where the run happens now; no more once it is over. */
+  private live: LiveControl | undefined;
+  /** Whether the newest frame of a live run is shown, whatever comes. */
+  private newest = true;
+  private readonly speedChoice: HTMLSelectElement;
   private following = true;
   private last_ms = 0;
   private pending = 0;
@@ -57,15 +72,18 @@ export class Player {
     private readonly tracks: Track[],
     private readonly options: PlayOptions,
   ) {
-    this.time_s = options.live === undefined ? this.firstTime() : this.end_s;
+    this.live = options.live;
+    this.time_s = this.live === undefined ? this.firstTime() : this.newest_s;
     this.timeLine = new TimeLine((time_s) => this.show(time_s));
     this.curves = new Curves((time_s) => this.show(time_s));
     this.leaseLists = tracks.map((track) => new LeaseList(track, (signal) => drawing.signals[signal]?.id ?? "?"));
     this.captions = tracks.map(() => element("div", "caption"));
     this.playButton = button("▶", "Play or pause (space)", () => this.togglePlay());
+    const speed = choice("Speed", speedTexts(), String(this.speed), (value) => this.setSpeed(Number(value)));
+    this.speedChoice = speed.querySelector("select") as HTMLSelectElement;
     const follow = toggle("follow the emergency vehicle", true, (on) => this.setFollowing(on));
     this.followBox = follow.querySelector("input") as HTMLInputElement;
-    const place = this.build(follow);
+    const place = this.build(speed, follow);
     this.map = new MapCanvas(place, drawing, tracks.map((track, i) => new Pane(i, track, drawing)), {
       moved: (camera) => this.moveTo(camera),
       drawn: () => (this.element.dataset.drawn = String(++this.drawn)),
@@ -82,7 +100,31 @@ export class Player {
     if (this.followed.some((slot) => slot !== undefined)) this.camera.zoom = Math.max(this.camera.zoom, followZoom);
     this.refreshCurves(true);
     this.draw();
-    if (this.options.live !== undefined) this.play(true);
+    if (this.live !== undefined) this.play(true);
+  }
+
+  /** What the server of a live run says: whether the runs wait, and their pace. */
+  follow(paused: boolean, speed: number): void {
+    if (this.live === undefined) return;
+    this.chooseSpeed(speed);
+    if (this.live.allowed && paused === this.playing && this.newest) this.play(!paused);
+  }
+
+  /** A live run has gone on. */
+  arrived(): void {
+    if (this.live === undefined || !this.newest || this.playing) return;
+    this.time_s = this.newest_s;
+    this.draw();
+  }
+
+  /** From now on this is the replay of what was seen. */
+  over(): void {
+    if (this.live === undefined) return;
+    this.live = undefined;
+    this.play(false);
+    if (this.speed === 0) this.chooseSpeed(5);
+    this.refreshCurves(true);
+    this.draw();
   }
 
   end(): void {
@@ -97,6 +139,7 @@ export class Player {
   show(time_s: number): void {
     this.play(false);
     this.time_s = this.clamped(time_s);
+    this.newest = this.time_s >= this.newest_s - 1e-6;
     this.draw();
   }
 
@@ -114,6 +157,12 @@ export class Player {
     return Math.max(...this.tracks.map((track) => track.end_s));
   }
 
+  /** The last moment that all live runs have reached; those that are over do not count. */
+  private get newest_s(): number {
+    const { end_s } = this;
+    return Math.min(...this.tracks.map((track) => track.end_s).filter((time_s) => time_s >= end_s - inStep_s));
+  }
+
   private firstTime(): number {
     const departures = this.tracks.flatMap((track) =>
       track.marks.filter((mark) => mark.kind === "departure").map((mark) => mark.time_s),
@@ -125,7 +174,7 @@ export class Player {
     return Math.min(Math.max(time_s, this.begin_s), this.end_s);
   }
 
-  private build(follow: HTMLElement): HTMLElement {
+  private build(speed: HTMLElement, follow: HTMLElement): HTMLElement {
     const panes = element("div", `panes of-${this.tracks.length}`);
     const place = element("div", "map");
     place.tabIndex = 0;
@@ -135,7 +184,7 @@ export class Player {
       "Map of the run. Space plays, arrows move the time, plus and minus zoom, F follows the emergency vehicle.",
     );
     panes.append(place, ...this.captions);
-    this.element.append(panes, this.controls(follow), this.timeLine.element, this.layerSwitches());
+    this.element.append(panes, this.controls(speed, follow), this.timeLine.element, this.layerSwitches());
     this.element.append(this.curves.element);
     const leases = element("div", "lease-lists");
     leases.append(...this.leaseLists.map((list) => list.element));
@@ -144,15 +193,13 @@ export class Player {
     return place;
   }
 
-  private controls(follow: HTMLElement): HTMLElement {
+  private controls(speed: HTMLElement, follow: HTMLElement): HTMLElement {
     const row = element("div", "controls");
     const { live } = this.options;
     row.append(this.playButton);
     row.append(button("‹", "One frame back (comma)", () => this.step(-1)));
     row.append(button("›", "One frame on (full stop)", () => this.step(1)));
-    const options = speeds.map((times) => ({ text: `${times}×`, value: String(times) }));
-    if (live === undefined || live.allowed)
-      row.append(choice("Speed", options, String(this.speed), (value) => this.setSpeed(Number(value))));
+    if (live === undefined || live.allowed) row.append(speed);
     row.append(this.clock, follow);
     row.append(button("+", "Nearer (plus)", () => this.zoom(0.5)), button("−", "Farther (minus)", () => this.zoom(-0.5)));
     row.append(button("whole", "The whole network (W)", () => this.look(this.map.whole())));
@@ -254,11 +301,26 @@ export class Player {
 
   private setSpeed(times: number): void {
     this.speed = times;
-    this.options.live?.speed(times);
+    this.live?.speed(times);
+  }
+
+  /** Shows a speed, of which the server of a live run may have one of its own. */
+  private chooseSpeed(times: number): void {
+    this.speed = times;
+    const value = String(times);
+    if (![...this.speedChoice.options].some((option) => option.value === value))
+      this.speedChoice.add(new Option(speedText(times), value));
+    this.speedChoice.value = value;
   }
 
   private step(direction: -1 | 1): void {
-    if (this.options.live?.allowed === true && direction > 0 && this.time_s >= this.end_s - 1e-6) this.options.live.step();
+    if (this.live?.allowed === true) {
+      if (direction > 0 && this.newest) {
+        this.live.step();
+        return this.play(false);
+      }
+      if (this.playing) this.live.pause();
+    }
     const times = this.tracks.map((track) => track.beside(this.time_s, direction));
     this.show(direction < 0 ? Math.max(...times.filter((time) => time < this.time_s), this.begin_s) : this.nextOf(times));
   }
@@ -269,9 +331,10 @@ export class Player {
   }
 
   private togglePlay(): void {
-    const { live } = this.options;
+    const { live } = this;
     if (live?.allowed === true) this.playing ? live.pause() : live.go();
-    if (!this.playing && live === undefined && this.time_s >= this.end_s - 1e-6) this.time_s = this.begin_s;
+    if (live !== undefined) this.newest = live.allowed || !this.playing;
+    else if (!this.playing && this.time_s >= this.end_s - 1e-6) this.time_s = this.begin_s;
     this.play(!this.playing);
   }
 
@@ -286,8 +349,8 @@ export class Player {
   private tick(): void {
     const now_ms = performance.now();
     const passed_s = ((now_ms - this.last_ms) / 1000) * this.speed;
-    if (this.options.live !== undefined) {
-      this.time_s = this.end_s;
+    if (this.live !== undefined) {
+      this.time_s = this.newest_s;
       this.chooseFollowed();
       this.refreshCurves(false);
       this.last_ms = now_ms;
@@ -298,7 +361,7 @@ export class Player {
       this.last_ms = now_ms;
       this.draw();
     }
-    if (this.options.live === undefined && this.time_s >= this.end_s) return this.play(false);
+    if (this.live === undefined && this.time_s >= this.end_s) return this.play(false);
     this.pending = requestAnimationFrame(() => this.tick());
   }
 
