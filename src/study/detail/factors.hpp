@@ -48,7 +48,7 @@ struct Factors {
 
 /// Reads `[factors]`. Adds problems (unknown group, no list, an empty list, a value that is not a number,
 /// text, truth value or list of texts, an unknown setting) to `problems`.
-Factors read_factors(const toml::table& table, const SettingsPlace& place,
+Factors read_factors(const toml::table& table, const SettingsPlace& settings,
                      std::vector<core::Problem>& problems);
 
 /// What a factor changes.
