@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import collections
 import math
+import operator
 import os
 import shutil
 import tempfile
@@ -160,7 +161,8 @@ class Env(_Base):
         if actions.shape != self._nvec.shape or actions.dtype.kind not in "iu":
             raise _program.InputError(f"an action of shape {actions.shape} and type {actions.dtype} (allowed: {len(self._nvec)} whole "
                                       "numbers, one for each signal, then one for each automated vehicle)")
-        if ((actions < 0) | (actions >= self._nvec)).any():
+        values = actions.tolist()  # some numbers are compared sooner in Python than in numpy
+        if any(map(operator.ge, values, self._choices)) or min(values) < 0:
             wrong = int(np.argmax((actions < 0) | (actions >= self._nvec)))
             raise _program.InputError(f"action {wrong} is {actions[wrong]} (allowed: 0 to {self._nvec[wrong] - 1})")
         return actions

@@ -60,7 +60,7 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const core::Er
                  const std::filesystem::path& folder) {
     results::RunError error = error_of(unit, key, folder);
     const bool is_python = dynamic_cast<const python::PartError*>(&cause) != nullptr;
-    error.cause = is_python                                        ? results::ErrorCause::other
+    error.cause = is_python                                        ? results::ErrorCause::python
                   : cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
                                                                    : results::ErrorCause::simulator;
     error.message = cause.what();

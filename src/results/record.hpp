@@ -63,14 +63,16 @@ enum class ErrorCause : std::uint8_t {
     time_limit,  ///< It exceeded the wall time limit.
     memory,      ///< It exceeded the memory limit.
     bad_input,   ///< The scenario is invalid; never tried again.
+    python,      ///< A part that is the user's Python code failed.
     other,
 };
-constexpr core::Spellings<ErrorCause, 6> spellings(ErrorCause) {
+constexpr core::Spellings<ErrorCause, 7> spellings(ErrorCause) {
     return {{{ErrorCause::simulator, "simulator"},
              {ErrorCause::signal, "signal"},
              {ErrorCause::time_limit, "time_limit"},
              {ErrorCause::memory, "memory"},
              {ErrorCause::bad_input, "bad_input"},
+             {ErrorCause::python, "python"},
              {ErrorCause::other, "other"}}};
 }
 using core::name;

@@ -334,6 +334,7 @@ class FaultTest(FolderCase):
             if name != "Dies":
                 self.assertIn("Traceback", found)
                 self.assertIn("bad.py" if name != "Nothing" else "act", found)
+        self.assertEqual(set(results.errors["cause"]), {"python"})
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
 
