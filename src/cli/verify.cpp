@@ -13,6 +13,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/programs.hpp"
+#include "cli/detail/stored_job.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
@@ -131,28 +132,20 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
     study::Plan plan;
     plan.manifest = store.manifest();
     std::map<std::string, std::size_t> unit_of;
-    const std::filesystem::path folder = std::filesystem::absolute(store.folder());
     for (const experiment::RunKey& key : keys) {
-        const auto condition =
-            std::ranges::find(plan.manifest.conditions, key.condition, &experiment::ConditionSpec::name);
-        const std::string name = fmt::format("{}-{:05}-{}", key.scenario, key.replication,
-                                             experiment::name(condition->traffic_model));
+        experiment::RunJob job = stored_job(store, key, out);
+        if (std::filesystem::exists(trace::recording_file(store.folder(), key)))
+            job.recording = experiment::StepRecording::on;
+        const std::string name =
+            fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(job.traffic_model));
         const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
         if (is_new) {
-            experiment::RunJob spec;
-            spec.scenario = key.scenario;
-            spec.scenario_file = folder / "scenarios" / key.scenario / "scenario.toml";
-            spec.network_folder = folder / "scenarios" / key.scenario / "network";
-            spec.study_seed = plan.manifest.study_seed;
-            spec.replication = key.replication;
-            spec.traffic_model = condition->traffic_model;
-            spec.output = std::filesystem::absolute(out);
-            plan.units.push_back({name, std::move(spec)});
+            plan.units.push_back({name, std::move(job)});
+            continue;
         }
-        experiment::RunJob& spec = plan.units[unit->second].unit;
-        spec.conditions.push_back(*condition);
-        if (std::filesystem::exists(trace::recording_file(folder, key)))
-            spec.recording = experiment::StepRecording::on;
+        experiment::RunJob& together = plan.units[unit->second].unit;
+        together.conditions.push_back(job.conditions.front());
+        if (job.recording == experiment::StepRecording::on) together.recording = job.recording;
     }
     return plan;
 }

@@ -9,6 +9,7 @@
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "drivers/detail/drawn_reaction.hpp"
 #include "truth/snapshot.hpp"
 
 namespace clearway::drivers {
@@ -49,8 +50,7 @@ struct RequestConfig {
 /// single-threaded.
 class Listeners {
   public:
-    Listeners(const core::KeyedRandom& random, const RequestConfig& config)
-        : random_(random), config_(config) {}
+    Listeners(const core::KeyedRandom& random, const RequestConfig& config);
 
     /// Drivers who take requests from this step on, ordered by key. Valid until the next call. None if
     /// compliance is 0.
@@ -62,11 +62,8 @@ class Listeners {
         core::Seconds last;
     };
 
-    bool complies(core::VehicleKey driver) const;
-    double reaction_s(core::VehicleKey driver) const;
-
-    core::KeyedRandom random_;
     RequestConfig config_;
+    detail::DrawnReaction reactions_;
     std::map<core::VehicleKey, Hearing> heard_;
     std::vector<core::VehicleKey> ready_;
 };

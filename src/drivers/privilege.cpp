@@ -7,7 +7,7 @@
 
 #include "drivers/detail/gap_across.hpp"
 #include "roads/route.hpp"
-#include "traffic/signal.hpp"
+#include "traffic/passing_red.hpp"
 
 namespace clearway::drivers {
 namespace {
@@ -99,14 +99,10 @@ void Privilege::judge_red(const truth::Snapshot& snapshot, const traffic::Roster
     for (const roads::StopLine& line :
          roads::signals_ahead(network_, route, state, core::Metres(config_.red_near_m))) {
         const std::string& shown = snapshot.signals.state[line.signal.value];
-        const bool is_red = std::ranges::any_of(line.links, [&](std::uint16_t link) {
-            return link >= shown.size() || !traffic::is_green(shown[link]);
-        });
-        if (!is_red) continue;
+        if (!traffic::holds_back(shown, line.links)) continue;
         use.passes_red = true;
-        const double distance_m = std::max(0.0, line.distance.value);
         const double speed_mps =
-            std::sqrt(config_.red_mps * config_.red_mps + 2.0 * config_.red_braking_mps2 * distance_m);
+            traffic::speed_before_line(config_.red_mps, config_.red_braking_mps2, line.distance.value);
         if (speed_mps < info->maximum_speed_mps) use.speed_mps = speed_mps;
         return;
     }

@@ -1,32 +1,22 @@
 #include "drivers/siren.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "roads/route.hpp"
 
 namespace clearway::drivers {
-namespace {
-
-/// Numbers of the random draws made for one driver.
-constexpr std::uint64_t compliance_draw = 0;
-constexpr std::uint64_t reaction_draw = 1;
-
-}  // namespace
 
 Siren::Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
              const ReactionConfig& reaction)
-    : network_(network), random_(random), config_(config), reaction_(reaction) {}
-
-bool Siren::complies(core::VehicleKey driver) const {
-    return random_.uniform(core::Purpose::siren_reaction, driver.value, compliance_draw) < config_.compliance;
-}
-
-double Siren::reaction_s(core::VehicleKey driver) const {
-    const double deviation = random_.normal(core::Purpose::siren_reaction, driver.value, reaction_draw);
-    return std::max(reaction_.fastest_reaction_s,
-                    config_.reaction_mean_s + config_.reaction_deviation_s * deviation);
-}
+    : network_(network),
+      config_(config),
+      reaction_(reaction),
+      reactions_(random,
+                 {.compliance = config.compliance,
+                  .mean_s = config.reaction_mean_s,
+                  .deviation_s = config.reaction_deviation_s,
+                  .fastest_s = reaction.fastest_reaction_s},
+                 detail::siren_draws) {}
 
 void Siren::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                  const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
@@ -57,7 +47,7 @@ void Siren::hear(const truth::Snapshot& snapshot, const traffic::Roster& roster,
             continue;
         const auto distance = roads::distance_ahead(network_, route, state, snapshot.motion(row),
                                                     core::Metres(config_.audible_m));
-        if (!distance || !complies(snapshot.key[row])) continue;
+        if (!distance || !reactions_.complies(snapshot.key[row])) continue;
         const bool in_lane =
             roads::advance(network_, route, state, *distance).state.lane == snapshot.lane[row];
         Driver fresh;
@@ -72,7 +62,7 @@ void Siren::act(core::VehicleKey key, Driver& driver, const truth::Snapshot& sna
                 const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
     if (!snapshot.row_of(key)) return;
     const bool is_heard = (snapshot.time - driver.last_heard).value <= reaction_.memory_s;
-    const bool has_reacted = (snapshot.time - driver.noticed).value >= reaction_s(key);
+    const bool has_reacted = (snapshot.time - driver.noticed).value >= reactions_.reaction_s(key);
     const bool holds = is_heard && has_reacted && driver.position == Position::beside;
     if (holds != driver.is_holding) {
         driver.is_holding = holds;

@@ -8,6 +8,7 @@
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "drivers/detail/drawn_reaction.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
 #include "traffic/siren.hpp"
@@ -71,8 +72,6 @@ class Siren {
         core::Seconds asked_until{-1e9};
     };
 
-    bool complies(core::VehicleKey driver) const;
-    double reaction_s(core::VehicleKey driver) const;
     void hear(const truth::Snapshot& snapshot, const traffic::Roster& roster, core::VehicleIndex emergency);
     void act(core::VehicleKey key, Driver& driver, const truth::Snapshot& snapshot,
              const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands);
@@ -80,9 +79,9 @@ class Siren {
                     const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands);
 
     const roads::Network& network_;
-    core::KeyedRandom random_;
     SirenConfig config_;
     ReactionConfig reaction_;
+    detail::DrawnReaction reactions_;
     std::map<core::VehicleKey, Driver> drivers_;
 };
 

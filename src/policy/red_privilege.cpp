@@ -1,10 +1,9 @@
 #include "policy/red_privilege.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "policy/detail/approach.hpp"
-#include "traffic/signal.hpp"
+#include "traffic/passing_red.hpp"
 
 namespace clearway::policy {
 namespace {
@@ -20,19 +19,15 @@ void RedPrivilege::act(const traffic::BelievedGraph& belief, std::vector<traffic
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     const auto shows_red = [&](const detail::Approach& approach) {
-        const std::string& shown = belief.signals.state[approach.signal.value];
-        return std::ranges::any_of(approach.own_links, [&](std::uint16_t link) {
-            return link >= shown.size() || !traffic::is_green(shown[link]);
-        });
+        return traffic::holds_back(belief.signals.state[approach.signal.value], approach.own_links);
     };
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const auto ahead = detail::approaches(view, emergency, core::Metres(config_.near_m));
         const auto red = std::ranges::find_if(ahead, shows_red);
         if (red == ahead.end()) continue;
         write.add(emergency.key, traffic::PassRed{}, "a red signal ahead", emergency.key);
-        const double distance_m = std::max(0.0, red->distance_m);
         const double speed_mps =
-            std::sqrt(config_.passing_mps * config_.passing_mps + 2.0 * config_.braking_mps2 * distance_m);
+            traffic::speed_before_line(config_.passing_mps, config_.braking_mps2, red->distance_m);
         if (speed_mps < view.allowed_speed(emergency).value)
             write.add(emergency.key, traffic::DriveAt{core::MetresPerSecond(speed_mps)},
                       "slows down for a red signal", emergency.key);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/detail/replay_trips.hpp"
+#include "cli/detail/stored_job.hpp"
 #include "cli/detail/worker_jobs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -83,20 +84,10 @@ class MissingRecordings {
             std::ranges::find(made_, key) != made_.end())
             return;
         made_.push_back(key);
-        const auto& conditions = store_.manifest().conditions;
-        const auto condition = std::ranges::find(conditions, key.condition, &experiment::ConditionSpec::name);
         const std::string name =
             fmt::format("replay-{}-{:05}-{}", key.scenario, key.replication, key.condition);
-        experiment::RunJob job;
-        job.scenario = key.scenario;
-        job.scenario_file = folder / "scenarios" / key.scenario / "scenario.toml";
-        job.network_folder = folder / "scenarios" / key.scenario / "network";
-        job.study_seed = store_.manifest().study_seed;
-        job.replication = key.replication;
-        job.traffic_model = condition->traffic_model;
+        experiment::RunJob job = stored_job(store_, key, folder);
         job.recording = experiment::StepRecording::on;
-        job.conditions = {*condition};
-        job.output = folder;
         jobs_.push_back({.label = experiment::to_text(key),
                          .job = job,
                          .file = store_.unit_file(name),
