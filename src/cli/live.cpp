@@ -165,17 +165,16 @@ void say_address(const server::LiveConfig& config, std::uint16_t port) {
                                     : "it shows and takes no orders");
 }
 
-/// Makes the runs and serves them. Returns ok, or why they did not finish.
-core::ExitCode show(const std::vector<experiment::RunJob>& units, const server::LiveConfig& config) {
+/// Makes the runs while `server` shows them. Returns ok, or why they did not finish.
+core::ExitCode show(const std::vector<experiment::RunJob>& units, server::LiveServer& server,
+                    const std::filesystem::path& sockets, const server::LiveConfig& config) {
     const core::InterruptionWatch interruption;
-    const core::TemporaryFolder sockets;
-    server::LiveServer server(config, sockets.path());
+    const core::TemporaryFolder work(units.front().output / "work" / fmt::format("live-{}", ::getpid()));
     Workers workers;
-    const std::filesystem::path work = units.front().output / "work" / fmt::format("live-{}", ::getpid());
     std::size_t run = 0;
     for (experiment::RunJob unit : units) {
-        unit.live = experiment::LiveSpec{server::socket_of(sockets.path(), run++)};
-        workers.start(unit, work / unit.conditions.front().name);
+        unit.live = experiment::LiveSpec{server::socket_of(sockets, run++)};
+        workers.start(unit, work.path() / unit.conditions.front().name);
     }
     say_address(config, server.port());
     server.run([&] { return interruption.signal() != 0 || workers.has_failed(); });
@@ -185,10 +184,7 @@ core::ExitCode show(const std::vector<experiment::RunJob>& units, const server::
     if (interruption.signal() != 0) return interruption.exit_code(core::ExitCode::ok);
     if (workers.has_failed()) workers.end();
     workers.wait();
-    const core::ExitCode code = workers.report();
-    std::error_code ignored;
-    if (code == core::ExitCode::ok) std::filesystem::remove_all(work, ignored);
-    return code;
+    return workers.report();
 }
 
 core::ExitCode live(Arguments arguments, const Invocation& invocation) {
@@ -201,16 +197,20 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
                            .command = invocation.command,
                            .tables = arguments.tables};
     const study::Plan plan = plan_for(study_of(arguments, conditions), options);
-    const results::Store store = prepare_run_folder(plan, options);
     std::vector<experiment::RunJob> units;
-    std::string title = plan.manifest.study + ":";
+    arguments.server.title = plan.manifest.study + ":";
     for (const experiment::ConditionSpec& condition : conditions) {
         units.push_back(unit_of(plan, condition));
-        title += " " + condition.name;
+        arguments.server.title += " " + condition.name;
     }
     arguments.server.runs = units.size();
-    arguments.server.title = title;
-    const core::ExitCode code = show(units, arguments.server);
+    const core::TemporaryFolder sockets;
+    // Before the run folder: an address that cannot be served leaves none.
+    server::LiveServer server(arguments.server, sockets.path());
+    const results::Store store = prepare_run_folder(plan, options);
+    const core::ExitCode code = show(units, server, sockets.path(), arguments.server);
+    std::error_code ignored;
+    std::filesystem::remove(store.folder() / "work", ignored);  // if it is empty
     if (code != core::ExitCode::ok) return code;
     const study::StudyResult result = run_missing(plan, store, options);
     return was_interrupted(result) ? result.exit_code : publish(store, {options.printing, options.tables});
@@ -223,6 +223,7 @@ void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
         ->option_text(fmt::format("ADDRESS [{}]", server.host))
         ->group(group);
     app.add_option("--port", server.port, "Port to listen at; 0: any that is free")
+        ->check(core::NumberRange{0.0, 65535.0})
         ->option_text(fmt::format("PORT, 0 to 65535 [{}]", server.port))
         ->group(group);
     app.add_option("--token", server.token,

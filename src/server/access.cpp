@@ -61,6 +61,16 @@ std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules
     return std::nullopt;
 }
 
+void check_token(const std::string& token, const std::string& where) {
+    constexpr std::size_t longest = 128;
+    constexpr std::string_view allowed =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";  // unreserved, RFC 3986, 2.3
+    if (token.size() <= longest && token.find_first_not_of(allowed) == std::string::npos) return;
+    throw core::InputError({where, "the token cannot stand in an address as it is",
+                            fmt::format("letters, digits and - . _ ~, {} at most", longest),
+                            "Without --token one is drawn where it is needed"});
+}
+
 bool is_loopback(const std::string& address, const std::string& where) {
     boost::system::error_code error;
     const auto parsed = boost::asio::ip::make_address(address, error);

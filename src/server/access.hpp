@@ -33,6 +33,10 @@ struct Refusal {
 /// leads here; a WebSocket must come from this server's own page (`Origin`). Pure.
 std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules& rules);
 
+/// Throws core::InputError, naming `where`, for a token that an address cannot carry as it is: letters,
+/// digits and `-._~`, 128 at most. An empty one means none.
+void check_token(const std::string& token, const std::string& where);
+
 /// Whether an address means this machine alone. Throws core::InputError, naming `where`, for text that is no
 /// address.
 bool is_loopback(const std::string& address, const std::string& where);

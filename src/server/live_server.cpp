@@ -50,9 +50,11 @@ asio::ip::tcp::acceptor listen_at(asio::io_context& loop, const LiveConfig& conf
         const asio::ip::tcp::endpoint place(asio::ip::make_address(config.host), config.port);
         return {loop, place, true};
     } catch (const boost::system::system_error& error) {
+        const bool is_elsewhere = error.code() == boost::system::errc::address_not_available;
         throw core::EnvironmentError(fmt::format(
-            "cannot serve at {} port {}: {}. Choose another with --port, or 0 for any that is free",
-            config.host, config.port, error.code().message()));
+            "cannot serve at {} port {}: {}. {}", config.host, config.port, error.code().message(),
+            is_elsewhere ? "--host takes an address of this machine, or 0.0.0.0 for all of them"
+                         : "Choose another with --port, or 0 for any that is free"));
     }
 }
 
@@ -232,6 +234,7 @@ struct LiveServer::State {
 };
 
 LiveServer::LiveServer(const LiveConfig& config, const std::filesystem::path& sockets) {
+    check_token(config.token, "--token");
     if (!is_loopback(config.host, "--host") && config.token.empty())
         throw core::InputError(
             {"--host", config.host + " can be reached from other machines", "an address with a token", ""});

@@ -41,7 +41,7 @@ class LiveServer {
   public:
     /// Listens for runs in `sockets`, a folder, and for browsers. Throws core::EnvironmentError for a port
     /// that is taken or an address that is not of this machine, core::InputError for one that others can
-    /// reach without a token.
+    /// reach without a token and for a token that an address cannot carry.
     LiveServer(const LiveConfig& config, const std::filesystem::path& sockets);
     ~LiveServer();
     LiveServer(const LiveServer&) = delete;

@@ -135,6 +135,18 @@ TEST(Access, browsers_leave_out_port_80) {
     EXPECT_FALSE(refusal_of(words, rules));
 }
 
+TEST(Access, a_token_can_stand_in_an_address_as_it_is) {
+    check_token("", "--token");
+    check_token("aZ09-._~", "--token");
+    check_token(std::string(128, 'x'), "--token");
+    for (const std::string& token :
+         {std::string("a b"), std::string("a&b"), std::string("a#b"), std::string("100%"),
+          std::string("\xc3\xa4"), std::string("a\0b", 3), std::string(129, 'x')})
+        EXPECT_THAT(support::message_of<core::InputError>([&] { check_token(token, "--token"); }),
+                    AllOf(HasSubstr("--token"), HasSubstr("letters, digits and - . _ ~, 128 at most")))
+            << token;
+}
+
 TEST(Access, an_address_is_of_this_machine_alone_or_not) {
     EXPECT_TRUE(is_loopback("127.0.0.1", "--host"));
     EXPECT_TRUE(is_loopback("127.3.2.1", "--host"));

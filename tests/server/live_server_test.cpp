@@ -322,7 +322,8 @@ TEST(LiveServer, an_address_of_another_machine_is_told) {
     config.host = "192.0.2.7";
     config.token = "secret";
     EXPECT_THAT(support::message_of<core::EnvironmentError>([&] { LiveServer(config, folder.path()); }),
-                AllOf(HasSubstr("192.0.2.7"), HasSubstr("Cannot assign")));
+                AllOf(HasSubstr("192.0.2.7"), HasSubstr("Cannot assign"),
+                      HasSubstr("--host takes an address of this machine")));
 }
 
 }  // namespace
