@@ -2,7 +2,7 @@
 
 import { element } from "./controls";
 import { type Drawing, readDrawing } from "./drawing";
-import { type LiveControl, Player } from "./player";
+import { followHash, type LiveControl, Player } from "./player";
 import { streamFormat } from "./stream";
 import { type About, Track } from "./track";
 
@@ -76,6 +76,9 @@ class LivePage {
     this.player = new Player(this.drawing, this.tracks, { note: "", followed: "", live: this.liveControl() });
     this.place.append(this.player.element);
     this.player.start();
+    const { player } = this;
+    addEventListener("hashchange", () => followHash(player));
+    followHash(player);
     this.place.dataset.ready = "yes";
     if (this.status !== undefined) this.showStatus(this.status);
   }

@@ -4,7 +4,7 @@ import { element } from "./controls";
 import { type Drawing, readDrawing } from "./drawing";
 import { startLive } from "./live";
 import { unpacked } from "./packed";
-import { Player } from "./player";
+import { followHash, Player } from "./player";
 import { streamFormat } from "./stream";
 import { adoptStyle } from "./style";
 import { type About, Track } from "./track";
@@ -37,8 +37,9 @@ class PlayChooser {
       throw new Error(`the data is of format ${this.data.format}, this page reads ${streamFormat}`);
     if (this.data.plays.length > 1) this.place.append(this.menu());
     await this.play(0);
-    addEventListener("hashchange", () => this.followHash());
-    this.followHash();
+    const follow = () => this.player !== undefined && followHash(this.player);
+    addEventListener("hashchange", follow);
+    follow();
   }
 
   private menu(): HTMLElement {
@@ -73,15 +74,6 @@ class PlayChooser {
     const drawing = readDrawing(new TextDecoder().decode(await unpacked(this.data.drawings[number] as string)));
     this.drawings.set(number, drawing);
     return drawing;
-  }
-
-  /** `#time=61.5&x=120&y=40&zoom=3`: a moment and a place (m from the lower left corner). */
-  private followHash(): void {
-    const words = new URLSearchParams(location.hash.slice(1));
-    const number = (name: string) => (words.has(name) ? Number(words.get(name)) : Number.NaN);
-    const [x, y, zoom, time_s] = [number("x"), number("y"), number("zoom"), number("time")];
-    if (Number.isFinite(time_s)) this.player?.show(time_s);
-    if (Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(zoom)) this.player?.look({ x, y, zoom });
   }
 }
 

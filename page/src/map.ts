@@ -1,9 +1,9 @@
 // Draws one or two panes into one canvas with deck.gl.
 
 import { Deck, type Layer, OrthographicView, type OrthographicViewState } from "@deck.gl/core";
-import { PathLayer } from "@deck.gl/layers";
-import type { Drawing, DrawnLane } from "./drawing";
-import { Pane, type Shown } from "./pane";
+import type { Drawing } from "./drawing";
+import type { Pane, Shown } from "./pane";
+import { RoadLayer } from "./road_layer";
 import { dark, light, type Theme } from "./theme";
 import type { Moment } from "./track";
 
@@ -14,10 +14,18 @@ export interface Camera {
   zoom: number;
 }
 
+/** Whether the processor draws, because the browser has no GPU. Smooth edges would take half of a frame's time. */
+function drawsInSoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  const names = probe?.getExtension("WEBGL_debug_renderer_info");
+  const renderer = names ? String(probe?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  probe?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(renderer);
+}
+
 export class MapCanvas {
   private readonly deck: Deck<OrthographicView[]>;
   private theme: Theme = light;
-  private roads: Layer | undefined;
   private stacked = false;
 
   constructor(
@@ -32,7 +40,7 @@ export class MapCanvas {
       controller: { scrollZoom: false, keyboard: false, dragRotate: false },
       touchAction: "pan-y",
       useDevicePixels: true,
-      deviceProps: { type: "webgl", webgl: { preserveDrawingBuffer: true } },
+      deviceProps: { type: "webgl", webgl: { preserveDrawingBuffer: true, antialias: !drawsInSoftware() } },
       layerFilter: ({ layer, viewport }) => !layer.id.includes(":") || layer.id.startsWith(`${viewport.id}:`),
       onViewStateChange: ({ viewState, interactionState }) => {
         const { isDragging, isPanning, isZooming } = interactionState as Record<string, boolean | undefined>;
@@ -51,7 +59,6 @@ export class MapCanvas {
   /** Takes the colours of the page: light or dark. */
   recolour(): void {
     this.theme = matchMedia("(prefers-color-scheme: dark)").matches && !matchMedia("print").matches ? dark : light;
-    this.roads = this.roadLayer();
     this.place.style.background = `rgb(${this.theme.background.slice(0, 3).join(",")})`;
   }
 
@@ -71,7 +78,9 @@ export class MapCanvas {
   }
 
   draw(moments: Moment[], cameras: Camera[], shown: Shown): void {
-    const layers: Layer[] = this.roads === undefined ? [] : [this.roads];
+    const metresPerPixel = 2 ** -(cameras[0] as Camera).zoom;
+    const { lanes } = this.drawing;
+    const layers: Layer[] = [new RoadLayer({ id: "roads", lanes, colours: this.theme.lanes, metresPerPixel })];
     const viewState: Record<string, OrthographicViewState> = {};
     this.panes.forEach((pane, i) => {
       const camera = cameras[i] as Camera;
@@ -109,21 +118,5 @@ export class MapCanvas {
           height: size(this.stacked),
         } as never),
     );
-  }
-
-  private roadLayer(): Layer {
-    const order = { walk: 0, junction: 1, road: 2 };
-    const lanes = [...this.drawing.lanes].sort((one, other) => order[one.kind] - order[other.kind]);
-    return new PathLayer<DrawnLane>({
-      id: "roads",
-      data: lanes,
-      getPath: (lane) => lane.path as never,
-      positionFormat: "XY",
-      getColor: (lane) => this.theme.lanes[lane.kind],
-      getWidth: (lane) => lane.width_m * 0.94,
-      widthUnits: "common",
-      widthMinPixels: 1,
-      updateTriggers: { getColor: this.theme },
-    });
   }
 }

@@ -1,12 +1,12 @@
 // The layers of one run at one moment.
 
 import { type Layer } from "@deck.gl/core";
-import { LineLayer, ScatterplotLayer } from "@deck.gl/layers";
+import { ScatterplotLayer } from "@deck.gl/layers";
+import { Boxes, BoxLayer, hollow } from "./box_layer";
 import type { Drawing } from "./drawing";
 import { type FrameState, type Ghost, linkFactor } from "./stream";
 import { type Rgba, signalColour, type Theme } from "./theme";
 import type { Moment, Track } from "./track";
-import { VehicleLayer } from "./vehicle_layer";
 
 export interface Shown {
   links: [boolean, boolean, boolean];
@@ -22,9 +22,8 @@ const markLasts_s = 3;
 
 export class Pane {
   private places = new Float32Array(0);
-  private bodies = new Float32Array(0);
-  private colours = new Uint8Array(0);
   private rows = 0;
+  private readonly boxes = new Map<string, Boxes>();
   private ghosts = new Map<number, Ghost>();
 
   constructor(
@@ -41,14 +40,13 @@ export class Pane {
 
   layers(moment: Moment, shown: Shown, theme: Theme, metresPerPixel: number): Layer[] {
     this.place(moment);
-    this.paint(moment.now, theme);
     this.ghosts = new Map(moment.now.ghosts.map((ghost) => [ghost.slot, ghost]));
     const layers: Layer[] = [this.signalLayer(moment.now, theme, metresPerPixel)];
     for (const kind of [0, 1, 2] as const) {
-      if (shown.links[kind]) layers.push(this.linkLayer(kind, moment, theme));
+      if (shown.links[kind]) layers.push(this.linkLayer(kind, moment, theme, metresPerPixel));
     }
-    if (shown.ghosts) layers.push(...this.ghostLayers(moment, theme));
-    layers.push(this.vehicleLayer(metresPerPixel));
+    if (shown.ghosts) layers.push(...this.ghostLayers(moment, theme, metresPerPixel));
+    layers.push(this.vehicleLayer(moment.now, theme, metresPerPixel));
     if (shown.leases) layers.push(...this.leaseLayers(moment, theme));
     layers.push(this.alarmLayer(moment, theme));
     return layers;
@@ -56,6 +54,14 @@ export class Pane {
 
   private id(name: string): string {
     return `${this.index}:${name}`;
+  }
+
+  /** The empty list of the boxes of a layer. */
+  private emptied(name: string): Boxes {
+    const known = this.boxes.get(name) ?? new Boxes();
+    this.boxes.set(name, known);
+    known.clear();
+    return known;
   }
 
   /** Places between the two frames of the moment. */
@@ -83,76 +89,48 @@ export class Pane {
 
   private grow(rows: number): void {
     if (this.places.length >= 3 * rows) return;
-    const room = Math.ceil(rows * 1.5);
-    this.places = new Float32Array(3 * room);
-    this.bodies = new Float32Array(3 * room);
-    this.colours = new Uint8Array(4 * room);
+    this.places = new Float32Array(3 * Math.ceil(rows * 1.5));
   }
 
-  private paint(now: FrameState, theme: Theme): void {
+  private vehicleLayer(now: FrameState, theme: Theme, metresPerPixel: number): Layer {
+    const boxes = this.emptied("vehicles");
     for (let row = 0; row < now.count; ++row) {
       const vehicle = this.track.names.vehicles[now.slot[row] as number];
-      const vehicleClass = vehicle?.vehicleClass ?? 0;
-      const colour = theme.vehicles[vehicleClass as 0 | 1 | 2];
-      this.bodies[3 * row] = vehicle?.length_m ?? 5;
-      this.bodies[3 * row + 1] = vehicle?.width_m ?? 1.8;
-      this.bodies[3 * row + 2] = vehicleClass + (now.dark[row] === 1 ? 4 : 0);
-      this.colours.set(colour, 4 * row);
+      const vehicleClass = (vehicle?.vehicleClass ?? 0) as 0 | 1 | 2;
+      // Visible from afar, too.
+      const least = metresPerPixel * (vehicleClass === 2 ? 1.35 : 1);
+      const length_m = Math.max(vehicle?.length_m ?? 5, 7 * least);
+      const width_m = Math.max(vehicle?.width_m ?? 1.8, 4 * least);
+      const heading = this.places[3 * row + 2] as number;
+      const along: [number, number] = [Math.cos(heading), Math.sin(heading)];
+      // A place is the middle of the front.
+      const x = (this.places[3 * row] as number) - along[0] * length_m;
+      const y = (this.places[3 * row + 1] as number) - along[1] * length_m;
+      const shape = vehicleClass + (now.dark[row] === 1 ? hollow : 0);
+      boxes.add(x, y, along, [length_m, width_m], shape, theme.vehicles[vehicleClass]);
     }
-  }
-
-  private vehicleLayer(metresPerPixel: number): Layer {
-    return new VehicleLayer({
-      id: this.id("vehicles"),
-      data: {
-        length: this.rows,
-        attributes: {
-          instancePlaces: { value: this.places, size: 3 },
-          instanceBodies: { value: this.bodies, size: 3 },
-          instanceColours: { value: this.colours, size: 4, normalized: true },
-        },
-      },
-      least_m: [7 * metresPerPixel, 4 * metresPerPixel],
-    });
+    return BoxLayer.of(this.id("vehicles"), boxes);
   }
 
   private signalLayer(now: FrameState, theme: Theme, metresPerPixel: number): Layer {
-    return new LineLayer({
-      id: this.id("signals"),
-      data: this.drawing.signals.flatMap((signal) => signal.stopLines),
-      getSourcePosition: (line) => line.from,
-      getTargetPosition: (line) => line.to,
-      getColor: (line) => signalColour(now.signals[line.signal]?.[line.link], theme),
-      getWidth: Math.max(0.8, 2.5 * metresPerPixel),
-      widthUnits: "common",
-      updateTriggers: { getColor: [now.signals.join(","), theme] },
-      dataComparator: () => true,
-    });
+    const boxes = this.emptied("signals");
+    const width_m = Math.max(0.8, 2.5 * metresPerPixel);
+    for (const signal of this.drawing.signals) {
+      for (const line of signal.stopLines)
+        boxes.line(line.from, line.to, width_m, signalColour(now.signals[line.signal]?.[line.link], theme));
+    }
+    return BoxLayer.of(this.id("signals"), boxes);
   }
 
-  private linkLayer(kind: 0 | 1 | 2, moment: Moment, theme: Theme): Layer {
-    const from: number[] = [];
-    const to: number[] = [];
+  private linkLayer(kind: 0 | 1 | 2, moment: Moment, theme: Theme, metresPerPixel: number): Layer {
+    const boxes = this.emptied(`links-${kind}`);
+    const width_m = ([3, 2, 2][kind] as number) * metresPerPixel;
     for (const link of moment.now.links[kind]) {
       const one = this.endOf(Math.floor(link / linkFactor), kind, moment);
       const other = this.endOf(link % linkFactor, kind, moment);
-      if (one === undefined || other === undefined) continue;
-      from.push(one[0], one[1], 0);
-      to.push(other[0], other[1], 0);
+      if (one !== undefined && other !== undefined) boxes.line(one, other, width_m, theme.links[kind]);
     }
-    return new LineLayer({
-      id: this.id(`links-${kind}`),
-      data: {
-        length: from.length / 3,
-        attributes: {
-          getSourcePosition: { value: new Float32Array(from), size: 3 },
-          getTargetPosition: { value: new Float32Array(to), size: 3 },
-        },
-      },
-      getColor: theme.links[kind],
-      getWidth: [3, 1.5, 1.5][kind] as number,
-      widthUnits: "pixels",
-    });
+    return BoxLayer.of(this.id(`links-${kind}`), boxes);
   }
 
   /** A believed link ends where its vehicle is believed to be. */
@@ -162,13 +140,17 @@ export class Pane {
     return this.placeOf(slot, moment);
   }
 
-  private ghostLayers(moment: Moment, theme: Theme): Layer[] {
+  private ghostLayers(moment: Moment, theme: Theme, metresPerPixel: number): Layer[] {
     const { quantum_m } = this.drawing;
     const ghosts = moment.now.ghosts.map((ghost) => ({
       at: [ghost.x * quantum_m, ghost.y * quantum_m] as [number, number],
       sigma_m: ghost.sigma_m,
       truth: this.placeOf(ghost.slot, moment),
     }));
+    const errors = this.emptied("ghost-error");
+    for (const { at, truth } of ghosts) {
+      if (truth !== undefined) errors.line(at, truth, metresPerPixel, theme.ghost);
+    }
     return [
       new ScatterplotLayer({
         id: this.id("sigma"),
@@ -183,15 +165,7 @@ export class Pane {
         lineWidthUnits: "pixels",
         getLineWidth: 1.5,
       }),
-      new LineLayer({
-        id: this.id("ghost-error"),
-        data: ghosts.filter((ghost) => ghost.truth !== undefined),
-        getSourcePosition: (ghost) => ghost.at,
-        getTargetPosition: (ghost) => ghost.truth as [number, number],
-        getColor: theme.ghost,
-        getWidth: 1,
-        widthUnits: "pixels",
-      }),
+      BoxLayer.of(this.id("ghost-error"), errors),
     ];
   }
 

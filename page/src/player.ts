@@ -63,6 +63,8 @@ export class Player {
   private following = true;
   private last_ms = 0;
   private pending = 0;
+  /** Pictures that were asked for, and those that were drawn: one may show what several asked for. */
+  private asked = 0;
   private drawn = 0;
   private journeysAt_s = Number.NEGATIVE_INFINITY;
   private readonly ends: (() => void)[] = [];
@@ -86,7 +88,10 @@ export class Player {
     const place = this.build(speed, follow);
     this.map = new MapCanvas(place, drawing, tracks.map((track, i) => new Pane(i, track, drawing)), {
       moved: (camera) => this.moveTo(camera),
-      drawn: () => (this.element.dataset.drawn = String(++this.drawn)),
+      drawn: () => {
+        this.element.dataset.drawn = String(++this.drawn);
+        this.element.dataset.shown = this.element.dataset.asked;
+      },
       failed: (why) => this.fail(why),
     });
     this.listen(place);
@@ -107,10 +112,12 @@ export class Player {
   follow(paused: boolean, speed: number): void {
     if (this.live === undefined) return;
     this.chooseSpeed(speed);
-    if (this.live.allowed && paused === this.playing && this.newest) this.play(!paused);
+    if (!this.live.allowed || paused !== this.playing || !this.newest) return;
+    this.play(!paused);
+    this.arrived();
   }
 
-  /** A live run has gone on. */
+  /** A live run has gone on, or waits and its last frame was not shown yet. */
   arrived(): void {
     if (this.live === undefined || !this.newest || this.playing) return;
     this.time_s = this.newest_s;
@@ -336,6 +343,7 @@ export class Player {
     if (live !== undefined) this.newest = live.allowed || !this.playing;
     else if (!this.playing && this.time_s >= this.end_s - 1e-6) this.time_s = this.begin_s;
     this.play(!this.playing);
+    if (live?.allowed === true) this.arrived();
   }
 
   private play(on: boolean): void {
@@ -385,6 +393,7 @@ export class Player {
   private draw(): void {
     const moments = this.tracks.map((track) => track.at(this.time_s));
     if (this.calm.matches) moments.forEach((moment) => (moment.share = 0));
+    this.element.dataset.asked = String(++this.asked);
     this.map.draw(moments, this.cameras(moments), this.shown);
     this.timeLine.show(this.time_s, this.begin_s, this.end_s, this.tracks);
     this.curves.at(this.time_s);
@@ -435,4 +444,13 @@ export class Player {
     if (this.element.querySelector(".failure") !== null) return;
     this.element.prepend(element("p", "failure", `The map cannot be drawn: ${why}. It needs WebGL 2.`));
   }
+}
+
+/** `#time=61.5&x=120&y=40&zoom=3`: a moment and a place (m from the lower left corner). */
+export function followHash(player: Player): void {
+  const words = new URLSearchParams(location.hash.slice(1));
+  const number = (name: string) => (words.has(name) ? Number(words.get(name)) : Number.NaN);
+  const [x, y, zoom, time_s] = [number("x"), number("y"), number("zoom"), number("time")];
+  if (Number.isFinite(time_s)) player.show(time_s);
+  if (Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(zoom)) player.look({ x, y, zoom });
 }

@@ -22,8 +22,8 @@ export function startBrowser() {
   });
 }
 
-/** Opens a page that waits long and keeps what goes wrong: errors, and requests that leave it. */
-export async function openPage(browser, address, options = {}) {
+/** Opens a page that waits long and keeps what goes wrong: errors, and requests that leave it. `prepare` sees it before it loads. */
+export async function openPage(browser, address, options = {}, prepare = () => {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   context.setDefaultTimeout(patience_ms);
   const page = await context.newPage();
@@ -35,6 +35,7 @@ export async function openPage(browser, address, options = {}) {
   page.on("request", (request) => {
     if (request.url() !== address && !/^(data|blob):/.test(request.url())) faults.push(`request: ${request.url()}`);
   });
+  prepare(page);
   await page.goto(address);
   await page.waitForSelector(".clearway-player[data-ready]");
   return { page, faults, close: () => context.close() };
@@ -80,15 +81,22 @@ export function alike(one, other, tolerance = 40) {
   return one.every((value, i) => Math.abs(value - other[i]) <= tolerance);
 }
 
-/** Waits until the map has drawn what was asked for last. */
+/** Waits until the map has drawn what was asked for last, and draws no more: new shaders come a moment later. */
 export async function settled(page) {
-  let drawn = "";
-  for (;;) {
-    const now = await page.locator(".play").getAttribute("data-drawn");
-    if (now !== null && now === drawn) return;
-    drawn = now ?? "";
-    await page.waitForTimeout(600);
+  const state = () => page.locator(".play").evaluate(({ dataset }) => (dataset.shown === dataset.asked ? dataset.drawn : ""));
+  for (let drawn = ""; ; ) {
+    const now = await state();
+    if (now !== "" && now === drawn) return;
+    drawn = now;
+    await page.waitForTimeout(250);
   }
+}
+
+/** Pictures to look at, where CLEARWAY_PICTURES names a folder. */
+export async function keepPicture(page, name) {
+  if (process.env.CLEARWAY_PICTURES === undefined) return;
+  await settled(page);
+  await page.screenshot({ path: join(process.env.CLEARWAY_PICTURES, `${name}.png`), fullPage: true });
 }
 
 /** Rows by the text of one cell, in their order. */

@@ -6,7 +6,7 @@ import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { deflateSync } from "node:zlib";
-import { folder, openPage, startBrowser } from "./browser.mjs";
+import { alike, folder, openPage, pixelsOf, startBrowser } from "./browser.mjs";
 
 const vehicles = Number(process.argv[2] ?? 5000);
 const frames = 400;
@@ -99,7 +99,7 @@ function processorTime() {
 }
 
 const browser = await startBrowser();
-const { page } = await openPage(browser, pathToFileURL(writePage()).href);
+const { page, faults } = await openPage(browser, pathToFileURL(writePage()).href);
 const drawn = async () => Number(await page.locator(".play").getAttribute("data-drawn"));
 await page.getByLabel("Speed").selectOption("1");
 await page.locator(".map").focus();
@@ -107,6 +107,15 @@ await page.keyboard.press("w");
 await page.keyboard.press("Space");
 // The first frames compile shaders.
 for (const begin = await drawn(); (await drawn()) < begin + 30; ) await page.waitForTimeout(200);
+const picture = await pixelsOf(page, page.locator(".map"));
+let coloured = 0;
+for (let y = 0; y < picture.height; ++y) {
+  for (let x = 0; x < picture.width; ++x) {
+    if ([[214, 154, 0], [32, 110, 235]].some((colour) => alike(picture.at(x, y), colour))) ++coloured;
+  }
+}
+if (faults.length > 0 || coloured < 4 * vehicles)
+  throw new Error(`the vehicles are not on the screen: ${coloured} of their pixels; ${faults.join("; ")}`);
 const before = processorTime();
 const first = await drawn();
 const begin_ms = performance.now();

@@ -5,7 +5,8 @@ import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { alike, clearway, folder, grouped, openPage, patience_ms, pixelsOf, rows, settled, startBrowser } from "./browser.mjs";
+import { alike, clearway, folder, grouped, keepPicture, openPage, patience_ms, pixelsOf, rows, settled, startBrowser } from "./browser.mjs";
+import { compareVehicles, isInside, middleOf, onScreen, readNetwork } from "./screen.mjs";
 
 const options = { timeout: 4 * patience_ms };
 const run = "runs/mine/city/corridor/0";
@@ -23,57 +24,13 @@ before(async () => {
 }, options);
 after(() => browser?.close());
 
-const classColours = { human: [214, 154, 0], automated: [32, 110, 235], emergency: [225, 0, 40] };
 const signalColours = {
   G: [0, 165, 80], g: [130, 200, 60], y: [250, 190, 0], Y: [250, 190, 0], u: [250, 190, 0],
   r: [200, 30, 30], R: [200, 30, 30], s: [200, 30, 30],
 };
 
-/** Lanes and signal links of SUMO's network file, read here a second time. */
-function readNetwork() {
-  const text = readFileSync(join(folder, "runs/mine/scenarios/city/network/network.net.xml"), "utf8");
-  const attribute = (tag, name) => new RegExp(` ${name}="([^"]*)"`).exec(tag)?.[1];
-  const shapes = new Map();
-  let left = Infinity;
-  let low = Infinity;
-  for (const [tag] of text.matchAll(/<lane [^>]*>/g)) {
-    const points = attribute(tag, "shape").split(" ").map((point) => point.split(",").map(Number));
-    shapes.set(attribute(tag, "id"), points);
-    for (const [x, y] of points) {
-      left = Math.min(left, x);
-      low = Math.min(low, y);
-    }
-  }
-  const lanes = new Map();
-  for (const [tag] of text.matchAll(/<connection [^>]*>/g)) {
-    const signal = attribute(tag, "tl");
-    if (signal === undefined) continue;
-    const lane = `${attribute(tag, "from")}_${attribute(tag, "fromLane")}`;
-    const links = lanes.get(lane) ?? { signal, shape: shapes.get(lane), links: new Set() };
-    lanes.set(lane, { ...links, links: links.links.add(Number(attribute(tag, "linkIndex"))) });
-  }
-  const stopLines = [...lanes.values()].map((lane) => ({ ...lane, at: lane.shape.at(-1) }));
-  return { origin: [Math.floor(left), Math.floor(low)], stopLines };
-}
-
-/** Where a place of the network is on the screen. */
-function onScreen(picture, camera, [x, y]) {
-  const scale = 2 ** camera.zoom;
-  return [picture.width / 2 + (x - camera.x) * scale, picture.height / 2 - (y - camera.y) * scale];
-}
-
-function isInside(picture, [x, y]) {
-  return x > 12 && y > 48 && x < picture.width - 12 && y < picture.height - 12;
-}
-
-function middleOf(vehicle) {
-  const half_m = vehicle.class === "emergency" ? 3 : 2;
-  const heading = Number(vehicle.heading_rad);
-  return [Number(vehicle.x_m) - half_m * Math.cos(heading), Number(vehicle.y_m) - half_m * Math.sin(heading)];
-}
-
 test("at ten moments vehicles and signals are on the screen where the recording has them", options, async () => {
-  const { origin, stopLines } = readNetwork();
+  const { origin, stopLines } = readNetwork(join(folder, "runs/mine/scenarios/city/network/network.net.xml"));
   const snapshot = grouped(rows(clearway("replay", run, "--csv", "snapshot")), "time_s");
   const signals = grouped(rows(clearway("replay", run, "--csv", "signals")), "time_s");
   const times = [...snapshot.keys()].filter((time) => snapshot.get(time).some((row) => row.class === "emergency"));
@@ -95,19 +52,15 @@ test("at ten moments vehicles and signals are on the screen where the recording 
     await settled(page);
     assert.equal(Number(await page.locator(".play").getAttribute("data-time")), Number(time));
     const picture = await pixelsOf(page, page.locator(".map"));
-    const place = ([px, py]) => onScreen(picture, camera, [px - origin[0], py - origin[1]]);
+    const pane = { left: 0, width: picture.width, height: picture.height };
+    const place = ([px, py]) => onScreen(pane, camera, [px - origin[0], py - origin[1]]);
+    const seen = compareVehicles(picture, pane, camera, origin, present);
+    assert.deepEqual(seen.wrong, []);
+    count.vehicles += seen.vehicles;
+    count.displaced += seen.displaced;
     const middles = present.map(middleOf);
-    present.forEach((row, k) => {
-      const at = place(middles[k]);
-      // Where two overlap on the screen, the upper one counts.
-      if (!isInside(picture, at) || middles.some((other, j) => j !== k && Math.hypot(other[0] - middles[k][0], other[1] - middles[k][1]) < 7)) return;
-      ++count.vehicles;
-      const colour = picture.at(...at);
-      assert.ok(alike(colour, classColours[row.class]), `${row.vehicle} at ${time} s is ${colour} on the screen`);
-      if (alike(picture.at(at[0] + 25, at[1] + 25), classColours[row.class])) ++count.displaced;
-    });
     for (const { signal, at, shape, links } of stopLines) {
-      if (!isInside(picture, place(at)) || middles.some((other) => Math.hypot(other[0] - at[0], other[1] - at[1]) < 8)) continue;
+      if (!isInside(pane, place(at)) || middles.some((other) => Math.hypot(other[0] - at[0], other[1] - at[1]) < 8)) continue;
       const [x, y] = shape.at(-2);
       const length = Math.hypot(at[0] - x, at[1] - y);
       const left = [(y - at[1]) / length, (at[0] - x) / length];
@@ -136,49 +89,40 @@ test("at ten moments vehicles and signals are on the screen where the recording 
   await close();
 });
 
-for (const width of [360, 768, 1440]) {
-  for (const colorScheme of ["light", "dark"]) {
-    test(`every control works at ${width} px, ${colorScheme}`, options, async () => {
-      const { page, faults, close } = await openPage(browser, address(pair), {
-        viewport: { width, height: 800 }, colorScheme, reducedMotion: width === 768 ? "reduce" : "no-preference",
-      });
-      const time = async () => Number(await page.locator(".play").getAttribute("data-time"));
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is too wide");
-      const begin_s = await time();
-      await page.getByRole("button", { name: "One frame on" }).click();
-      assert.ok(Math.abs((await time()) - begin_s - 0.25) < 1e-6);
-      await page.getByRole("button", { name: "One frame back" }).click();
-      assert.ok(Math.abs((await time()) - begin_s) < 1e-6);
-      await page.getByLabel("Speed").selectOption("30");
-      await page.getByRole("button", { name: "Play or pause" }).click();
-      await page.waitForFunction((from) => Number(document.querySelector(".play").dataset.time) > from + 2, begin_s);
-      await page.getByRole("button", { name: "Play or pause" }).click();
-      const paused_s = await time();
-      for (const name of ["true links", "observed links", "believed links", "ghosts", "leases"]) {
-        const box = page.getByLabel(name, { exact: true });
-        await box.setChecked(!(await box.isChecked()));
-      }
-      for (const name of ["Nearer", "Farther", "The whole network"]) await page.getByRole("button", { name }).click();
-      assert.equal(await page.getByLabel("follow the emergency vehicle").isChecked(), false);
-      assert.equal(await time(), paused_s, "only the clock moves the time");
-      await page.getByLabel("follow the emergency vehicle").check();
-      const captions = await page.locator(".caption").allTextContents();
-      assert.match(captions[0], /^baseline: /);
-      assert.match(captions[1], /^corridor: /);
-      const field = await page.evaluate(() => getComputedStyle(document.querySelector(".caption")).backgroundColor);
-      assert.equal(field, colorScheme === "dark" ? "rgb(34, 38, 45)" : "rgb(255, 255, 255)");
-      await keepPicture(page, `${width}-${colorScheme}`);
-      assert.deepEqual(faults, []);
-      await close();
+for (const [width, colorScheme] of [[360, "light"], [360, "dark"], [768, "dark"], [1440, "light"]]) {
+  test(`every control works at ${width} px, ${colorScheme}`, options, async () => {
+    const { page, faults, close } = await openPage(browser, address(pair), {
+      viewport: { width, height: 800 }, colorScheme, reducedMotion: width === 768 ? "reduce" : "no-preference",
     });
-  }
-}
-
-/** Pictures to look at, where CLEARWAY_PICTURES names a folder. */
-async function keepPicture(page, name) {
-  if (process.env.CLEARWAY_PICTURES === undefined) return;
-  await settled(page);
-  await page.screenshot({ path: join(process.env.CLEARWAY_PICTURES, `replay-${name}.png`), fullPage: true });
+    const time = async () => Number(await page.locator(".play").getAttribute("data-time"));
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is too wide");
+    const begin_s = await time();
+    await page.getByRole("button", { name: "One frame on" }).click();
+    assert.ok(Math.abs((await time()) - begin_s - 0.25) < 1e-6);
+    await page.getByRole("button", { name: "One frame back" }).click();
+    assert.ok(Math.abs((await time()) - begin_s) < 1e-6);
+    await page.getByLabel("Speed").selectOption("30");
+    await page.getByRole("button", { name: "Play or pause" }).click();
+    await page.waitForFunction((from) => Number(document.querySelector(".play").dataset.time) > from + 2, begin_s);
+    await page.getByRole("button", { name: "Play or pause" }).click();
+    const paused_s = await time();
+    for (const name of ["true links", "observed links", "believed links", "ghosts", "leases"]) {
+      const box = page.getByLabel(name, { exact: true });
+      await box.setChecked(!(await box.isChecked()));
+    }
+    for (const name of ["Nearer", "Farther", "The whole network"]) await page.getByRole("button", { name }).click();
+    assert.equal(await page.getByLabel("follow the emergency vehicle").isChecked(), false);
+    assert.equal(await time(), paused_s, "only the clock moves the time");
+    await page.getByLabel("follow the emergency vehicle").check();
+    const captions = await page.locator(".caption").allTextContents();
+    assert.match(captions[0], /^baseline: /);
+    assert.match(captions[1], /^corridor: /);
+    const field = await page.evaluate(() => getComputedStyle(document.querySelector(".caption")).backgroundColor);
+    assert.equal(field, colorScheme === "dark" ? "rgb(34, 38, 45)" : "rgb(255, 255, 255)");
+    await keepPicture(page, `replay-${width}-${colorScheme}`);
+    assert.deepEqual(faults, []);
+    await close();
+  });
 }
 
 test("the keyboard alone does everything", options, async () => {
