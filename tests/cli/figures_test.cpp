@@ -1,0 +1,107 @@
+// Figures and tables of a study as files, from the command line.
+#include <map>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+class FiguresTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario();
+    }
+
+    void run() const {
+        const Ended ended = clearway({"run", "line", "--seeds", "2", "--no-solo", "--policy", "dissertation",
+                                      "--name", "mine", "--out", "study"});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+    }
+    /// How many files a folder has, by their ending.
+    std::map<std::string, std::size_t> files(const std::string& name) const {
+        std::map<std::string, std::size_t> count;
+        for (const auto& entry : std::filesystem::directory_iterator(folder() / name))
+            ++count[entry.path().extension()];
+        return count;
+    }
+    /// A PATH without the program that draws pixels.
+    Environment without_rasteriser() const {
+        std::filesystem::create_directory(folder() / "bin");
+        for (const char* const program : {"sh", "netconvert"})
+            std::filesystem::create_symlink(std::filesystem::path("/usr/bin") / program,
+                                            folder() / "bin" / program);
+        return {.environment = {{"PATH", folder() / "bin"}}};
+    }
+};
+
+TEST_F(FiguresTest, every_drawing_becomes_svg_and_png_and_every_table_csv_and_latex) {
+    run();
+    const Ended ended = clearway({"figures", "study", "--out", "new/figures"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, IsEmpty());
+    const auto count = files("new/figures");
+    EXPECT_GE(count.at(".svg"), 5U);
+    EXPECT_EQ(count.at(".png"), count.at(".svg"));
+    EXPECT_GE(count.at(".tex"), 3U);
+    EXPECT_GE(count.at(".csv"), count.at(".tex"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("written to new/figures: " + std::to_string(count.at(".svg")) +
+                          " figures as SVG and PNG, " + std::to_string(count.at(".csv")) +
+                          " tables as CSV, " + std::to_string(count.at(".tex")) + " of them as LaTeX"));
+    EXPECT_TRUE(read("new/figures/tradeoff-line.png").starts_with("\x89PNG"));
+    EXPECT_THAT(read("new/figures/times-line.tex"), HasSubstr("\\toprule"));
+}
+
+TEST_F(FiguresTest, without_png_no_other_program_is_needed) {
+    run();
+    const Environment bare = without_rasteriser();
+    const Ended ended = clearway({"figures", "study", "--out", "figures", "--no-png"}, bare);
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PNG"))));
+    EXPECT_EQ(files("figures").count(".png"), 0U);
+    const Ended lacking = clearway({"figures", "study", "--out", "others"}, bare);
+    EXPECT_EQ(lacking.code, 4);
+    EXPECT_THAT(lacking.err, AllOf(HasSubstr("rsvg-convert cannot be started"), HasSubstr("librsvg2-bin"),
+                                   HasSubstr("--no-png"), HasSubstr("SVG, CSV and LaTeX files are written")));
+    EXPECT_EQ(files("others"), files("figures"));
+}
+
+TEST_F(FiguresTest, a_second_time_gives_the_same_bytes) {
+    run();
+    ASSERT_EQ(clearway({"figures", "study", "--out", "one", "--no-png"}).code, 0);
+    ASSERT_EQ(clearway({"figures", "study", "--out", "two", "--no-png"}).code, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "one")) {
+        const std::string name = entry.path().filename();
+        EXPECT_EQ(read("one/" + name), read("two/" + name)) << name;
+    }
+}
+
+TEST_F(FiguresTest, what_cannot_be_read_or_written_is_told_and_nothing_is_written) {
+    const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& said) {
+        std::vector<std::string> all = {"figures"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Ended ended = clearway(all);
+        EXPECT_EQ(ended.code, code) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(said));
+        EXPECT_THAT(ended.out, IsEmpty());
+        EXPECT_FALSE(std::filesystem::exists(folder() / "figures"));
+    };
+    refused({"nowhere", "--out", "figures"}, 3, "nowhere: is not a run folder: it has no manifest.json");
+    refused({"line", "--out", "figures"}, 3, "line: is not a run folder");
+    refused({}, 2, "folder");
+    run();
+    refused({"study"}, 2, "--out");
+    refused({"study", "--out", "figures", "--pixels"}, 2, "--pixels");
+    refused({"study", "--out", "figures", "--least-difference", "-1"}, 2, "0 to 1");
+    write("taken", "a file");
+    refused({"study", "--out", "taken"}, 4, "taken");
+    refused({"study", "--out", "taken/figures"}, 4, "taken/figures");
+    refused({"study", "--out", "/proc/figures"}, 4, "/proc/figures");
+    EXPECT_EQ(read("taken"), "a file");
+    write("study/manifest.json", "{");
+    refused({"study", "--out", "figures"}, 3, "manifest.json");
+}
+
+}  // namespace
+}  // namespace clearway::cli
