@@ -70,6 +70,9 @@ for (const [width, colorScheme] of [[360, "light"], [360, "dark"], [768, "dark"]
       assert.match(captions[1], /^corridor: \S+, \d+ km\/h; \d+ vehicles$/);
       await expectFollowed(page);
     }
+    const [one, other] = await Promise.all([0, 1].map((i) => page.locator(".curves figure").nth(i).boundingBox()));
+    assert.ok(one.width > 250 && other.width > 250 && one.height < 220, "the curves have room");
+    assert.ok(other.x >= one.x + one.width || other.y >= one.y + one.height, "the curves do not overlap");
     await keepPicture(page, `report-${width}-${colorScheme}`);
     assert.deepEqual(faults, []);
     await close();
