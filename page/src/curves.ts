@@ -72,7 +72,7 @@ export class Curves {
         scales: { x: { time: false } },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         legend: { show: false },
-        axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) }, { ...axis, size: 46 }],
+        axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58 }],
         series: [
           {},
           ...tracks.map((track, i) => ({

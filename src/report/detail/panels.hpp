@@ -15,8 +15,8 @@ inline constexpr double panel_below = 168.0;  ///< From one panel's top to the n
 
 /// Left and upper edge of a panel's axes, by its number.
 inline std::pair<double, double> panel_place(std::size_t number) {
-    constexpr double left = 40.0;     // room for the labels of y
-    constexpr double beside = 196.0;  // from one panel's left edge to the next one's
+    constexpr double left = 44.0;     // room for the labels of y
+    constexpr double beside = 194.0;  // from one panel's left edge to the next one's
     const std::size_t column = number % panel_columns;
     const std::size_t row = number / panel_columns;
     return {left + beside * static_cast<double>(column), panels_top + panel_below * static_cast<double>(row)};
