@@ -99,9 +99,23 @@ TEST_F(ReplayTest, bad_input_of_a_page_is_told) {
     EXPECT_EQ(clearway({"replay", run_of_mine, "--view", "--out", "none/page.html"}).code, 4);
     const std::string whole = read(recording);
     core::write_atomically(folder() / recording, whole.substr(0, whole.size() / 2));
-    const Ended cut = clearway({"replay", run_of_mine, "--view", "--out", "page.html"});
-    EXPECT_EQ(cut.code, 3) << cut.err;
-    EXPECT_FALSE(std::filesystem::exists(folder() / "page.html"));
+    const auto refused = [&](const std::string& of, const std::string& said) {
+        const Ended ended = clearway({"replay", of, "--view", "--out", "page.html"});
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(said));
+        EXPECT_FALSE(std::filesystem::exists(folder() / "page.html"));
+    };
+    refused(run_of_mine, "cut short");
+    std::string other = whole;
+    const std::size_t format = other.find_first_of("0123456789");
+    other.replace(format, 1, "9");
+    core::write_atomically(folder() / recording, other);
+    refused(run_of_mine, "format 9");
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--record", "--run-time-limit", "0.001",
+                        "--out", "failed"})
+                  .code,
+              1);
+    refused("failed/line/corridor/0", "has no recording failed/recordings/line/corridor/00000.h5");
 }
 
 TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {
