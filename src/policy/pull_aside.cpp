@@ -1,15 +1,11 @@
 #include "policy/pull_aside.hpp"
 
-#include <algorithm>
-
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy {
 namespace {
 
 constexpr char policy_name[] = "pull_aside";
-/// A plan is made at least for this distance when the emergency vehicle stands, m: two cells.
-constexpr double least_change_m = 20.0;
 
 }  // namespace
 
@@ -40,11 +36,7 @@ void PullAside::act(const traffic::BelievedGraph& belief, std::vector<traffic::L
             write.add(vehicle.key, traffic::PullAside{}, "in an emergency vehicle's way", emergency.key);
             memory_.note(emergency, vehicle);
         }
-        const double look_m =
-            std::max<double>(least_change_m, config_.change_ahead_s * emergency.state.speed_mps);
-        if (const auto lane = plan.change_within(look_m))
-            write.add(emergency.key, traffic::ChangeLane{*lane}, "the way that is being cleared",
-                      emergency.key);
+        detail::follow(plan, emergency, config_.change_ahead_s, write);
     }
 }
 

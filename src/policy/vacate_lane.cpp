@@ -15,8 +15,6 @@ using detail::VehicleAhead;
 using detail::View;
 
 constexpr char policy_name[] = "vacate_lane";
-/// A plan is made at least for this distance when the emergency vehicle stands, m: two cells.
-constexpr double least_change_m = 20.0;
 
 class Vacating {
   public:
@@ -32,11 +30,7 @@ class Vacating {
 
     void ask() {
         if (ahead_.empty()) return;
-        const double look_m =
-            std::max<double>(least_change_m, config_.change_ahead_s * emergency_.state.speed_mps);
-        if (const auto lane = plan_.change_within(look_m))
-            write_.add(emergency_.key, traffic::ChangeLane{*lane}, "the way that is being cleared",
-                       emergency_.key);
+        detail::follow(plan_, emergency_, config_.change_ahead_s, write_);
         for (const VehicleAhead& other : ahead_) {
             if (audience_.has(*other.vehicle)) ask(other);
         }

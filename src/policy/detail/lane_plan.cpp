@@ -100,4 +100,11 @@ std::optional<std::uint32_t> LanePlan::change_within(double distance_m) const {
     return std::nullopt;
 }
 
+void follow(const LanePlan& plan, const traffic::BelievedVehicle& emergency, double change_ahead_s,
+            LeaseWriter& write) {
+    const double look_m = std::max<double>(2.0 * plan_cell_m, change_ahead_s * emergency.state.speed_mps);
+    if (const auto lane = plan.change_within(look_m))
+        write.add(emergency.key, traffic::ChangeLane{*lane}, "the way that is being cleared", emergency.key);
+}
+
 }  // namespace clearway::policy::detail

@@ -73,6 +73,11 @@ class LanePlan {
     std::vector<std::size_t> plan_;  ///< Column by cell.
 };
 
+/// Asks the emergency vehicle to follow its plan: to change lanes where the plan does so within
+/// `change_ahead_s`, or within two cells if it stands.
+void follow(const LanePlan& plan, const traffic::BelievedVehicle& emergency, double change_ahead_s,
+            LeaseWriter& write);
+
 /// Length of a cell of a plan, m: a car and its gap, and a little.
 inline constexpr double plan_cell_m = 10.0;
 
