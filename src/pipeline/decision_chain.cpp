@@ -1,7 +1,6 @@
 #include "pipeline/decision_chain.hpp"
 
 #include <cmath>
-#include <string_view>
 
 #include "experiment/settings.hpp"
 #include "prediction/oracle.hpp"
@@ -13,11 +12,11 @@ namespace {
 /// The same channels of requests with sensors that report every vehicle as it is.
 sensing::FailureConfig with_perfect_reports(const sensing::FailureConfig& config) {
     sensing::FailureConfig exact = sensing::failure_from("perfect");
-    core::for_each_field<sensing::FailureConfig>([&](const auto& field) {
-        const std::string_view name = field.name;
-        if (name.starts_with("request_") || name.starts_with("signal_request_") || name == "emergency_dark")
-            exact.*field.member = config.*field.member;
-    });
+    const sensing::RequestChannel& to_vehicles = config;
+    const sensing::SignalRequestChannel& to_signals = config;
+    static_cast<sensing::RequestChannel&>(exact) = to_vehicles;
+    static_cast<sensing::SignalRequestChannel&>(exact) = to_signals;
+    exact.emergency_dark = config.emergency_dark;
     return exact;
 }
 

@@ -54,9 +54,8 @@ Requests::Requests(const experiment::ConditionSpec& condition, const ChainContex
 
 Requests::Requests(const experiment::ConditionSpec& condition, const ChainContext& context,
                    const sensing::FailureConfig& failure)
-    : vehicles_(sensing::request_channel(failure), context.random, sensing::Channel::Receivers::vehicles),
-      signals_(sensing::signal_request_channel(failure), context.random,
-               sensing::Channel::Receivers::signals),
+    : vehicles_(failure, context.random, sensing::Channel::Receivers::vehicles),
+      signals_(failure, context.random, sensing::Channel::Receivers::signals),
       equipment_(failure, context.random) {
     for (const roads::Signal& signal : context.network.signals())
         signal_places_.push_back(sensing::place_of(context.network, signal));

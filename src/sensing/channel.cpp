@@ -19,6 +19,11 @@ constexpr PathLoss path_loss(Propagation propagation) {
 /// The formulas hold from about here.
 constexpr double least_distance_m = 1.0;
 
+const ChannelConfig& channel_of(const FailureConfig& config, Channel::Receivers receivers) {
+    if (receivers == Channel::Receivers::vehicles) return static_cast<const RequestChannel&>(config);
+    return static_cast<const SignalRequestChannel&>(config);
+}
+
 double shadowing_correlation(double interval_s) {
     constexpr double decorrelation_m = 10.0;
     constexpr double speed_mps = 50.0 / 3.6;
@@ -27,8 +32,13 @@ double shadowing_correlation(double interval_s) {
 
 }  // namespace
 
-Channel::Channel(const ChannelConfig& config, const core::KeyedRandom& random, Receivers receivers)
+Channel::Channel(const FailureConfig& config, const core::KeyedRandom& random, Receivers receivers)
+    : Channel(channel_of(config, receivers), config.emergency_dark, random, receivers) {}
+
+Channel::Channel(const ChannelConfig& config, EmergencyDark sender_dark, const core::KeyedRandom& random,
+                 Receivers receivers)
     : config_(config),
+      sender_dark_(sender_dark),
       random_(random),
       loss_(receivers == Receivers::vehicles ? core::Purpose::request_loss
                                              : core::Purpose::signal_request_loss),
@@ -46,7 +56,7 @@ MessageNumber Channel::message_at(core::Seconds time) const {
 }
 
 bool Channel::is_silent(std::uint64_t sender, MessageNumber message) const {
-    return config_.sender_dark == EmergencyDark::yes && outages_.dark(sender, message);
+    return sender_dark_ == EmergencyDark::yes && outages_.dark(sender, message);
 }
 
 bool Channel::hears(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,

@@ -33,7 +33,7 @@ class Channel {
   public:
     /// Which draws it uses: requests to vehicles and to signals fail independently.
     enum class Receivers : std::uint8_t { vehicles, signals };
-    Channel(const ChannelConfig& config, const core::KeyedRandom& random, Receivers receivers);
+    Channel(const FailureConfig& config, const core::KeyedRandom& random, Receivers receivers);
 
     bool is_perfect() const { return config_.propagation == Propagation::perfect; }
     const ChannelConfig& config() const { return config_; }
@@ -45,10 +45,13 @@ class Channel {
     bool hears(std::uint64_t sender, std::uint64_t receiver, MessageNumber message, double distance_m) const;
 
   private:
+    Channel(const ChannelConfig& config, EmergencyDark sender_dark, const core::KeyedRandom& random,
+            Receivers receivers);
     bool is_in_reach(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
                      double distance_m) const;
 
     ChannelConfig config_;
+    EmergencyDark sender_dark_;
     core::KeyedRandom random_;
     core::Purpose loss_;
     core::GilbertElliott outages_;

@@ -84,9 +84,8 @@ double least_outage_s(double interval_s, double dark_share) {
 }
 
 /// Checks the settings of one channel, which start with `prefix`.
-void check_channel(const ChannelConfig& channel, ChannelConfig usual, const std::string& prefix,
+void check_channel(const ChannelConfig& channel, const ChannelConfig& usual, const std::string& prefix,
                    std::vector<core::Problem>& problems) {
-    usual.sender_dark = channel.sender_dark;  // Also says which reports are lost.
     if (channel.propagation == Propagation::perfect) {
         if (channel == usual) return;
         problems.push_back({prefix + "propagation", "is perfect, but a setting of the same channel is given",
@@ -161,9 +160,10 @@ void check_together(const FailureConfig& config, const std::string& where,
         problems.push_back({where + ".occlusion", "considered, but no vehicle looks at others", "ignored",
                             "give onboard_range_m or link_detection_rate"});
     }
-    check_channel(request_channel(config), request_channel({}), where + ".request_", problems);
-    check_channel(signal_request_channel(config), signal_request_channel({}), where + ".signal_request_",
+    check_channel(static_cast<const RequestChannel&>(config), RequestChannel{}, where + ".request_",
                   problems);
+    check_channel(static_cast<const SignalRequestChannel&>(config), SignalRequestChannel{},
+                  where + ".signal_request_", problems);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -246,30 +246,6 @@ class FieldReader {
 };
 
 }  // namespace
-
-ChannelConfig request_channel(const FailureConfig& config) {
-    return {.propagation = config.request_propagation,
-            .range_m = config.request_range_m,
-            .loss_rate = config.request_loss_rate,
-            .dark_share = config.request_dark_share,
-            .mean_outage_s = config.request_mean_outage_s,
-            .latency_s = config.request_latency_s,
-            .interval_s = config.request_interval_s,
-            .hops = config.request_hops,
-            .sender_dark = config.emergency_dark};
-}
-
-ChannelConfig signal_request_channel(const FailureConfig& config) {
-    return {.propagation = config.signal_request_propagation,
-            .range_m = config.signal_request_range_m,
-            .loss_rate = config.signal_request_loss_rate,
-            .dark_share = config.signal_request_dark_share,
-            .mean_outage_s = config.signal_request_mean_outage_s,
-            .latency_s = config.signal_request_latency_s,
-            .interval_s = config.signal_request_interval_s,
-            .hops = 1,
-            .sender_dark = config.emergency_dark};
-}
 
 bool reports_fail(const FailureConfig& config) {
     return needs_rounds(config) || config.dark_commands == DarkCommands::lost;

@@ -64,10 +64,33 @@ constexpr core::Spellings<SignalsKnown, 2> spellings(SignalsKnown) {
     return {{{SignalsKnown::no, "0"}, {SignalsKnown::yes, "1"}}};
 }
 
+/// How messages of emergency vehicles travel, as sensing/channel.hpp needs it.
+struct ChannelConfig {
+    Propagation propagation = Propagation::perfect;
+    double range_m = 300.0;
+    double loss_rate = 0.0;
+    double dark_share = 0.0;
+    double mean_outage_s = 10.0;
+    double latency_s = 0.0;
+    double interval_s = 0.5;
+    int hops = 1;
+
+    bool operator==(const ChannelConfig&) const = default;
+};
+/// The way to vehicles and the way to signals. They are bases of FailureConfig and not members, because a
+/// field table lists members of its own struct.
+struct RequestChannel : ChannelConfig {
+    bool operator==(const RequestChannel&) const = default;
+};
+struct SignalRequestChannel : ChannelConfig {
+    constexpr SignalRequestChannel() { range_m = 500.0; }
+    bool operator==(const SignalRequestChannel&) const = default;
+};
+
 /// How sensors report, how requests reach vehicles and signals, and how both fail. The failures combine
 /// freely; each is off by default.
 /// docs/reference/sensing.md explains them.
-struct FailureConfig {
+struct FailureConfig : RequestChannel, SignalRequestChannel {
     double report_interval_s = 1.0;
     double loss_rate = 0.0;
     double dark_share = 0.0;
@@ -97,25 +120,15 @@ struct FailureConfig {
     double emergency_sensor_range_m = 0.0;
     double emergency_sensor_sigma_m = 0.5;
     EmergencyDark emergency_dark = EmergencyDark::yes;
-    Propagation request_propagation = Propagation::perfect;
-    double request_range_m = 300.0;
-    double request_loss_rate = 0.0;
-    double request_dark_share = 0.0;
-    double request_mean_outage_s = 10.0;
-    double request_latency_s = 0.0;
-    double request_interval_s = 0.5;
-    int request_hops = 1;
-    Propagation signal_request_propagation = Propagation::perfect;
-    double signal_request_range_m = 500.0;
-    double signal_request_loss_rate = 0.0;
-    double signal_request_dark_share = 0.0;
-    double signal_request_mean_outage_s = 10.0;
-    double signal_request_latency_s = 0.0;
-    double signal_request_interval_s = 0.5;
 
     bool operator==(const FailureConfig&) const = default;
 
   private:
+    /// A member of one channel as a member of this struct.
+    template <class Way, class Member>
+    static constexpr Member FailureConfig::*of(Member ChannelConfig::*member) {
+        return static_cast<Member Way::*>(member);
+    }
     static constexpr auto report_fields() {
         using C = FailureConfig;
         using core::Field;
@@ -211,51 +224,53 @@ struct FailureConfig {
                   "yes: the frozen presets treat all vehicles alike"});
     }
     static constexpr auto request_fields() {
-        using C = FailureConfig;
+        using C = ChannelConfig;
+        using Way = RequestChannel;
         using core::Field;
         return std::make_tuple(
-            Field{"request_propagation", "", &C::request_propagation, 0, 0,
+            Field{"request_propagation", "", of<Way>(&C::propagation), 0, 0,
                   "Which vehicles hear the requests of an emergency vehicle",
                   "perfect: every vehicle; older conditions had no channel"},
             Field{
-                "request_range_m", "m", &C::request_range_m, 0.0, 10000.0,
+                "request_range_m", "m", of<Way>(&C::range_m), 0.0, 10000.0,
                 "sharp: they are heard within this distance; los and nlos: half of them are at this distance",
                 "300 m: usual for vehicle radios in streets; with 50 m it is the link radius"},
-            Field{"request_loss_rate", "1", &C::request_loss_rate, 0.0, 1.0,
+            Field{"request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,
                   "Share of these messages lost by a receiver in reach, each independently", "off"},
-            Field{"request_dark_share", "1", &C::request_dark_share, 0.0, 0.99,
+            Field{"request_dark_share", "1", of<Way>(&C::dark_share), 0.0, 0.99,
                   "Share of time that a vehicle's receiver spends in outages (Gilbert-Elliott)", "off"},
-            Field{"request_mean_outage_s", "s", &C::request_mean_outage_s, 0.1, 3600.0,
+            Field{"request_mean_outage_s", "s", of<Way>(&C::mean_outage_s), 0.1, 3600.0,
                   "Mean length of an outage of a receiver", "as of reports"},
-            Field{"request_latency_s", "s", &C::request_latency_s, 0.0, 60.0,
+            Field{"request_latency_s", "s", of<Way>(&C::latency_s), 0.0, 60.0,
                   "Time from a decision to its arrival, for each hop", "off"},
-            Field{"request_interval_s", "s", &C::request_interval_s, 0.1, 60.0,
+            Field{"request_interval_s", "s", of<Way>(&C::interval_s), 0.1, 60.0,
                   "Time between two messages of an emergency vehicle; all requests of a decision are one "
                   "message",
                   "0.5 s: every decision at the usual period"},
-            Field{"request_hops", "1", &C::request_hops, 1, 5,
+            Field{"request_hops", "1", of<Way>(&C::hops), 1, 5,
                   "How often a message is sent: beyond 1, automated vehicles that hear it send it on",
                   "1: no relays"});
     }
     static constexpr auto signal_request_fields() {
-        using C = FailureConfig;
+        using C = ChannelConfig;
+        using Way = SignalRequestChannel;
         using core::Field;
         return std::make_tuple(
-            Field{"signal_request_propagation", "", &C::signal_request_propagation, 0, 0,
+            Field{"signal_request_propagation", "", of<Way>(&C::propagation), 0, 0,
                   "Which signals hear the requests of an emergency vehicle",
                   "perfect: every signal; older conditions had no channel"},
-            Field{"signal_request_range_m", "m", &C::signal_request_range_m, 0.0, 10000.0,
+            Field{"signal_request_range_m", "m", of<Way>(&C::range_m), 0.0, 10000.0,
                   "As request_range_m, to the middle of a signal's stop lines",
                   "500 m assumed: a receiver on a mast"},
-            Field{"signal_request_loss_rate", "1", &C::signal_request_loss_rate, 0.0, 1.0,
+            Field{"signal_request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,
                   "Share of these messages lost by a signal in reach, each independently", "off"},
-            Field{"signal_request_dark_share", "1", &C::signal_request_dark_share, 0.0, 0.99,
+            Field{"signal_request_dark_share", "1", of<Way>(&C::dark_share), 0.0, 0.99,
                   "Share of time that a signal's receiver spends in outages (Gilbert-Elliott)", "off"},
-            Field{"signal_request_mean_outage_s", "s", &C::signal_request_mean_outage_s, 0.1, 3600.0,
+            Field{"signal_request_mean_outage_s", "s", of<Way>(&C::mean_outage_s), 0.1, 3600.0,
                   "Mean length of an outage of a signal's receiver", "as of reports"},
-            Field{"signal_request_latency_s", "s", &C::signal_request_latency_s, 0.0, 60.0,
+            Field{"signal_request_latency_s", "s", of<Way>(&C::latency_s), 0.0, 60.0,
                   "Time from a decision to its arrival at the signal", "off"},
-            Field{"signal_request_interval_s", "s", &C::signal_request_interval_s, 0.1, 60.0,
+            Field{"signal_request_interval_s", "s", of<Way>(&C::interval_s), 0.1, 60.0,
                   "Time between two messages of an emergency vehicle to signals", "as of requests"});
     }
 
@@ -269,25 +284,6 @@ struct FailureConfig {
 /// Whether reports are lost, late, wrong, or helped by other sensors, in any way: vehicles are not simply
 /// known as they are.
 bool reports_fail(const FailureConfig& config);
-
-/// One way of requests, as sensing/channel.hpp needs it.
-struct ChannelConfig {
-    Propagation propagation = Propagation::perfect;
-    double range_m = 300.0;
-    double loss_rate = 0.0;
-    double dark_share = 0.0;
-    double mean_outage_s = 10.0;
-    double latency_s = 0.0;
-    double interval_s = 0.5;
-    int hops = 1;
-    EmergencyDark sender_dark = EmergencyDark::yes;
-
-    bool operator==(const ChannelConfig&) const = default;
-};
-/// From emergency vehicles to vehicles.
-ChannelConfig request_channel(const FailureConfig& config);
-/// From emergency vehicles to signals.
-ChannelConfig signal_request_channel(const FailureConfig& config);
 
 /// Everything wrong with a configuration: values out of range, values that contradict each other. `where`
 /// names the place, for example `study.toml: failure`. Empty when all is well.

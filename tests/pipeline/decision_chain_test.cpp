@@ -116,7 +116,11 @@ TEST(Oracle, ObservesWhatSensorsWithoutFaultsWould) {
     EXPECT_EQ(late, sensing::failure_from("report_interval_s=0.1,latency_s=3,position_sigma_m=5"));
     experiment::ConditionSpec with_channel = oracle();
     with_channel.failure = "perfect,request_propagation=sharp";
-    EXPECT_EQ(observed_failure(with_channel).request_propagation, sensing::Propagation::sharp);
+    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from(with_channel.failure));
+    with_channel.failure =
+        "perfect,signal_request_propagation=los,signal_request_range_m=70,request_propagation=nlos,"
+        "request_hops=3,emergency_dark=no";
+    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from(with_channel.failure));
     with_channel.failure = "mixed,signals_known=0";
     EXPECT_EQ(observed_failure(with_channel), sensing::failure_from("perfect")) << "whatever is asked for";
     experiment::ConditionSpec honest;

@@ -17,9 +17,7 @@ constexpr std::uint64_t ambulance = 7;
 constexpr std::uint64_t receivers = 4000;
 
 Channel channel(const std::string& failure, Channel::Receivers kind = Channel::Receivers::vehicles) {
-    const FailureConfig config = failure_from(failure);
-    return {kind == Channel::Receivers::vehicles ? request_channel(config) : signal_request_channel(config),
-            draws(), kind};
+    return {failure_from(failure), draws(), kind};
 }
 
 /// Share of receivers, each other vehicles, that hear one message at a distance.

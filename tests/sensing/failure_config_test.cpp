@@ -203,13 +203,18 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(RequestChannel, ReadsItsFieldsBesideAPreset) {
-    const ChannelConfig channel = request_channel(
-        failure_from("B10,request_propagation=los,request_range_m=120,request_hops=2,request_latency_s=0.1"));
+    const RequestChannel channel =
+        failure_from("B10,request_propagation=los,request_range_m=120,request_hops=2,request_latency_s=0.1");
     EXPECT_EQ(channel.propagation, Propagation::los);
     EXPECT_DOUBLE_EQ(channel.range_m, 120.0);
     EXPECT_EQ(channel.hops, 2);
     EXPECT_DOUBLE_EQ(channel.latency_s, 0.1);
-    EXPECT_EQ(signal_request_channel(failure_from("B10")).propagation, Propagation::perfect);
+    EXPECT_EQ(failure_from("B10").SignalRequestChannel::propagation, Propagation::perfect);
+    const FailureConfig both = failure_from("request_propagation=nlos,signal_request_propagation=los");
+    EXPECT_EQ(both.RequestChannel::propagation, Propagation::nlos);
+    EXPECT_EQ(both.SignalRequestChannel::propagation, Propagation::los);
+    EXPECT_DOUBLE_EQ(both.RequestChannel::range_m, 300.0);
+    EXPECT_DOUBLE_EQ(both.SignalRequestChannel::range_m, 500.0);
 }
 
 TEST(RequestChannel, OfNoReachIsRefused) {
