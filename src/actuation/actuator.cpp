@@ -75,6 +75,7 @@ struct Actuator::State {
 
     const char* check(const traffic::Lease& lease, core::Seconds now) const {
         if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return "expired_on_arrival";
+        if (std::holds_alternative<traffic::Stretch>(lease.target)) return "wrong_target";
         if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target))
             return check_signal_action(network, *signal, lease.action);
         return check_vehicle_action(lease.action);

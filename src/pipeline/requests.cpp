@@ -35,6 +35,19 @@ double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float
     return std::hypot(snapshot.x_m[row] - x_m, snapshot.y_m[row] - y_m);
 }
 
+/// The vehicles that a request asks in truth; none for one to a signal.
+std::vector<core::VehicleKey> meant_by(const traffic::Lease& lease, const truth::Snapshot& snapshot) {
+    if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) return {*vehicle};
+    std::vector<core::VehicleKey> there;
+    if (const auto* const stretch = std::get_if<traffic::Stretch>(&lease.target)) {
+        for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+            if (stretch->has(snapshot.vehicle_class[row], snapshot.motion(row)))
+                there.push_back(snapshot.key[row]);
+        }
+    }
+    return there;
+}
+
 template <class Element>
 void sort_unique(std::vector<Element>& elements) {
     std::sort(elements.begin(), elements.end());
@@ -104,6 +117,8 @@ void Requests::send(const Moment& moment) {
             arrived_.push_back(lease);
         } else if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
             ask_vehicle(lease, *vehicle, moment);
+        } else if (std::holds_alternative<traffic::Stretch>(lease.target)) {
+            ask_stretch(lease, moment);
         } else {
             ask_signal(lease, std::get<core::SignalIndex>(lease.target), moment);
         }
@@ -133,6 +148,16 @@ void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle
         deliver(lease, vehicles_.config().latency_s * hops, moment.snapshot.time);
     } else {
         lost_.push_back(lease);
+    }
+}
+
+void Requests::ask_stretch(const traffic::Lease& lease, const Moment& moment) {
+    if (!vehicles_due_) return;
+    hearing_of(lease.beneficiary, moment);  // The message goes out even where nobody is.
+    for (const core::VehicleKey vehicle : meant_by(lease, moment.snapshot)) {
+        traffic::Lease own = lease;
+        own.target = vehicle;
+        ask_vehicle(own, vehicle, moment);
     }
 }
 
@@ -217,9 +242,9 @@ void Requests::judge(const Moment& moment) {
         informed_->observe(moment.snapshot, moment.roster);
         informed_->decide();
         for (const traffic::Lease& lease : informed_->leases()) {
-            const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
-            if (vehicle != nullptr && is_request(lease))
-                needed_.push_back({lease.beneficiary, *vehicle, lease.action.index()});
+            if (!is_request(lease)) continue;
+            for (const core::VehicleKey vehicle : meant_by(lease, moment.snapshot))
+                needed_.push_back({lease.beneficiary, vehicle, lease.action.index()});
         }
     }
     sort_unique(needed_);

@@ -22,12 +22,13 @@ namespace clearway::pipeline {
 /// Brings what policies ask for to those who hear it. Part of the environment: it knows the truth, and
 /// nothing of it comes back to a policy.
 ///
-/// A lease is a request when its beneficiary is another than its target. All requests of an emergency vehicle
-/// to vehicles at one decision are one message, those to signals another. A vehicle hears it from the
-/// emergency vehicle or, with more than one hop, from an automated vehicle that has heard it and sends it on;
-/// each hop adds the latency. Human-driven vehicles that are not equipped hear nothing. Leases of vehicles
-/// and signals about themselves need no message. With perfect channels, every lease arrives at once. One
-/// thread.
+/// A lease is a request when its beneficiary is another than its target. One to a stretch of road becomes a
+/// request to each vehicle that is there when it is sent; a message goes out even where nobody is. All
+/// requests of an emergency vehicle to vehicles at one decision are one message, those to signals another. A
+/// vehicle hears it from the emergency vehicle or, with more than one hop, from an automated vehicle that has
+/// heard it and sends it on; each hop adds the latency. Human-driven vehicles that are not equipped hear
+/// nothing. Leases of vehicles and signals about themselves need no message. With perfect channels, every
+/// lease arrives at once. One thread.
 class Requests {
   public:
     /// Throws core::InputError as DecisionChain does.
@@ -78,6 +79,7 @@ class Requests {
                        std::optional<sensing::MessageNumber>& last);
     void send(const Moment& moment);
     void ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment);
+    void ask_stretch(const traffic::Lease& lease, const Moment& moment);
     void ask_signal(const traffic::Lease& lease, core::SignalIndex signal, const Moment& moment);
     /// Those who hear what the sender asks of vehicles now; the message is sent when it is asked for first.
     const Hearing& hearing_of(core::VehicleKey sender, const Moment& moment);

@@ -6,6 +6,7 @@
 #include "policy/clear_lane.hpp"
 #include "policy/corridor.hpp"
 #include "policy/dissertation.hpp"
+#include "policy/geocast.hpp"
 #include "policy/green_wave.hpp"
 #include "policy/hold_cross.hpp"
 #include "policy/line_of_sight.hpp"
@@ -100,6 +101,8 @@ const std::vector<PolicyEntry>& policies() {
                     "pull_over",
                     "Slower vehicles ahead stop on the shoulder until the emergency vehicle has passed"),
                 Need::shoulder),
+        entry<Geocast, GeocastConfig>(
+            "geocast", "Whoever hears it clears a lane for the emergency vehicle: a message to a place"),
     };
     return entries;
 }

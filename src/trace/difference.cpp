@@ -114,6 +114,19 @@ void compare_registration(Comparison& comparison, core::VehicleKey key, const tr
         comparison.values(name + ".route", one.route(left->route), other.route(right->route));
 }
 
+template <class Target>
+void compare_target(Comparison& comparison, const std::string& name, const Target& one, const Target& other) {
+    comparison.check(name, one, other);
+}
+void compare_target(Comparison& comparison, const std::string& name, const traffic::Stretch& one,
+                    const traffic::Stretch& other) {
+    comparison.check(name + ".lane", one.lane, other.lane);
+    comparison.check(name + ".from_m", one.from_m, other.from_m);
+    comparison.check(name + ".to_m", one.to_m, other.to_m);
+    comparison.check(name + ".below_mps", one.below_mps, other.below_mps);
+    comparison.check(name + ".addressed", one.addressed, other.addressed);
+}
+
 /// Compares kind and fields of two actions.
 void compare_action(Comparison& comparison, const std::string& name, const traffic::Action& one,
                     const traffic::Action& other) {
@@ -199,11 +212,12 @@ std::optional<std::string> difference(std::span<const traffic::Lease> one,
                                       std::span<const traffic::Lease> other) {
     Comparison comparison;
     comparison.list("leases", one, other, [&](const std::string& place, const auto& left, const auto& right) {
-        comparison.check(place + ".target is a signal", left.target.index(), right.target.index());
+        comparison.check(place + ".target is vehicle, signal or stretch", left.target.index(),
+                         right.target.index());
         std::visit(
             [&](const auto& target) {
                 if (const auto* const same = std::get_if<std::decay_t<decltype(target)>>(&right.target))
-                    comparison.check(place + ".target", target, *same);
+                    compare_target(comparison, place + ".target", target, *same);
             },
             left.target);
         compare_action(comparison, place + ".action", left.action, right.action);

@@ -30,7 +30,8 @@ constexpr std::array tables = {
     TableEntry{RecordingTable::links, "links", "time_s,left,right,distance_m,probability"},
     TableEntry{RecordingTable::leases, "leases",
                "time_s,vehicle,signal,action,speed_mps,lane_number,side,links,own_links,expiry_s,priority,"
-               "policy,reason,beneficiary"},
+               "policy,reason,beneficiary,stretch_lane,stretch_from_m,stretch_to_m,stretch_below_mps,"
+               "stretch_addressed"},
 };
 
 /// Writes the lines of one step.
@@ -167,13 +168,18 @@ class StepLines {
             return ",,,,";
         }
     };
+    std::string stretch(const traffic::Stretch& place) const {
+        return fmt::format("{},{},{},{},{}", lane(place.lane), place.from_m, place.to_m, place.below_mps,
+                           place.addressed == traffic::Addressed::automated ? "automated" : "drivers");
+    }
     void lease(const traffic::Lease& lease) {
         const auto* const key = std::get_if<core::VehicleKey>(&lease.target);
-        line(key != nullptr ? vehicle(*key) : "",
-             key != nullptr ? "" : signal(std::get<core::SignalIndex>(lease.target).value),
+        const auto* const index = std::get_if<core::SignalIndex>(&lease.target);
+        const auto* const place = std::get_if<traffic::Stretch>(&lease.target);
+        line(key != nullptr ? vehicle(*key) : "", index != nullptr ? signal(index->value) : "",
              traffic::name(lease.action), std::visit(ActionCells{}, lease.action), lease.expiry.value,
              lease.priority, core::csv_text(lease.policy), core::csv_text(lease.reason),
-             vehicle(lease.beneficiary));
+             vehicle(lease.beneficiary), place != nullptr ? stretch(*place) : ",,,,");
     }
 
     const RecordedStep& step_;

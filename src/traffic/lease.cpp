@@ -4,6 +4,13 @@
 
 namespace clearway::traffic {
 
+bool Stretch::has(VehicleClass vehicle_class, const MotionState& state) const {
+    const bool is_meant = vehicle_class == VehicleClass::automated ||
+                          (vehicle_class == VehicleClass::human && addressed == Addressed::drivers);
+    return is_meant && state.lane == lane && state.lane_position_m > from_m &&
+           state.lane_position_m <= to_m && state.speed_mps < below_mps;
+}
+
 std::string_view name(const Action& action) {
     static constexpr std::array<std::string_view, std::variant_size_v<Action>> names = {
         "drive_at",     "change_lane", "hold_lane",    "pull_aside",

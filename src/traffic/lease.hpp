@@ -1,6 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -8,6 +10,8 @@
 
 #include "core/ids.hpp"
 #include "core/units.hpp"
+#include "traffic/observation.hpp"
+#include "traffic/vehicle.hpp"
 
 namespace clearway::traffic {
 
@@ -48,8 +52,25 @@ struct PassRed {};
 using Action =
     std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen, PassRed>;
 
-/// What a lease controls.
-using Target = std::variant<core::VehicleKey, core::SignalIndex>;
+/// Who is meant by a message to a stretch of road.
+enum class Addressed : std::uint8_t { automated, drivers };
+/// A stretch of a lane, for a message to whoever is there (geocast): those whose front is behind `from_m` and
+/// not beyond `to_m`, and who are slower than `below_mps`. The sender need not know who that is. Each vehicle
+/// that hears the message knows its own place and speed.
+struct Stretch {
+    core::LaneIndex lane;
+    float from_m = 0.0F;  ///< From the start of the lane.
+    float to_m = 0.0F;
+    float below_mps = std::numeric_limits<float>::max();
+    Addressed addressed = Addressed::automated;  ///< `drivers`: automated vehicles and human drivers.
+
+    /// Never an emergency vehicle.
+    bool has(VehicleClass vehicle_class, const MotionState& state) const;
+    auto operator<=>(const Stretch&) const = default;
+};
+
+/// What a lease controls, or who is asked for it.
+using Target = std::variant<core::VehicleKey, core::SignalIndex, Stretch>;
 
 /// One action of a policy. It ends by itself at `expiry`: a policy renews it or lets it lapse, but never
 /// releases it.

@@ -75,7 +75,7 @@ const Frame& FrameBuilder::frame(const trace::RecordedStep& step) {
     frame_.time_s = step.snapshot->time.value;
     frame_.signals = step.snapshot->signals.state;
     draw_vehicles(step);
-    draw_leases(*step.roster);
+    draw_leases(step);
     draw_links();
     return frame_;
 }
@@ -222,24 +222,39 @@ void FrameBuilder::draw_vehicles(const trace::RecordedStep& step) {
     std::ranges::sort(frame_.vehicles, {}, &SeenVehicle::slot);
 }
 
-void FrameBuilder::draw_leases(const traffic::Roster& roster) {
+void FrameBuilder::draw_leases(const trace::RecordedStep& step) {
     frame_.leases.clear();
     for (const auto& [key, lease] : leases_.all()) {
         SeenLease seen;
-        if (const auto* const signal = std::get_if<core::SignalIndex>(&lease.target)) {
-            seen.on_signal = true;
-            seen.target = signal->value;
-        } else {
-            seen.target = slot_of(std::get<core::VehicleKey>(lease.target), roster);
+        seen.on_signal = std::holds_alternative<core::SignalIndex>(lease.target);
+        for (const std::uint32_t target : targets_of(lease.target, step)) {
+            seen.target = target;
+            seen.action = static_cast<std::uint8_t>(lease.action.index());
+            seen.amount = std::visit(Amount(), lease.action);
+            seen.policy = text_of(lease.policy);
+            seen.reason = text_of(lease.reason);
+            if (lease.beneficiary.value != 0) seen.beneficiary = slot_of(lease.beneficiary, *step.roster) + 1;
+            frame_.leases.push_back(seen);
         }
-        seen.action = static_cast<std::uint8_t>(lease.action.index());
-        seen.amount = std::visit(Amount(), lease.action);
-        seen.policy = text_of(lease.policy);
-        seen.reason = text_of(lease.reason);
-        if (lease.beneficiary.value != 0) seen.beneficiary = slot_of(lease.beneficiary, roster) + 1;
-        frame_.leases.push_back(seen);
     }
     std::ranges::sort(frame_.leases);
+    // Two messages in force may reach the same vehicle.
+    frame_.leases.erase(std::unique(frame_.leases.begin(), frame_.leases.end()), frame_.leases.end());
+}
+
+/// Number of the signal, slot of the vehicle, or slots of the vehicles that are on the stretch now.
+std::vector<std::uint32_t> FrameBuilder::targets_of(const traffic::Target& target,
+                                                    const trace::RecordedStep& step) {
+    if (const auto* const signal = std::get_if<core::SignalIndex>(&target)) return {signal->value};
+    if (const auto* const vehicle = std::get_if<core::VehicleKey>(&target))
+        return {slot_of(*vehicle, *step.roster)};
+    const truth::Snapshot& snapshot = *step.snapshot;
+    std::vector<std::uint32_t> slots;
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (std::get<traffic::Stretch>(target).has(snapshot.vehicle_class[row], snapshot.motion(row)))
+            slots.push_back(slot_of(snapshot.key[row], *step.roster));
+    }
+    return slots;
 }
 
 void FrameBuilder::draw_links() {

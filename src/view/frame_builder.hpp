@@ -52,7 +52,8 @@ class FrameBuilder {
     void mark_events(const trace::RecordedStep& step);
     void mark_requests(const trace::RecordedStep& step);
     void draw_vehicles(const trace::RecordedStep& step);
-    void draw_leases(const traffic::Roster& roster);
+    void draw_leases(const trace::RecordedStep& step);
+    std::vector<std::uint32_t> targets_of(const traffic::Target& target, const trace::RecordedStep& step);
     /// Keeps the links whose ends are drawn.
     void draw_links();
     /// Number of a vehicle that the frame draws, as itself or as a ghost.

@@ -189,6 +189,52 @@ TEST(Requests, ToSignalsHaveAChannelOfTheirOwn) {
     EXPECT_EQ(near.counts().sent, 0u);
 }
 
+/// A message of e1 to whoever is on its lane from here to there, `at_s` seconds after the start.
+traffic::Lease geocast(const OneRoad& one, float from_m, float to_m,
+                       traffic::Addressed addressed = traffic::Addressed::automated) {
+    const core::LaneIndex lane = one.scene.snapshot().lane[one.scene.row("e1")];
+    return lease(traffic::Stretch{.lane = lane, .from_m = from_m, .to_m = to_m, .addressed = addressed},
+                 traffic::HoldLane{}, one.scene.key("e1"));
+}
+
+TEST(Requests, ToAStretchReachWhoeverIsThereAndHearsThem) {
+    OneRoad one("perfect,request_propagation=sharp,request_range_m=100");
+    one.decide({geocast(one, 50.0F, 1000.0F)});  // a1 is at 45 m, a2 at 85 m, h1 at 125 m, a3 at 165 m
+    EXPECT_THAT(one.arrived(), ElementsAre("a2")) << "a1 is not on the stretch, h1 not addressed";
+    EXPECT_THAT(one.lost(), ElementsAre("a3")) << "out of range";
+    EXPECT_EQ(one.counts().sent, 2u);
+    EXPECT_EQ(one.counts().heard, 1u);
+    EXPECT_EQ(one.counts().missed, 1u);
+    EXPECT_EQ(one.counts().messages, 1u);
+    one.scene.snapshot().speed_mps[one.scene.row("a2")] = 0.0F;
+    traffic::Lease to_slow = geocast(one, 0.0F, 1000.0F, traffic::Addressed::drivers);
+    std::get<traffic::Stretch>(to_slow.target).below_mps = 2.0F;
+    one.decide({to_slow}, 0.5);
+    EXPECT_THAT(one.arrived(), ElementsAre("a2")) << "the others drive";
+    one.decide({geocast(one, 0.0F, 1000.0F, traffic::Addressed::drivers)}, 1.0);
+    EXPECT_THAT(one.arrived(), ElementsAre("a1", "a2"));
+    EXPECT_THAT(one.lost(), ElementsAre("h1", "a3"));
+}
+
+TEST(Requests, ToAStretchNeedNobodyThere) {
+    OneRoad one("perfect,request_propagation=sharp,request_interval_s=2");
+    one.decide({geocast(one, 500.0F, 600.0F)});
+    EXPECT_THAT(one.arrived(), IsEmpty());
+    EXPECT_EQ(one.counts().messages, 1u) << "it went out all the same";
+    EXPECT_EQ(one.counts().sent, 0u);
+    one.decide({geocast(one, 0.0F, 600.0F)}, 0.5);
+    EXPECT_EQ(one.counts().messages, 1u) << "no message was due";
+    one.decide({geocast(one, 0.0F, 600.0F)}, 2.0);
+    EXPECT_EQ(one.counts().heard, 3u);
+}
+
+TEST(Requests, ToAStretchAreSentOnByThoseWhoHearThem) {
+    OneRoad two("perfect,request_propagation=sharp,request_range_m=50,request_hops=2");
+    two.decide({geocast(two, 60.0F, 1000.0F)});
+    EXPECT_THAT(two.arrived(), ElementsAre("a2")) << "by a1, which is not meant itself";
+    EXPECT_EQ(two.counts().relayed, 1u);
+}
+
 constexpr const char* queue = R"(
     10 m per cell, limit 20 m/s, speed 15 m/s
     ..e..a........a....................
@@ -233,6 +279,18 @@ TEST(Requests, AreComparedWithWhatTheTruthWouldAskFor) {
     const traffic::RequestCounts false_links = counts_of(condition);
     EXPECT_EQ(false_links.needed, 1u) << "in truth a1 alone is linked";
     EXPECT_EQ(false_links.useless, false_links.sent - 1u);
+}
+
+TEST(Requests, OfAGeocastNeedNobodyToBeKnown) {
+    experiment::ConditionSpec condition;
+    condition.policies = {"geocast"};
+    condition.failure = "loss_rate=1,request_propagation=sharp,request_range_m=100";
+    const traffic::RequestCounts counts = counts_of(condition);
+    EXPECT_EQ(counts.sent, 2u) << "a1 and a2 are on the left lane";
+    EXPECT_EQ(counts.heard, 1u) << "a2 is 120 m away";
+    EXPECT_EQ(counts.needed, 2u);
+    EXPECT_EQ(counts.useless, 0u);
+    EXPECT_EQ(counts.messages, 1u);
 }
 
 TEST(Requests, OfADarkEmergencyVehicleThatAsksTheLinkedAreNone) {

@@ -76,11 +76,33 @@ void PolicyRun::act() {
     belief.signals.state = bench_.shown;
     std::vector<traffic::Lease> leases;
     policy_->act(belief, leases);
+    leases = delivered(leases);
     for (const traffic::Lease& lease : leases) {
         expect_legal(lease);
         leases_.push_back(describe(lease));
     }
     bench_.actuator.accept(leases, bench_.now);
+}
+
+std::vector<traffic::Lease> PolicyRun::delivered(const std::vector<traffic::Lease>& leases) const {
+    std::vector<traffic::Lease> all;
+    for (const traffic::Lease& lease : leases) {
+        const auto* const stretch = std::get_if<traffic::Stretch>(&lease.target);
+        if (stretch == nullptr) {
+            all.push_back(lease);
+            continue;
+        }
+        EXPECT_LT(stretch->lane.value, two_crossings().lanes().size());
+        EXPECT_LT(stretch->from_m, stretch->to_m);
+        EXPECT_GE(stretch->from_m, 0.0F);
+        EXPECT_LE(stretch->to_m, two_crossings().lane(stretch->lane).length_m);
+        for (const auto& [key, state] : bench_.on_road) {
+            if (!stretch->has(bench_.scene.roster().find(key)->vehicle_class, state)) continue;
+            all.push_back(lease);
+            all.back().target = key;
+        }
+    }
+    return all;
 }
 
 void PolicyRun::run_for(double duration_s) {

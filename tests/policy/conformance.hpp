@@ -23,7 +23,8 @@ void add_needless_scene(ActuationBench& bench);
 core::VehicleKey emergency_key();
 
 /// Runs a policy at a period of 0.5 s on what is believed of the bench's vehicles, with its leases carried
-/// out. Vehicles stand still. Checks that each lease is legal, and keeps them all.
+/// out. A message to a stretch of road reaches everybody there. Vehicles stand still. Checks that each lease
+/// is legal, and keeps them all.
 class PolicyRun {
   public:
     PolicyRun(std::unique_ptr<policy::Policy> policy, ActuationBench& bench)
@@ -38,6 +39,7 @@ class PolicyRun {
 
   private:
     void act();
+    std::vector<traffic::Lease> delivered(const std::vector<traffic::Lease>& leases) const;
     void expect_legal(const traffic::Lease& lease);
 
     std::unique_ptr<policy::Policy> policy_;

@@ -196,7 +196,11 @@ class RandomRun {
              {Action(DriveAt{core::MetresPerSecond(real())}), Action(ChangeLane{below(4)}),
               Action(HoldLane{}), Action(PullAside{Side::left}), Action(StopAtLine{}),
               Action(HoldGreen{{1, 5, 9}, {5}}), Action(AdjustGreen{{}}), Action(PassRed{})}) {
-            const Target target = below(2) == 0 ? Target(somebody) : Target(core::SignalIndex{below(3)});
+            const std::array<Target, 3> targets = {
+                somebody, core::SignalIndex{below(3)},
+                Stretch{core::LaneIndex{below(9)}, real(), real(), real(),
+                        below(2) == 0 ? Addressed::automated : Addressed::drivers}};
+            const Target target = targets[below(3)];
             leases_.push_back({target, action, core::Seconds(real()), static_cast<int>(below(9)) - 4,
                                below(2) == 0 ? "one" : "two", "because", somebody});
         }

@@ -49,6 +49,17 @@ void expect_same_roster(const traffic::Roster& one, const traffic::Roster& other
         EXPECT_EQ(one.route(core::RouteIndex{route}), other.route(core::RouteIndex{route}));
 }
 
+TEST(Difference, SeesAnotherStretchOfRoad) {
+    std::vector<traffic::Lease> one(1);
+    one.front().target = traffic::Stretch{core::LaneIndex{3}, 10.0F, 200.0F};
+    std::vector<traffic::Lease> other = one;
+    EXPECT_EQ(trace::difference(one, other), std::nullopt);
+    std::get<traffic::Stretch>(other.front().target).to_m = 201.0F;
+    EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("target.to_m: 200, then 201"));
+    other.front().target = core::SignalIndex{3};
+    EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("vehicle, signal or stretch"));
+}
+
 TEST(Difference, SeesTheLinksThatAnEmergencyVehicleItselfTakes) {
     std::vector<traffic::Lease> one(1);
     one.front().target = core::SignalIndex{0};
@@ -164,9 +175,9 @@ TEST_F(Recording, SaysThatAFileIsMissingOrSomethingElse) {
 TEST_F(Recording, RefusesAnotherVersion) {
     const std::filesystem::path file = record("later", 3);
     std::string bytes = core::read_file(file);
-    bytes[bytes.find("format 3") + 7] = '9';
+    bytes[bytes.find("format 4") + 7] = '9';
     core::write_atomically(file, bytes);
-    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 3")));
+    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 4")));
     const std::string before_hdf5("CLEARWAY\1\0\0\0 blocks", 19);
     EXPECT_THAT(problem_of(folder_.write("older", before_hdf5)),
                 testing::AllOf(HasSubstr("older format"), HasSubstr("record the run again")));

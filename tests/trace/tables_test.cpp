@@ -41,7 +41,9 @@ class OneStep : public testing::Test {
         leases_ = {
             {car, traffic::ChangeLane{1}, core::Seconds(14.0), 2, "clear_lane", "in the way", ambulance},
             {core::SignalIndex{0}, traffic::HoldGreen{{2, 3}, {3}}, core::Seconds(20.0), 0, "preempt", "near",
-             ambulance}};
+             ambulance},
+            {traffic::Stretch{core::LaneIndex{1}, 20.0F, 320.5F, 8.0F}, traffic::PullAside{},
+             core::Seconds(17.5), 1, "geocast", "cleared", ambulance}};
         step_ = {&snapshot_, &roster_, &events_, &observation_, &belief_, leases_};
     }
     std::string lines(trace::RecordingTable table) const {
@@ -71,8 +73,10 @@ TEST_F(OneStep, IsWrittenWithNamesAndUnits) {
               "12.5,\"ambulance,1\",emergency,0,0.5,0,0,0,0,,0,0\n12.5,car,human,4,3,0,0,0,0,,0,0\n");
     EXPECT_EQ(lines(trace::RecordingTable::links), "12.5,\"ambulance,1\",car,2,0.75\n");
     EXPECT_EQ(lines(trace::RecordingTable::leases),
-              "12.5,car,,change_lane,,1,,,,14,2,clear_lane,in the way,\"ambulance,1\"\n"
-              "12.5,,crossing,hold_green,,,,2 3,3,20,0,preempt,near,\"ambulance,1\"\n");
+              "12.5,car,,change_lane,,1,,,,14,2,clear_lane,in the way,\"ambulance,1\",,,,,\n"
+              "12.5,,crossing,hold_green,,,,2 3,3,20,0,preempt,near,\"ambulance,1\",,,,,\n"
+              "12.5,,,pull_aside,,,right,,,17.5,1,geocast,cleared,\"ambulance,1\",first_1,20,320.5,8,"
+              "automated\n");
 }
 
 TEST(RecordingTables, HaveAsManyCellsAsTheirHeaderInEveryLine) {

@@ -118,6 +118,31 @@ TEST_F(FrameBuilderTest, a_hold_is_marked_when_it_is_asked_for_and_when_it_is_gr
     EXPECT_THAT(over.leases, SizeIs(0)) << "it ended by itself";
 }
 
+TEST_F(FrameBuilderTest, a_lease_for_a_stretch_of_road_is_shown_where_vehicles_are_on_it) {
+    const core::VehicleIndex row = scene_.row("a1");
+    const float at_m = scene_.snapshot().lane_position_m[row];
+    const auto message = [&](float from_m) {
+        return traffic::Lease{traffic::Stretch{scene_.snapshot().lane[row], from_m, 2000.0F},
+                              traffic::HoldLane{},
+                              core::Seconds(scene_.snapshot().time.value + 5.0),
+                              0,
+                              "geocast",
+                              "cleared",
+                              scene_.key("e1")};
+    };
+    // Two messages, as an emergency vehicle on its way sends them.
+    const std::vector<traffic::Lease> leases = {message(at_m - 2.0F), message(at_m - 1.0F)};
+    trace::RecordedStep now = step();
+    now.leases = leases;
+    const Frame& asked = frame(now);
+    ASSERT_THAT(asked.leases, SizeIs(1)) << "h1 is a human driver, and not addressed";
+    EXPECT_FALSE(asked.leases[0].on_signal);
+    EXPECT_EQ(id(asked.leases[0].target), "a1");
+
+    scene_.snapshot().lane_position_m[row] = at_m - 5.0F;
+    EXPECT_THAT(frame(step()).leases, SizeIs(0)) << "it is not there any more";
+}
+
 TEST_F(FrameBuilderTest, marks_between_two_frames_are_kept_for_the_next) {
     events_.emergency_brakings = {{scene_.key("h1"), 8.0F}};
     truth::Collision collision;

@@ -48,6 +48,13 @@ struct TraceHash::State {
     void operator()(const traffic::PassRed&) {}
     void operator()(core::VehicleKey vehicle) { value(vehicle.value); }
     void operator()(core::SignalIndex signal) { value(signal.value); }
+    void operator()(const traffic::Stretch& stretch) {
+        value(stretch.lane.value);
+        value(stretch.from_m);
+        value(stretch.to_m);
+        value(stretch.below_mps);
+        value(stretch.addressed);
+    }
 
     XXH3_state_t hash{};
 };

@@ -50,6 +50,7 @@ inline const auto action_names =
     action_names_of(std::make_index_sequence<std::variant_size_v<traffic::Action>>());
 inline constexpr std::array<std::string_view, 2> freshness_names = {"fresh", "stale"};
 inline constexpr std::array<std::string_view, 2> side_names = {"right", "left"};
+inline constexpr std::array<std::string_view, 2> addressed_names = {"automated", "drivers"};
 inline constexpr std::array<std::string_view, 2> place_names = {"lane", "junction"};
 inline constexpr std::array<std::string_view, 6> event_names = {"departed", "arrived",   "teleported",
                                                                 "removed",  "collision", "emergency_braking"};

@@ -69,20 +69,32 @@ class LeaseTables {
     void code_target(Target& target) {
         core::SignalIndex signal;
         core::VehicleKey vehicle;
+        traffic::Stretch stretch;
         if constexpr (!File::reading) {
             if (const auto* const index = std::get_if<core::SignalIndex>(&target)) {
                 if (!index->exists())
                     throw std::invalid_argument("a lease is for a signal that does not exist");
                 signal = *index;
+            } else if (const auto* const place = std::get_if<traffic::Stretch>(&target)) {
+                if (!place->lane.exists())
+                    throw std::invalid_argument("a lease is for a lane that does not exist");
+                stretch = *place;
             } else {
                 vehicle = std::get<core::VehicleKey>(target);
             }
         }
         code_value(signal_, signal);
         names_.code(vehicle_, vehicle);
+        code_value(stretch_lane_, stretch.lane);
+        stretch_from_m_(stretch.from_m);
+        stretch_to_m_(stretch.to_m);
+        stretch_below_mps_(stretch.below_mps);
+        stretch_addressed_(stretch.addressed);
         if constexpr (File::reading) {
             if (signal.exists()) {
                 target = signal;
+            } else if (stretch.lane.exists()) {
+                target = stretch;
             } else {
                 target = vehicle;
             }
@@ -152,9 +164,17 @@ class LeaseTables {
     Names& names_;
     typename File::Rows rows_;
     Column<std::uint32_t> vehicle_{
-        rows_, {"vehicle", "", "Row in /vehicles: the vehicle asked; 4294967295: a signal"}};
-    Column<std::uint32_t> signal_{
-        rows_, {"signal", "", "Index in the network: the signal asked; 4294967295: a vehicle"}};
+        rows_, {"vehicle", "", "Row in /vehicles: the vehicle asked; 4294967295: a signal or a stretch"}};
+    Column<std::uint32_t> signal_{rows_,
+                                  {"signal", "", "Index in the network: the signal asked; 4294967295: none"}};
+    Column<std::uint32_t> stretch_lane_{
+        rows_,
+        {"stretch_lane", "", "Lane of the network: whoever is on this stretch is asked; 4294967295: none"}};
+    Column<float> stretch_from_m_{rows_, {"stretch_from_m", "m", "From the start of the lane"}};
+    Column<float> stretch_to_m_{rows_, {"stretch_to_m", "m", "From the start of the lane"}};
+    Column<float> stretch_below_mps_{rows_, {"stretch_below_mps", "m/s", "Only slower vehicles are asked"}};
+    Column<traffic::Addressed> stretch_addressed_{
+        rows_, {"stretch_addressed", "", "Automated vehicles, or human drivers as well"}, addressed_names};
     Column<ActionKind> action_{rows_, {"action", "", "What is asked"}, action_names};
     Column<double> speed_mps_{rows_, {"speed_mps", "m/s", "Speed of drive_at"}};
     Column<std::uint32_t> lane_number_{rows_, {"lane_number", "1", "Lane of change_lane; 0: the outermost"}};

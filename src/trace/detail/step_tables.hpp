@@ -17,6 +17,7 @@ inline void every_member_has_a_column(const traffic::Lease& lease, const truth::
                                       const traffic::BelievedGraph& belief) {
     [[maybe_unused]] const auto& [l1, l2, l3, l4, l5, l6, l7] = lease;
     [[maybe_unused]] const auto& [g1, g2] = traffic::HoldGreen{};
+    [[maybe_unused]] const auto& [t1, t2, t3, t4, t5] = traffic::Stretch{};
     [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7] = events;
     [[maybe_unused]] const auto& [c1, c2, c3, c4, c5] = truth::Collision{};
     [[maybe_unused]] const auto& [k1, k2] = truth::EmergencyBraking{};
