@@ -11,7 +11,7 @@ namespace clearway::policy {
 /// Settings of PullAside.
 struct PullAsideConfig : detail::LanePlanConfig {
     double horizon_m = 120.0;
-    double slow_share = 0.6;
+    double slow_share = 0.2;
     double change_ahead_s = 4.0;
     double lease_s = 2.0;
 
@@ -23,7 +23,9 @@ struct PullAsideConfig : detail::LanePlanConfig {
                   "first trials: the length of a queue"},
             Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
                   "Only those slower than this share of the emergency vehicle's allowed speed",
-                  "assumed: others are not in its way, or can change lanes"},
+                  "trials on the arterial, 10 pairs each: against 0.6 the emergency vehicle gains 6 to 52 s "
+                  "and "
+                  "others up to 45 s, most where a quarter does not cooperate"},
             Field{"change_ahead_s", "s", &C::change_ahead_s, 0.0, 30.0,
                   "The emergency vehicle begins a planned lane change this long before its place",
                   "as vacate_lane"},
