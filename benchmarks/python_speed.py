@@ -13,6 +13,7 @@ import json
 import os
 import resource
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -31,7 +32,6 @@ while os.read(read, 1):
 
 def bell(rounds: int = 20000) -> None:
     """Round trip of the bell between two Python processes: what a question costs before anything is said."""
-    import subprocess
     their_read, our_write = os.pipe()
     our_read, their_write = os.pipe()
     child = subprocess.Popen([sys.executable, "-c", ANSWER, str(their_read), str(their_write)], pass_fds=(their_read, their_write))
@@ -115,7 +115,7 @@ def reset(scenario: str) -> None:
 
 
 def processes(scenario: str, seeds: int) -> None:
-    """Episodes a second of one and of two environments at a time."""
+    """Steps a second of one and of two environments at a time: of one program, in step, and of two programs."""
     rates = []
     for count in (1, 2):
         with clearway.vector_env(scenario, count, seeds=range(count)) as envs:
@@ -125,7 +125,34 @@ def processes(scenario: str, seeds: int) -> None:
             for _ in range(total):
                 envs.step(action)
             rates.append(count * total / (time.perf_counter() - begin))
-    print(f"processes: {rates[0]:.0f} steps/s alone, {rates[1]:.0f} with two: {rates[1] / rates[0]:.2f} times")
+    print(f"processes: {rates[0]:.0f} steps/s alone, {rates[1]:.0f} with two in step: {rates[1] / rates[0]:.2f} times")
+    alone = sum(own_rates(scenario, [seed])[0] for seed in (0, 1)) / 2.0
+    both = sum(own_rates(scenario, [0, 1]))
+    print(f"processes: {alone:.0f} steps/s alone, {both:.0f} in two programs of their own: {both / alone:.2f} times")
+
+
+OWN_PROGRAM = """
+import sys, time, clearway, numpy as np
+scenario, seed, begin_s, steps = sys.argv[1], int(sys.argv[2]), float(sys.argv[3]), 3000
+with clearway.env(scenario, seeds=[seed]) as env:
+    action = np.zeros(env.action_space.shape, dtype=np.int64)
+    env.reset()
+    time.sleep(max(0.0, begin_s - time.time()))
+    begin = time.perf_counter()
+    for _ in range(steps):
+        _, _, terminated, truncated, _ = env.step(action)
+        if terminated or truncated:
+            env.reset()
+    print(steps / (time.perf_counter() - begin))
+"""
+
+
+def own_rates(scenario: str, seeds: list[int]) -> list[float]:
+    """Steps a second of environments in Python programs of their own, which begin at the same time."""
+    begin_s = time.time() + 3.0
+    programs = [subprocess.Popen([sys.executable, "-c", OWN_PROGRAM, scenario, str(seed), str(begin_s)], stdout=subprocess.PIPE,
+                                 text=True) for seed in seeds]
+    return [float(program.communicate()[0]) for program in programs]
 
 
 def policy(scenario: str, seeds: int, dense: bool) -> None:

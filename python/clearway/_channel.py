@@ -59,15 +59,16 @@ class Sheet:
 
     def __init__(self, memory: mmap.mmap, columns: list[list[str]]) -> None:
         self._memory = memory
-        self._directory = np.frombuffer(memory, np.uint64, 2 * len(columns)).reshape(-1, 2)
+        # Not an array: a number is read ten times as fast like this.
+        self._directory = memoryview(memory)[:16 * len(columns)].cast("Q")
         #: numpy type, unit and meaning of each array.
         self.columns = {name: (np.dtype(kind), unit, doc) for name, kind, unit, doc in columns}
-        self._number = {name: number for number, name in enumerate(self.columns)}
+        self._place = {name: 2 * number for number, name in enumerate(self.columns)}
 
     def place(self, name: str) -> tuple[int, int]:
         """Offset and number of elements of an array."""
-        offset, count = self._directory[self._number[name]].tolist()
-        return offset, count
+        at = self._place[name]
+        return self._directory[at], self._directory[at + 1]
 
     def __getitem__(self, name: str) -> np.ndarray:
         offset, count = self.place(name)
@@ -79,4 +80,5 @@ class Sheet:
         offset = (16 * len(self.columns) + 63) // 64 * 64
         target: Any = np.frombuffer(self._memory, kind, len(values), offset)
         target[:] = values
-        self._directory[self._number[name]] = offset, len(values)
+        at = self._place[name]
+        self._directory[at], self._directory[at + 1] = offset, len(values)

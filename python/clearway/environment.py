@@ -91,6 +91,7 @@ class Env(_Base):
         shapes = {"emergency": ((6,), far), "vehicles": ((sizes["vehicles"], 12), far), "vehicle_mask": ((sizes["vehicles"],), 1),
                   "edges": ((2, links), sizes["vehicles"]), "edge_features": ((links, 2), far), "edge_mask": ((links,), 1),
                   "signals": ((signals, 3), far), "signal_states": ((signals, sizes["signal_links"]), 3),
+                  "signal_phases": ((signals, sizes["phases"]), 1),
                   "action_mask": ((int(self._nvec.sum()),), 1)}
         kinds = {name: np.dtype(kind) for name, kind, _, _ in sizes["question"]}
         self._shapes = {name: shape for name, (shape, _) in shapes.items() if 0 not in shape}

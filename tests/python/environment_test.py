@@ -117,10 +117,12 @@ class InterfaceTest(FolderCase):
                 self.assertFalse(self.env.action_masks()[0][1:].any(), "nothing to hold for an EV that is far away")
                 observation = self.env.step(no_action(self.env))[0]
             self.assertTrue(self.env.action_masks()[0].all())
+            served = observation["signal_phases"][0, phase - 1]
             for _ in range(14):  # 7 s: yellow, all red, green
                 observation, _, terminated, _, info = self.env.step(np.array([phase] + [0] * 8))
                 self.assertEqual((terminated, info["illegal_actions"]), (False, 0))
             shares.append(observation["signals"][0, 2] if observation["signals"][0, 0] else 1.0)
+            self.assertEqual(served, shares[-1], "a phase serves the EV when holding it shows it green")
         self.assertEqual(sorted(shares), [0.0, 1.0])
 
     def test_illegal_actions_are_counted_and_wrong_ones_refused(self) -> None:

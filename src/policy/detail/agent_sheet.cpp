@@ -24,6 +24,7 @@ enum Number : std::size_t {
     edge_mask,
     signals,
     signal_states,
+    signal_phases,
     action_mask,
     agents,
     count,
@@ -47,6 +48,7 @@ constexpr std::array<python::Column, column::count> columns = {{
     {"signals", "f4", "",
      "Ahead on the EV's route, m to the stop line or 300, share of its own links that are green"},
     {"signal_states", "u1", "", "Of each link: 0 none or not known, 1 red, 2 yellow, 3 green"},
+    {"signal_phases", "f4", "1", "Of each green phase: share of the EV's own links that it serves"},
     {"action_mask", "u1", "1", "1: legal; signals, then automated vehicles"},
     {"agents", "u8", "", "Keys of the automated vehicles that take actions; 0: none"},
 }};
@@ -165,6 +167,7 @@ void write_signals(const View& view, const AgentScene& scene, const AgentSizes& 
     const auto target = zeros<float>(sheet, column::signals, 3 * std::size_t{sizes.signals});
     const auto states =
         zeros<std::uint8_t>(sheet, column::signal_states, std::size_t{sizes.signals} * sizes.signal_links);
+    const auto phases = zeros<float>(sheet, column::signal_phases, std::size_t{sizes.signals} * sizes.phases);
     const std::vector<std::string>& letters = view.belief().signals.state;
     for (std::size_t signal = 0; signal < sizes.signals; ++signal) {
         target[3 * signal + 1] = static_cast<float>(sheet_horizon.value);
@@ -179,6 +182,10 @@ void write_signals(const View& view, const AgentScene& scene, const AgentSizes& 
         target[3 * signal + 1] = static_cast<float>(approach.distance_m);
         if (signal < letters.size())
             target[3 * signal + 2] = green_share(approach.own_links, letters[signal]);
+        const roads::Signal& plan = view.network().signal(approach.signal);
+        std::size_t at = signal * sizes.phases;
+        for (const std::size_t phase : green_phases(plan))
+            phases[at++] = green_share(approach.own_links, plan.program[phase].state);
     }
 }
 
