@@ -61,5 +61,12 @@ TEST_F(RoadMap, NamesStationsButNoHospitals) {
               json::parse(R"([{"edge": "south", "kind": "fire_station", "name": "Station \"3\""}])"));
 }
 
+TEST_F(RoadMap, HospitalsAreTheStationsWhereThereAreNoOthers) {
+    scenario::ScenarioConfig config;
+    config.emergency_sites = {{scenario::SiteKind::hospital, "east", "Hospital"}};
+    EXPECT_EQ(map(config).at("stations"),
+              json::parse(R"([{"edge": "east", "kind": "hospital", "name": "Hospital"}])"));
+}
+
 }  // namespace
 }  // namespace clearway::study::detail

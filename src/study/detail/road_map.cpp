@@ -1,5 +1,6 @@
 #include "study/detail/road_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -64,10 +65,15 @@ core::Json signals_json(const roads::Network& network) {
     return signals;
 }
 
+/// Where no station is known, emergency vehicles start from hospitals, in the demand as well.
 core::Json stations_json(const scenario::ScenarioConfig& config) {
+    const auto is_station = [](const scenario::EmergencySite& site) {
+        return site.kind != scenario::SiteKind::hospital;
+    };
+    const bool has_station = std::ranges::any_of(config.emergency_sites, is_station);
     core::Json stations = core::Json::array();
     for (const scenario::EmergencySite& site : config.emergency_sites) {
-        if (site.kind == scenario::SiteKind::hospital) continue;
+        if (has_station && !is_station(site)) continue;
         stations.push_back({{"edge", site.edge}, {"kind", core::name(site.kind)}, {"name", site.name}});
     }
     return stations;

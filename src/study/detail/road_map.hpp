@@ -16,7 +16,7 @@ namespace clearway::study::detail {
 ///      "stations": [{"edge": "a", "kind": "fire_station", "name": "Fire station 3"}]}
 ///
 /// `to`: places in `edges` of those that an edge leads to. `signal`: whether it ends at one. Places are those
-/// of the network, rounded to 0.1 m.
+/// of the network, rounded to 0.1 m. Stations are hospitals where the scenario has no others.
 std::string road_map_json(const roads::Network& network, const scenario::ScenarioConfig& config);
 
 }  // namespace clearway::study::detail
