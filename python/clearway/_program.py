@@ -94,7 +94,7 @@ def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[i
     """
     said: collections.deque[str] = collections.deque(maxlen=60)
     with subprocess.Popen([*_owned(), str(programs() / "clearway"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          stdin=subprocess.DEVNULL, env=environment(), text=True, errors="replace") as process:
+                          stdin=subprocess.DEVNULL, env=environment(), encoding="utf-8", errors="replace") as process:
         assert process.stdout is not None and process.stderr is not None
         listener = threading.Thread(target=_listen, args=(process.stderr, said, progress), daemon=True)
         listener.start()

@@ -54,8 +54,14 @@ class Worker:
         self._channel: Channel | None = Channel(os.dup(memory), our_read, our_write)
         for descriptor in theirs:
             os.close(descriptor)
+        #: Whether an answer is under way: one that nobody waited for (Ctrl-C) must not be taken for the next one.
+        self._owes_answer = False
         _workers.add(self)
-        self._hear(HELLO)
+        try:
+            self._hear(HELLO)
+        except BaseException:
+            self.close()
+            raise
         self.greeting: dict[str, Any] = json.loads(self._channel.read_text())
         self._question = Sheet(self._channel.incoming, self.greeting["question"])
         self._answer = Sheet(self._channel.outgoing, self.greeting["answer"])
@@ -67,6 +73,7 @@ class Worker:
     def _hear(self, *expected: bytes) -> bytes:
         assert self._channel is not None
         bell = self._channel.wait()
+        self._owes_answer = False
         if bell in expected:
             return bell
         message = self._channel.read_text() if bell == FAILED else self._last_words()
@@ -82,6 +89,9 @@ class Worker:
     def reset(self) -> bytes:
         """Begins an episode, ending a running one; returns DECIDE, or ENDED when no emergency vehicle ever came."""
         assert self._channel is not None
+        if self._owes_answer:
+            self._hear(DECIDE, ENDED)
+        self._owes_answer = True
         self._channel.ring(RESET)
         return self._hear(DECIDE, ENDED)
 
@@ -93,6 +103,7 @@ class Worker:
             self._actions = np.frombuffer(self._channel.outgoing, np.int32, len(actions), 64)
         else:
             self._actions[:] = actions
+        self._owes_answer = True
         self._channel.ring(ANSWER)
 
     def receive(self) -> bytes:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import collections
 import math
+import numbers
 import operator
 import os
 import shutil
@@ -17,7 +18,7 @@ import numpy as np
 from . import _program, _spaces
 from ._channel import ENDED
 from ._worker import Worker
-from .running import Part, part_name
+from .running import Part, part_name, policy_names
 
 if _spaces.installed("gymnasium"):
     import gymnasium
@@ -59,18 +60,18 @@ class Env(_Base):
             raise _program.InputError(f"until is {until!r} (allowed: emergency, end)")
         if render_mode not in (None, "ansi"):
             raise _program.InputError(f"render_mode is {render_mode!r} (allowed: None, ansi); `clearway run --gui` shows a run")
-        if not (isinstance(others_weight, (int, float)) and math.isfinite(others_weight) and others_weight >= 0.0):
+        if not (isinstance(others_weight, numbers.Real) and math.isfinite(others_weight) and others_weight >= 0.0):
             raise _program.InputError(f"others_weight is {others_weight!r} (allowed: a number of at least 0)")
-        if len(seeds) == 0:
-            raise _program.InputError("seeds are empty (allowed: at least one whole number from 0 to 4294967295)")
         self.render_mode, self.others_weight, self.until = render_mode, float(others_weight), until
-        self._seeds = [_checked_seed(seed) for seed in seeds]
+        self._seeds = checked_seeds(seeds)
         self._arguments = _arguments(scenario, study_seed, policy, failure, predictor, set or {}, options)
         self._owner = os.getpid()
         self._folder = Path(tempfile.mkdtemp(prefix="clearway-env-"))
         self._finalizer = weakref.finalize(self, _remove, str(self._folder), self._owner)
         self._workers: collections.OrderedDict[int, Worker] = collections.OrderedDict()
-        self._episode, self._worker, self._state = 0, None, "new"
+        self._episode, self._state = 0, "new"
+        self._worker: Worker | None = None
+        self._last: dict[str, np.ndarray] | None = None
         self._np_random: np.random.Generator | None = None
         self._np_random_seed: int | None = None
         try:
@@ -114,6 +115,11 @@ class Env(_Base):
         if self._state == "closed":
             raise _program.ClearwayError("this environment is closed; make another one")
 
+    def _require_episode(self) -> None:
+        self._require_owner()
+        if self._last is None:
+            raise _program.ClearwayError("call reset() first")
+
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         """Begins an episode: the replication ``seed``, or, without one, the next of ``seeds`` in turn.
 
@@ -135,11 +141,16 @@ class Env(_Base):
             if self._worker.reset() == ENDED:
                 raise _program.InputError(f"no emergency vehicle entered in replication {seed}: there is nothing to decide")
         except _program.ClearwayError:
-            self._workers.pop(seed, None)
+            self._drop(seed)
             raise
         self._state, self._seed = "running", seed
         self._last = self._worker.copied(self._shapes)
         return self._last, self._info(*self._worker.numbers())
+
+    def _drop(self, seed: int) -> None:
+        worker = self._workers.pop(seed, None)
+        if worker is not None:
+            worker.close()
 
     def _seed_generator(self, seed: int) -> None:
         self._np_random, self._np_random_seed = np.random.Generator(np.random.PCG64(seed)), seed
@@ -151,14 +162,20 @@ class Env(_Base):
 
     def send(self, action: Any) -> None:
         """The first half of ``step``: vector environments let all simulate at the same time."""
-        self._require_owner()
-        if self._state != "running":
-            raise _program.ClearwayError("call reset() first" if self._state == "new" else
-                                         "the episode is over: call reset() before the next step()")
-        self._worker.send(self._checked(action))
+        self._send(self._checked(action))
+
+    def _send(self, actions: np.ndarray) -> None:
+        self._worker.send(actions)
+        self._state = "sent"
 
     def _checked(self, action: Any) -> np.ndarray:
-        actions = action if type(action) is np.ndarray else np.asarray(action)
+        self._require_owner()
+        if self._state != "running":
+            raise _program.ClearwayError(_NOT_RUNNING[self._state])
+        try:
+            actions = action if type(action) is np.ndarray else np.asarray(action)
+        except ValueError:  # lists of different lengths
+            actions = np.asarray(None)
         if actions.shape != self._nvec.shape or actions.dtype.kind not in "iu":
             raise _program.InputError(f"an action of shape {actions.shape} and type {actions.dtype} (allowed: {len(self._nvec)} whole "
                                       "numbers, one for each signal, then one for each automated vehicle)")
@@ -170,12 +187,16 @@ class Env(_Base):
 
     def receive(self) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
         """The second half of ``step``."""
+        self._require_owner()
+        if self._state != "sent":
+            raise _program.ClearwayError("no action is under way: call send() before receive()")
         try:
             bell = self._worker.receive()
         except _program.ClearwayError:
             self._state = "over"
-            self._workers.pop(self._seed, None)
+            self._drop(self._seed)
             raise
+        self._state = "running"
         if bell == ENDED:
             return self._last_step(self._worker.end())
         numbers = self._worker.numbers()
@@ -204,11 +225,12 @@ class Env(_Base):
 
     def action_masks(self) -> tuple[np.ndarray, ...]:
         """Legal choices of each part of the present action, as ``action_space.sample(mask)`` takes it."""
+        self._require_episode()
         return tuple(np.split(self._last["action_mask"].astype(np.int8), np.cumsum(self._choices)[:-1]))
 
     def render(self) -> str | None:
         """One line about the EV, with ``render_mode="ansi"``."""
-        if self.render_mode is None or self._state in ("new", "closed"):
+        if self.render_mode is None or self._last is None or self._state == "closed":
             return None
         present, speed, allowed, lane, _, line = self._last["emergency"].tolist()
         place = f"EV at {speed:.1f} of {allowed:.1f} m/s on lane {lane:.0f}, next stop line in {line:.0f} m" if present else "no EV"
@@ -234,6 +256,9 @@ class Env(_Base):
             self.close()
 
 
+_NOT_RUNNING = {"new": "call reset() first", "over": "the episode is over: call reset() before the next step()",
+                "sent": "the last step was not waited for to its end: call receive(), or reset()"}
+
 if _Base is object:
     Env.unwrapped = property(lambda self: self)
     Env.np_random = property(lambda self: self._np_random)
@@ -251,14 +276,35 @@ def _checked_seed(seed: Any) -> int:
     return int(seed)
 
 
+def checked_seeds(seeds: Any) -> list[int]:
+    allowed = "(allowed: at least one whole number from 0 to 4294967295, as range(4))"
+    try:
+        checked = [_checked_seed(seed) for seed in seeds]
+    except TypeError:
+        raise _program.InputError(f"seeds are {seeds!r} {allowed}") from None
+    if not checked:
+        raise _program.InputError(f"seeds are empty {allowed}")
+    return checked
+
+
+#: Options of the program that an environment sets itself.
+_OWN_OPTIONS = ("channel", "failure", "help", "out", "policy", "predictor", "replication", "seed", "set")
+
+
 def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Part], failure: str, predictor: Part,
                settings: Mapping[str, Any], options: Mapping[str, Any]) -> list[str]:
-    policies = [policy] if isinstance(policy, (str, type)) else list(policy)
-    words = [str(scenario), "--seed", str(study_seed), "--failure", failure, "--predictor", part_name(predictor)]
-    words += ["--policy", *map(part_name, policies)] if policies else []
+    if not isinstance(scenario, (str, Path)) or str(scenario).startswith("-"):
+        raise _program.InputError(f"scenario is {scenario!r} (allowed: a name of `clearway list`, a folder or a file)")
+    if not isinstance(settings, Mapping):
+        raise _program.InputError(f"set is {settings!r} (allowed: a dictionary of settings)")
+    policies = policy_names(policy)
+    words = [str(scenario), "--seed", str(study_seed), "--failure", str(failure), "--predictor", part_name(predictor)]
+    words += ["--policy", *policies] if policies else []
     for name, value in settings.items():
-        words += ["--set", f"{name}={value}"]
+        words += ["--set", f"{name}={str(value).lower() if isinstance(value, (bool, np.bool_)) else value}"]
     for name, value in options.items():
+        if name in _OWN_OPTIONS:
+            raise _program.InputError(f"{name} is not an option of the scenario; help(clearway.Env) has the arguments")
         if value is not False and value is not None:
             words += ["--" + name.replace("_", "-")] + ([] if value is True else [str(value)])
     return words

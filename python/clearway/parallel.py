@@ -1,6 +1,8 @@
 """PettingZoo's parallel API: an agent for each signal, and for each automated vehicle ahead of the emergency vehicle."""
 from __future__ import annotations
 
+import operator
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +38,7 @@ class ParallelEnv(_Base):
             f"automated:{place}" for place in range(automated)]
         self.agents: list[str] = []
         ends = np.cumsum(choices)
+        self._choices = dict(zip(self.possible_agents, choices))
         self._parts = {agent: slice(int(end - count), int(end)) for agent, end, count in zip(self.possible_agents, ends, choices)}
         shared = {name: space for name, space in self._env.observation_space.spaces.items() if name != "action_mask"}
         self.action_spaces = {agent: _spaces.Discrete(count) for agent, count in zip(self.possible_agents, choices)}
@@ -45,9 +48,11 @@ class ParallelEnv(_Base):
             for agent, count in zip(self.possible_agents, choices)}
 
     def observation_space(self, agent: str) -> Any:
+        """What an agent sees."""
         return self.observation_spaces[agent]
 
     def action_space(self, agent: str) -> Any:
+        """What an agent may do."""
         return self.action_spaces[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -60,16 +65,28 @@ class ParallelEnv(_Base):
         """Carries out an action for each agent; one that is left out does nothing."""
         if not self.agents:
             raise _program.ClearwayError("the episode is over or has not begun: call reset()")
+        if not isinstance(actions, Mapping):
+            raise _program.InputError(f"actions are {actions!r} (allowed: a dictionary with an action for each agent)")
         unknown = [agent for agent in actions if agent not in self._parts]
         if unknown:
             raise _program.InputError(f"there is no agent {unknown[0]!r}; there are {', '.join(self.possible_agents)}")
-        all_actions = np.array([int(actions.get(agent, 0)) for agent in self.possible_agents], dtype=np.int64)
+        all_actions = np.array([self._action_of(agent, actions.get(agent, 0)) for agent in self.possible_agents], dtype=np.int64)
         observation, reward, terminated, truncated, info = self._env.step(all_actions)
         live = self.agents
         if terminated or truncated:
             self.agents = []
         return (self._each(observation), dict.fromkeys(live, reward), dict.fromkeys(live, terminated), dict.fromkeys(live, truncated),
                 {agent: dict(info) for agent in live})
+
+    def _action_of(self, agent: str, action: Any) -> int:
+        count = self._choices[agent]
+        try:
+            value = operator.index(action)
+        except TypeError:
+            value = -1
+        if not 0 <= value < count:
+            raise _program.InputError(f"the action of {agent} is {action!r} (allowed: a whole number from 0 to {count - 1})")
+        return value
 
     def _each(self, observation: dict[str, np.ndarray]) -> dict[str, Any]:
         shared = {name: array for name, array in observation.items() if name != "action_mask"}
@@ -78,14 +95,23 @@ class ParallelEnv(_Base):
 
     def state(self) -> np.ndarray:
         """Everything that is observed, flat."""
+        self._env._require_episode()
         return np.concatenate([array.reshape(-1).astype(np.float32) for array in self._env._last.values()])
 
     def render(self) -> str | None:
+        """One line about the EV, with ``render_mode="ansi"``."""
         return self._env.render()
 
     def close(self) -> None:
+        """Ends the processes. May be called again."""
         self.agents = []
         self._env.close()
+
+    def __enter__(self) -> "ParallelEnv":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
 
     @property
     def unwrapped(self) -> "ParallelEnv":

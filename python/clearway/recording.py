@@ -89,20 +89,31 @@ class Recording:
             raise _program.InputError(f"{self.file} is not a file; `record=True` (--record) keeps recordings in a run folder")
         try:
             self._file = h5py.File(self.file, "r")
+        except OSError as error:
+            raise self._damaged(error) from None
+        try:
             self._steps = {"time_s": self._file["steps/time_s"][:]}
             self.ids: np.ndarray = self._file["vehicles/id"].asstr()[:].astype(str)
             self._texts = self._file[_texts_path(self._file)].asstr()[:].astype(str)
-        except (OSError, KeyError) as error:
-            raise _program.InputError(f"{self.file}: is not a recording of Clearway, or is damaged ({error}); record the run again"
-                                      ) from None
-        attributes = self._file.attrs
-        self.scenario, self.condition = str(attributes["scenario"]), str(attributes["condition"])
-        self.replication = int(attributes["replication"])
+            attributes = self._file.attrs
+            self.scenario, self.condition = str(attributes["scenario"]), str(attributes["condition"])
+            self.replication = int(attributes["replication"])
+        except (OSError, KeyError, StopIteration) as error:
+            self._file.close()
+            raise self._damaged(error) from None
         self._loaded: dict[str, np.ndarray] = {}
+
+    def _damaged(self, error: Exception) -> _program.InputError:
+        return _program.InputError(f"{self.file}: is not a recording of Clearway, or is damaged ({error}); record the run again")
 
     def _array(self, path: str) -> np.ndarray:
         if path not in self._loaded:
-            self._loaded[path] = self._file[path][:]
+            if not self._file:
+                raise _program.ClearwayError(f"{self.file} is closed; read what you need before")
+            try:
+                self._loaded[path] = self._file[path][:]
+            except OSError as error:
+                raise _program.InputError(f"{self.file}: {path} is damaged ({error}); record the run again") from None
         return self._loaded[path]
 
     def _begin(self, group: str) -> np.ndarray:
@@ -134,6 +145,7 @@ class Recording:
             yield Step(self, number)
 
     def close(self) -> None:
+        """Closes the file; columns that were not read yet can no longer be."""
         self._file.close()
 
     def __enter__(self) -> "Recording":

@@ -44,7 +44,11 @@ class Table(Mapping[str, np.ndarray]):
         """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``."""
         chosen = np.ones(self.row_count, dtype=bool)
         for column, value in values.items():
-            chosen &= self[column] == value
+            array = self[column]
+            if np.ndim(value) != 0 or isinstance(value, str) != (array.dtype.kind == "U"):
+                kind = "a text" if array.dtype.kind == "U" else "a number"
+                raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
+            chosen &= array == value
         return Table({name: array[chosen] for name, array in self._columns.items()})
 
     def to_pandas(self) -> "pandas.DataFrame":
@@ -108,7 +112,7 @@ class Results:
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
         #: Names of the tables.
-        self.tables: list[str] = _program.call(["results", str(folder), "--list"])[1].split()
+        self.tables: list[str] = _program.call(["results", str(self.folder.absolute()), "--list"])[1].split()
         self._read: dict[str, Table] = {}
 
     def table(self, name: str) -> Table:
@@ -116,7 +120,12 @@ class Results:
         if name not in self.tables:
             raise _program.InputError(f"{self.folder} has no table {name!r}; it has {', '.join(self.tables)}")
         if name not in self._read:
-            self._read[name] = _read_table(self.folder / "results.sqlite", name)
+            database = self.folder / "results.sqlite"
+            try:
+                self._read[name] = _read_table(database, name)
+            except sqlite3.Error as error:
+                raise _program.InputError(f"{database}: cannot be read: {error}. Remove it; `clearway report` on the folder "
+                                         "writes it again") from None
         return self._read[name]
 
     @property
@@ -176,7 +185,7 @@ class Results:
 
     def paired_differences(self, metric: str) -> list[Difference]:
         """All conditions of the folder against their baselines."""
-        rows = _program.call_json(["compare", str(self.folder), "--metric", metric])["comparisons"]
+        rows = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric)])["comparisons"]
         differences = []
         for row in rows:
             numbers = row["metrics"][metric]
@@ -195,7 +204,7 @@ def open(folder: str | Path) -> Results:
 
 
 def _read_table(database: Path, name: str) -> Table:
-    connection = sqlite3.connect(f"file:{database.resolve()}?mode=ro", uri=True)
+    connection = sqlite3.connect(database.resolve().as_uri() + "?mode=ro", uri=True)
     try:
         cursor = connection.execute(f'SELECT * FROM "{name}"')
         names = [column[0] for column in cursor.description]

@@ -8,9 +8,11 @@ import json
 import re
 import tempfile
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
+
+import numpy as np
 
 from . import _program
 from .results import Results
@@ -44,10 +46,18 @@ def part_name(part: Part) -> str:
             raise _program.InputError(f"{part.__qualname__} is not at the top of a file: a run starts it in a process of its own, so "
                                       "write it into a file (in a notebook: %%writefile my_policy.py)")
         return f"{Path(file).resolve()}:{part.__qualname__}"
+    if not isinstance(part, (str, Path)):
+        raise _program.InputError(f"a policy or predictor is {part!r} (allowed: a name of `clearway list`, FILE.py:Class, or a class)")
     file, colon, name = str(part).rpartition(":")
     if file.endswith(".py") or str(part).endswith((".pt", ".pth")):
         return f"{Path(file).resolve()}{colon}{name}" if colon else str(Path(part).resolve())
     return str(part)
+
+
+def policy_names(policy: Part | Sequence[Part]) -> list[str]:
+    """Names of one policy or of several."""
+    several = isinstance(policy, Iterable) and not isinstance(policy, (str, type))
+    return [part_name(one) for one in (policy if several else [policy])]
 
 
 def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int = 10, *, seed: int = 1,
@@ -62,6 +72,9 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     """
     if isinstance(conditions, (str, Condition)):
         conditions = [conditions]
+    if not isinstance(conditions, Iterable):
+        raise _program.InputError(f"conditions: {conditions!r} is neither a name nor a clearway.Condition, nor a list of them")
+    conditions = list(conditions)
     names = [condition for condition in conditions if isinstance(condition, str)]
     if baseline and "baseline" not in names:
         names.insert(0, "baseline")
@@ -69,6 +82,10 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     wrong = [condition for condition in own if not isinstance(condition, Condition)]
     if wrong:
         raise _program.InputError(f"conditions: {wrong[0]!r} is neither a name nor a clearway.Condition")
+    if not isinstance(scenario, (str, Path)) or not str(scenario):
+        raise _program.InputError(f"scenario is {scenario!r} (allowed: a name of `clearway list`, a folder or a file)")
+    _require_whole("seeds", seeds, 1, 100000)
+    _require_whole("seed", seed, 0, 2**63 - 1)
     place = Path(scenario)
     scenario_word = str(place.resolve()) if place.exists() else str(scenario)
     text = _study_text(scenario_word, place.stem, names, own, seeds, seed, overrides)
@@ -77,8 +94,13 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         out = Path("runs") / f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:6]}"
     with tempfile.TemporaryDirectory(prefix="clearway-") as folder:
         file = Path(folder) / "study.toml"
-        file.write_text(text)
-        return study(file, out=out, jobs=jobs, record=record, progress=progress)
+        file.write_text(text, encoding="utf-8")
+        try:
+            return study(file, out=out, jobs=jobs, record=record, progress=progress)
+        except _program.ClearwayError as error:
+            # Nobody wrote that file, and it is gone: its name and lines tell nothing.
+            said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", str(error))
+            raise type(error)(said, error.exit_code) from None
 
 
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
@@ -87,6 +109,7 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
     words = ["study", str(file), "--json"]
     if out is None:
         out = Path("runs") / (_study_name(Path(file)) + ("-quick" if quick else ""))
+    out = Path(out)
     words += ["--out", str(out)]
     words += ["--jobs", str(jobs)] if jobs else []
     words += ["--record"] if record else []
@@ -100,7 +123,10 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
 
 def _study_name(file: Path) -> str:
     try:
-        text = file.read_text()
+        text = file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise _program.InputError(f"{file}: is not UTF-8 text (byte {error.start}). A study file is TOML, docs/reference/study-file.md"
+                                  ) from None
     except OSError as error:
         raise _program.InputError(f"{file}: cannot be read: {error.strerror}. A study file is TOML, docs/reference/study-file.md"
                                   ) from None
@@ -111,7 +137,14 @@ def _study_name(file: Path) -> str:
         return file.stem  # the program says what is wrong, with line and column
 
 
+def _require_whole(what: str, value: Any, least: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        raise _program.InputError(f"{what}: {value!r} (allowed: a whole number from {least} to {most})")
+
+
 def _toml(value: Any) -> str:
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, (str, Path)):
         return json.dumps(str(value), ensure_ascii=False)
     if isinstance(value, bool):
@@ -120,6 +153,8 @@ def _toml(value: Any) -> str:
         return "[" + ", ".join(_toml(one) for one in value) + "]"
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(one)}" for key, one in value.items()) + " }"
+    if not isinstance(value, (int, float)):
+        raise _program.InputError(f"{value!r} cannot stand in a study (allowed: numbers, truth values, texts, lists and dictionaries)")
     return repr(value)
 
 
@@ -128,12 +163,13 @@ def _study_text(scenario: str, name: str, names: list[str], own: list[Condition]
     lines = [f"name = {_toml(name)}", f"seed = {_toml(seed)}", f"replications = {_toml(seeds)}",
              f"scenarios = [{_toml(scenario)}]", f"conditions = {_toml(names)}"]
     if overrides:
-        lines += ["[overrides]", *(f"{key} = {_toml(value)}" for key, value in overrides.items())]
+        lines += ["[overrides]", *(f"{json.dumps(key)} = {_toml(value)}" for key, value in overrides.items())]
     for condition in own:
-        policies = [condition.policy] if isinstance(condition.policy, (str, type)) else list(condition.policy)
+        if not isinstance(condition.set, Mapping):
+            raise _program.InputError(f"condition {condition.name}: set is {condition.set!r} (allowed: a dictionary of settings)")
         lines += ["[[condition]]", f"name = {_toml(condition.name)}", f"failure = {_toml(condition.failure)}",
                   f"predictor = {_toml(part_name(condition.predictor))}",
-                  f"policy = {_toml([part_name(policy) for policy in policies])}"]
+                  f"policy = {_toml(policy_names(condition.policy))}"]
         if condition.set:
             lines.append(f"set = {_toml(dict(condition.set))}")
         if condition.model is not None:

@@ -1,13 +1,14 @@
 """Several environments at a time: each simulates in a process of its own."""
 from __future__ import annotations
 
+import numbers
 from pathlib import Path
 from typing import Any, Sequence
 
 import numpy as np
 
 from . import _program, _spaces
-from .environment import Env
+from .environment import Env, checked_seeds
 
 if _spaces.installed("gymnasium"):
     import gymnasium
@@ -30,13 +31,15 @@ class VectorEnv(_Base):
     def __init__(self, scenario: str | Path, count: int, *, seeds: Sequence[int] = range(8), **arguments: Any) -> None:
         self.envs: list[Env] = []
         self.closed = False
-        if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(seeds):
-            raise _program.InputError(f"count is {count!r} (allowed: 1 to {len(seeds)}, the number of seeds)")
+        each = checked_seeds(seeds)
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 1 <= count <= len(each):
+            raise _program.InputError(f"count is {count!r} (allowed: 1 to {len(each)}, the number of seeds)")
+        count = int(count)
         self.metadata = {**self.metadata, "autoreset_mode": _next_step()}
         self.num_envs = count
         try:
             for number in range(count):
-                self.envs.append(Env(scenario, seeds=list(seeds)[number::count], **arguments))
+                self.envs.append(Env(scenario, seeds=each[number::count], **arguments))
         except BaseException:
             self.close()
             raise
@@ -49,19 +52,33 @@ class VectorEnv(_Base):
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
               ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         """Resets all; a single seed s gives environment i the seed s + i."""
-        seeds = [seed + number for number in range(self.num_envs)] if isinstance(seed, int) else seed
-        pairs = [one.reset(seed=None if seeds is None else seeds[number]) for number, one in enumerate(self.envs)]
+        pairs = [one.reset(seed=own) for one, own in zip(self.envs, self._seeds_of(seed))]
         self._over[:] = False
         return _stacked([observation for observation, _ in pairs]), _infos([info for _, info in pairs])
 
+    def _seeds_of(self, seed: Any) -> list[int | None]:
+        """A seed for each environment, all of them checked before any begins anew."""
+        if seed is None:
+            return [None] * self.num_envs
+        if isinstance(seed, numbers.Real) or isinstance(seed, str):
+            (first,) = checked_seeds([seed])
+            return list(checked_seeds(range(first, first + self.num_envs)))
+        seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise _program.InputError(f"{len(seeds)} seeds for {self.num_envs} environments")
+        return [None if one is None else checked_seeds([one])[0] for one in seeds]
+
     def step(self, actions: Any) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """Steps all: first every environment gets its action, then each is waited for."""
-        if len(actions) != self.num_envs:
-            raise _program.InputError(f"{len(actions)} actions for {self.num_envs} environments")
+        count = len(actions) if hasattr(actions, "__len__") else 0
+        if count != self.num_envs:
+            raise _program.InputError(f"{count} actions for {self.num_envs} environments")
         over = self._over.copy()
-        for one, action, is_over in zip(self.envs, actions, over):
-            if not is_over:
-                one.send(action)
+        # All are checked before any is sent: a wrong one must not leave the others a step ahead.
+        checked = [None if is_over else one._checked(action) for one, action, is_over in zip(self.envs, actions, over)]
+        for one, action in zip(self.envs, checked):
+            if action is not None:
+                one._send(action)
         results = []
         for one, is_over in zip(self.envs, over):
             if is_over:

@@ -8,6 +8,7 @@ import sys
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import clearway
 import numpy as np
@@ -151,7 +152,9 @@ class InterfaceTest(FolderCase):
     def test_wrong_arguments_are_told(self) -> None:
         for arguments, says in (({"until": "noon"}, "emergency, end"), ({"render_mode": "human"}, "ansi"), ({"seeds": []}, "at least one"),
                                 ({"seeds": [-1]}, "-1"), ({"others_weight": float("nan")}, "nan"), ({"failure": "B99"}, "B99"),
-                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "--sparse")):
+                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "--sparse"),
+                                ({"seeds": 4}, "seeds are 4"), ({"seeds": None}, "seeds are None"), ({"policy": 3}, "is 3"),
+                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication is not an option")):
             self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
         self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
         self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
@@ -197,6 +200,32 @@ class EndTest(FolderCase):
     def test_a_step_before_the_first_reset_is_refused(self) -> None:
         with clearway.env("intersection", seeds=[0]) as env:
             self.assertIn("call reset() first", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
+
+    def test_before_the_first_reset_nothing_is_there(self) -> None:
+        with clearway.env("intersection", seeds=[0]) as env, clearway.parallel_env("intersection", seeds=[0]) as agents_env:
+            for call in (env.action_masks, agents_env.state):
+                self.assertIn("call reset() first", self.message_of(clearway.ClearwayError, call))
+            self.assertIn("send()", self.message_of(clearway.ClearwayError, env.receive))
+
+    def test_an_interrupted_step_does_not_disturb_the_next_episode(self) -> None:
+        with clearway.env("intersection", seeds=[0]) as env:
+            def episode() -> list[float]:
+                env.reset(seed=0)
+                return [env.step(no_action(env))[4]["time_s"] for _ in range(4)]
+
+            expected = episode()
+            env.reset(seed=0)
+            with mock.patch.object(env._worker._channel, "wait", side_effect=KeyboardInterrupt):  # as Ctrl-C does
+                with self.assertRaises(KeyboardInterrupt):
+                    env.step(no_action(env))
+            self.assertIn("reset()", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
+            self.assertEqual(episode(), expected)
+
+    def test_an_interrupted_start_leaves_no_process(self) -> None:
+        before = set(children(os.getpid()))
+        with mock.patch("clearway._channel.Channel.wait", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            clearway.env("intersection", seeds=[0])
+        self.assertTrue(wait_until(lambda: set(children(os.getpid())) <= before))
 
     def test_a_forgotten_environment_ends(self) -> None:
         before = set(children(os.getpid()))
@@ -286,6 +315,9 @@ class ParallelTest(FolderCase):
         self.assertIn("call reset()", self.message_of(clearway.ClearwayError, lambda: env.step({})))
         env.reset()
         self.assertIn("there is no agent", self.message_of(clearway.InputError, lambda: env.step({"signal:x": 0})))
+        for wrong in (1.7, float("nan"), None, "1", -1, 99):
+            self.assertIn("the action of automated:7 is", self.message_of(clearway.InputError, lambda: env.step({"automated:7": wrong})))
+        self.assertIn("a dictionary", self.message_of(clearway.InputError, lambda: env.step([0])))
 
 
 class VectorTest(FolderCase):
@@ -311,6 +343,25 @@ class VectorTest(FolderCase):
     def test_wrong_counts_are_told(self) -> None:
         self.assertIn("count is 9", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 9)))
         self.assertIn("count is 0", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 0)))
+        self.assertIn("seeds are 4", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 1, seeds=4)))
+
+    def test_a_wrong_action_of_one_leaves_all_where_they_are(self) -> None:
+        with clearway.vector_env("intersection", np.int64(2), seeds=[0, 1]) as both:
+            nothing = np.zeros(both.action_space.shape, dtype=np.int64)
+            wrong = nothing.copy()
+            wrong[1, 0] = 99
+            times = []
+            for actions in (None, wrong):
+                both.reset(seed=np.int64(0))
+                if actions is not None:
+                    self.assertIn("action 0 is 99", self.message_of(clearway.InputError, lambda: both.step(actions)))
+                times.append([both.step(nothing)[4]["time_s"].tolist() for _ in range(4)])
+            self.assertEqual(times[0], times[1])
+
+    def test_wrong_seeds_are_told(self) -> None:
+        with clearway.vector_env("intersection", 1, seeds=[0]) as one:
+            for seed, says in ((-1, "seed is -1"), (1.5, "seed is 1.5"), (True, "seed is True"), ([1, 2], "2 seeds for 1"), ("a", "'a'")):
+                self.assertIn(says, self.message_of(clearway.InputError, lambda: one.reset(seed=seed)))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ import csv
 import io
 import math
 import os
+import shutil
 import tempfile
 import unittest
 
@@ -90,8 +91,48 @@ class ResultsTest(FolderCase):
                            (lambda: clearway.run("intersectoin", seeds=1), "intersectoin"),
                            (lambda: clearway.run("intersection", ["coridor"], seeds=1), "corridor"),
                            (lambda: clearway.run("intersection", [3], seeds=1), "neither a name nor"),
-                           (lambda: clearway.run("intersection", seeds=0), "replications")):
-            self.assertIn(says, self.message_of(clearway.InputError, call))
+                           (lambda: clearway.run("intersection", seeds=0), "seeds: 0"),
+                           (lambda: clearway.run("intersection", seeds=None), "seeds: None"),
+                           (lambda: clearway.run("intersection", seeds=[1, 2]), "seeds: [1, 2]"),
+                           (lambda: clearway.run("intersection", seed=-1), "seed: -1"),
+                           (lambda: clearway.run("intersection", None), "None is neither a name nor"),
+                           (lambda: clearway.run(None), "scenario is None"),
+                           (lambda: clearway.run("intersection", [clearway.Condition("a", policy=3)]), "is 3"),
+                           (lambda: clearway.run("intersection", [clearway.Condition("a", set=["b"])]), "set is ['b']"),
+                           (lambda: clearway.run("intersection", seeds=1, step_length_s=None), "None cannot stand"),
+                           (lambda: self.results.runs.where(condition=3), "compared with 3 (allowed: a text)"),
+                           (lambda: self.results.paired_difference(3, "corridor"), "`3` is unknown"),
+                           (lambda: clearway.open("--help"), "is not a run folder")):
+            message = self.message_of(clearway.InputError, call)
+            self.assertIn(says, message)
+            self.assertNotIn("study.toml", message)  # nobody wrote that file
+
+    def test_numbers_of_numpy_are_numbers(self) -> None:
+        results = clearway.run("intersection", [], seeds=np.int64(1), step_length_s=np.float64(0.5), out="runs")
+        self.assertEqual(results.runs.row_count, 1)
+
+    def test_folders_may_have_any_name(self) -> None:
+        folder = self.folder / "ü n%20?#ö"
+        shutil.copytree(self.results.folder, folder)
+        self.assertEqual(clearway.open(folder).runs.row_count, self.results.runs.row_count)
+        self.assertEqual([one.name for one in self.folder.iterdir()], [folder.name])
+
+    def test_a_study_that_is_not_text_is_told(self) -> None:
+        (self.folder / "study.toml").write_bytes(b"name = \xff\n")
+        self.assertIn("is not UTF-8", self.message_of(clearway.InputError, lambda: clearway.study("study.toml")))
+
+    def test_damaged_and_closed_recordings_are_told(self) -> None:
+        with self.results.recording("intersection", "corridor") as recording:
+            content = bytearray(recording.file.read_bytes())
+            start = recording._file["snapshot/x_m"].id.get_chunk_info(0).byte_offset
+        self.assertIn("is closed", self.message_of(clearway.ClearwayError, lambda: recording[0].x_m))
+        content[start:start + 20] = b"\xff" * 20
+        (self.folder / "bad.h5").write_bytes(content)
+
+        def read() -> None:
+            with clearway.trace("bad.h5") as bad:
+                _ = bad[0].x_m
+        self.assertIn("snapshot/x_m is damaged", self.message_of(clearway.InputError, read))
 
 
 if __name__ == "__main__":
