@@ -43,7 +43,9 @@ class Channel:
         return self.incoming[8:8 + length].decode("utf-8", "replace")
 
     def write_text(self, text: str) -> None:
-        content = text.encode("utf-8", "replace")[:CAPACITY - 8]
+        content = text.encode("utf-8", "replace")
+        if len(content) > CAPACITY - 8:
+            raise ValueError(f"an answer of {len(content)} bytes (allowed: {CAPACITY - 8})")
         struct.pack_into("<Q", self.outgoing, 0, len(content))
         self.outgoing[8:8 + len(content)] = content
 

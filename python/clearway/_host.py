@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
-from .parts import Belief, Network, Observation, checked_leases, checked_probabilities
+from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
 
 METHODS = {"policy": "act", "predictor": "predict"}
 
@@ -72,7 +72,8 @@ def load(file: Path, name: str, settings: dict[str, str]) -> Any:
 def make_part(greeting: dict[str, Any]) -> Any:
     part = load(Path(greeting["file"]), greeting["object"], greeting["settings"])
     method = METHODS[greeting["kind"]]
-    if not callable(getattr(part, method, None)):
+    bases = (Policy.act, Predictor.predict)  # of which nothing is meant to remain
+    if not callable(getattr(part, method, None)) or getattr(type(part), method, None) in bases:
         raise TypeError(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs")
     return part
 
@@ -126,7 +127,7 @@ def main() -> None:
         channel.ring(FAILED)
         sys.exit(1)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure
-        channel.write_text(traceback.format_exc().strip())
+        channel.write_text(traceback.format_exc().strip()[-100_000:])  # its end says what was raised
         channel.ring(FAILED)
         sys.exit(1)
 

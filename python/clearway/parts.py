@@ -208,6 +208,10 @@ def _key(what: str, vehicle: Any) -> int:
     return _whole(what, getattr(vehicle, "key", vehicle), 2**64 - 1)
 
 
+class _Fields(dict):
+    """Fields of a lease that a class method has checked."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Lease:
     """One action for one vehicle or signal. It ends by itself after ``lasting_s`` unless the next decision renews it.
@@ -220,13 +224,20 @@ class Lease:
 
     fields: dict[str, Any]
 
+    def __post_init__(self) -> None:
+        if type(self.fields) is not _Fields:
+            raise TypeError("a lease is made by its class methods, as Lease.drive_at(vehicle, speed_mps): they check what it asks for")
+
     @staticmethod
     def _make(action: str, target: dict[str, int], serves: Any, lasting_s: float, priority: int, reason: str,
               **parameters: Any) -> "Lease":
-        if not isinstance(priority, int):
+        if isinstance(priority, bool) or not isinstance(priority, (int, np.integer)):
             raise TypeError(f"priority is {priority!r}, not a whole number")
-        return Lease({"action": action, **target, **parameters, "beneficiary": 0 if serves is None else _key("serves", serves),
-                      "lasting_s": _number("lasting_s", lasting_s, 1e-3, 3600.0), "priority": priority, "reason": str(reason) or "not said"})
+        if not -2**31 <= priority < 2**31:
+            raise ValueError(f"priority is {priority} (allowed: {-2**31} to {2**31 - 1})")
+        return Lease(_Fields({"action": action, **target, **parameters, "beneficiary": 0 if serves is None else _key("serves", serves),
+                      "lasting_s": _number("lasting_s", lasting_s, 1e-3, 3600.0), "priority": int(priority),
+                              "reason": str(reason).encode("utf-8", "replace").decode() or "not said"}))
 
     @staticmethod
     def drive_at(vehicle: Any, speed_mps: float, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
@@ -342,7 +353,12 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
     """The fields of leases that ``act`` returned."""
     if answer is None:
         raise TypeError("act returned None: return a list of leases, empty if there is nothing to ask for")
-    leases = list(answer)
+    try:
+        leases = list(answer)
+    except TypeError:
+        if isinstance(answer, Iterable):
+            raise
+        raise TypeError(f"act returned {answer!r}, which is not a list of leases") from None
     for lease in leases:
         if not isinstance(lease, Lease):
             raise TypeError(f"act returned {lease!r} in its list, which is not a clearway.Lease")

@@ -66,6 +66,20 @@ class Sleeps(Policy):
         time.sleep(1000)
 class NoAct:
     pass
+class Inherits(Policy):
+    pass
+class OwnFields(Policy):
+    def act(self, belief):
+        return [Lease({"action": "fly"})]
+class TooMuch(Policy):
+    def act(self, belief):
+        return [Lease.hold_lane(1, reason="x" * 1000)] * 80000
+class Important(Policy):
+    def act(self, belief):
+        return [Lease.hold_lane(1, priority=10**30)]
+class Number(Policy):
+    def act(self, belief):
+        return 3
 class WrongShape:
     def predict(self, observation):
         return np.zeros(len(observation.pairs[0]) + 1)
@@ -325,7 +339,8 @@ class FaultTest(FolderCase):
     def test_an_exception_is_that_runs_failure_and_the_study_goes_on(self) -> None:
         says = {"Raises": "ZeroDivisionError: division by zero", "Leaves": "SystemExit: 0", "Dies": "killed by signal 9",
                 "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
-                "Nothing": "act returned None", "Writes": "read-only"}
+                "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
+                "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list"}
         results = self.run_all(list(says))
         for name, message in says.items():
             failed = results.errors.where(condition=name)
@@ -333,7 +348,7 @@ class FaultTest(FolderCase):
             self.assertIn(message, found)
             if name != "Dies":
                 self.assertIn("Traceback", found)
-                self.assertIn("bad.py" if name != "Nothing" else "act", found)
+                self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
         self.assertEqual(set(results.errors["cause"]), {"python"})
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
@@ -355,7 +370,8 @@ class FaultTest(FolderCase):
         self.write("syntax.py", "class Mine(:\n")
         self.write("raises.py", "raise OSError('no net here')\n")
         for word, says in (("nowhere.py:Mine", "nowhere.py is not a file"), ("bad.py:Mine", "has no class 'Mine'; it has Raises"),
-                           ("bad.py:NoAct", "NoAct has no method act()"), ("bad.py", "FILE.py:CLASS"),
+                           ("bad.py:NoAct", "NoAct has no method act()"),
+                           ("bad.py:Inherits", "Inherits has no method act()"), ("bad.py", "FILE.py:CLASS"),
                            ("syntax.py:Mine", "SyntaxError"), ("raises.py:Mine", "OSError: no net here")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", word, "--out", "runs"],
                                    capture_output=True, text=True, check=False)
