@@ -56,7 +56,6 @@ _HOMES = {
     "parallel": ["ParallelEnv", "parallel_env"],
     "vector": ["VectorEnv", "vector_env"],
     "parts": ["Policy", "Predictor", "Belief", "Observation", "Vehicles", "Links", "EmergencyVehicle", "Approach", "Lease", "Network"],
-
 }
 _MODULE_OF = {name: module for module, names in _HOMES.items() for name in names}
 __all__ = sorted(_MODULE_OF) + ["__version__"]
@@ -74,6 +73,8 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
+    if name == "torchscript":  # a module whose help says what a TorchScript predictor is given
+        return importlib.import_module(".torchscript", __name__)
     if name not in _MODULE_OF:
         raise AttributeError(f"clearway has no {name!r}; it has {', '.join(__all__)}")
     value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)

@@ -86,7 +86,13 @@ def _graph_samples(file: Path) -> list[Sample]:
     if start < 0 or not content.endswith(b"\n") or len(last) != 3 or len(content) - start > 60:
         raise _program.InputError(f"{file}: its last line is missing: it is cut short. {_CURE}")
     header_end = content.index(b"\n", len(_GRAPH_LINE))
-    origin = json.loads(content[len(_GRAPH_LINE):header_end])
+    try:
+        origin = json.loads(content[len(_GRAPH_LINE):header_end])
+        fits = isinstance(origin, dict) and type(origin["feature_count"]) is int and origin["feature_count"] >= 0 and int(last[1]) >= 0
+    except (ValueError, KeyError):
+        fits = False
+    if not fits:
+        raise _program.InputError(f"{file}: its second or last line is damaged. {_CURE}")
     reader = _Reader(content, header_end + 1, start, file)
     samples = []
     while reader.at < start:

@@ -53,6 +53,12 @@ class DatasetTest(FolderCase):
             self.assertIn("bad.samples", message)
             self.assertIn(says, message)
 
+    def test_damaged_lines_are_told(self) -> None:
+        for header, last in ((b"{x", b"end 0 0"), (b"{}", b"end 0 0"), (b"[]", b"end 0 0"), (b'{"feature_count":-3}', b"end 0 0"),
+                             (b'{"feature_count":8}', b"end x 0")):
+            (self.folder / "x.samples").write_bytes(b"clearway graph samples 1\n" + header + b"\n\n" + last + b"\n")
+            self.assertIn("is damaged", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
+
     def test_other_folders_are_refused(self) -> None:
         self.assertIn("holds neither", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
         self.write("edge_list.csv", "0,1\n2,5\n")

@@ -22,6 +22,10 @@ class ImportTest(FolderCase):
     def test_says_what_it_has_when_a_name_is_wrong(self) -> None:
         self.assertIn("it has", self.message_of(AttributeError, lambda: clearway.nonsense))
 
+    def test_has_a_module_that_says_what_torchscript_is_given(self) -> None:
+        ended = python("import clearway; help(clearway.torchscript)")
+        self.assertIn("float32[vehicles, 8]", ended.stdout)
+
     def test_says_which_python_lacks_numpy(self) -> None:
         bare = self.folder / "bare"
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(bare)], check=True)
