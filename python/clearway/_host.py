@@ -4,10 +4,12 @@ It loads the file, makes the part and answers questions until its pipe ends. Wha
 """
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import inspect
 import json
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Callable
@@ -112,7 +114,17 @@ def serve(channel: Channel) -> None:
         channel.ring(ANSWER)
 
 
+def end_group(*_: Any) -> None:
+    """Ends this process and all that user code has started."""
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(Exception):
+            stream.flush()
+    os.killpg(0, signal.SIGKILL)
+
+
 def main() -> None:
+    os.setpgid(0, 0)
+    signal.signal(signal.SIGTERM, end_group)
     memory, read, write = (int(word) for word in sys.argv[1:4])
     for descriptor in (memory, read, write):
         os.set_inheritable(descriptor, False)  # what user code starts must not hold the pipes open
@@ -120,16 +132,13 @@ def main() -> None:
     channel = Channel(memory, read, write)
     try:
         serve(channel)
-    except KeyboardInterrupt:
-        pass
     except SettingError as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
-        sys.exit(1)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure
         channel.write_text(traceback.format_exc().strip()[-100_000:])  # its end says what was raised
         channel.ring(FAILED)
-        sys.exit(1)
+    end_group()
 
 
 if __name__ == "__main__":

@@ -64,6 +64,15 @@ class Gone(Policy):
 class Sleeps(Policy):
     def act(self, belief):
         time.sleep(1000)
+class Interrupts(Policy):
+    def act(self, belief):
+        raise KeyboardInterrupt
+class Starts(Policy):
+    def __init__(self):
+        import subprocess
+        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # clearway._host, for hosts_of"])
+    def act(self, belief):
+        return []
 class NoAct:
     pass
 class Inherits(Policy):
@@ -338,6 +347,7 @@ class FaultTest(FolderCase):
 
     def test_an_exception_is_that_runs_failure_and_the_study_goes_on(self) -> None:
         says = {"Raises": "ZeroDivisionError: division by zero", "Leaves": "SystemExit: 0", "Dies": "killed by signal 9",
+                "Interrupts": "KeyboardInterrupt",
                 "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
                 "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
                 "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list"}
@@ -360,6 +370,14 @@ class FaultTest(FolderCase):
             results = clearway.run("intersection", conditions, seeds=1, out="runs")
         self.assertIn("one number for each of the", results.errors.where(condition="WrongShape")["message"][0])
         self.assertIn("the probability nan for pair 0 (allowed: 0 to 1)", results.errors.where(condition="WrongNumber")["message"][0])
+
+    def test_what_a_policy_starts_ends_with_it(self) -> None:
+        results = clearway.run("intersection", [clearway.Condition("Starts", policy="bad.py:Starts")], seeds=1, out="runs")
+        self.assertEqual(results.errors.row_count, 0)
+        end = time.monotonic() + 5.0
+        while hosts_of(self.folder) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertEqual(hosts_of(self.folder), [])
 
     def test_a_lease_for_a_vehicle_that_is_gone_is_counted(self) -> None:
         results = clearway.run("intersection", [clearway.Condition("Gone", policy="bad.py:Gone")], seeds=1, out="runs")
