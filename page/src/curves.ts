@@ -3,7 +3,14 @@
 import uPlot from "uplot";
 import type { Journey, Track } from "./track";
 
-const colours = ["#8a8f98", "#0a7d4f"];
+/** As in the report: the baseline is grey. Of two runs without one, or of two of it, the first is. */
+const grey = "#8a8f98";
+const green = "#0a7d4f";
+function colourOf(tracks: Track[], i: number): string {
+  const isUsual = tracks.map((track) => track.about.condition.startsWith("baseline"));
+  const first = isUsual.filter((usual) => usual).length === 1 ? isUsual.indexOf(true) : 0;
+  return i === first ? grey : green;
+}
 
 interface Curve {
   title: string;
@@ -61,6 +68,12 @@ export class Curves {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
     caption.textContent = `${curve.title} of the emergency vehicle, ${curve.unit}`;
+    for (const [i, track] of tracks.entries()) {
+      const name = document.createElement("span");
+      name.textContent = ` — ${track.about.condition}`;
+      name.style.color = colourOf(tracks, i);
+      caption.append(name);
+    }
     figure.append(caption);
     this.element.append(figure);
     const ink = getComputedStyle(this.element).color;
@@ -77,7 +90,7 @@ export class Curves {
           {},
           ...tracks.map((track, i) => ({
             label: track.about.condition,
-            stroke: colours[i % colours.length] as string,
+            stroke: colourOf(tracks, i),
             width: 2,
             spanGaps: true,
           })),

@@ -348,7 +348,7 @@ export class Player {
 
   private play(on: boolean): void {
     this.playing = on;
-    this.playButton.textContent = on ? "⏸" : "▶";
+    this.playButton.textContent = on ? "❚❚" : "▶";
     this.last_ms = performance.now();
     cancelAnimationFrame(this.pending);
     if (on) this.pending = requestAnimationFrame(() => this.tick());

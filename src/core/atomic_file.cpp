@@ -19,6 +19,15 @@ namespace {
 
 constexpr const char* part_ending = ".part";
 
+/// A device or a pipe would be replaced by the new file. A folder cannot be.
+void require_file(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+    if (std::filesystem::is_other(status))
+        throw EnvironmentError(
+            fmt::format("{}: cannot write: it is not a file. Choose another place", path.string()));
+}
+
 }  // namespace
 
 EnvironmentError write_error(const std::filesystem::path& path, int reason) {
@@ -29,9 +38,9 @@ EnvironmentError write_error(const std::filesystem::path& path, int reason) {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path file)
-    : file_(std::move(file)),
-      aside_(file_.string() + fmt::format(".{}{}", ::getpid(), part_ending)),
-      descriptor_(::open(aside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644)) {
+    : file_(std::move(file)), aside_(file_.string() + fmt::format(".{}{}", ::getpid(), part_ending)) {
+    require_file(file_);
+    descriptor_ = ::open(aside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
     if (descriptor_ < 0) fail();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
@@ -68,6 +69,14 @@ TEST_F(FilesTest, NamesTheFileThatCannotBeWritten) {
     EXPECT_THAT(complaint<EnvironmentError>([&] { write_atomically(folder_.path() / "taken", "x"); }),
                 HasSubstr("taken: cannot write: Is a directory"));
     EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(FilesTest, APipeIsNotReplaced) {
+    const std::filesystem::path pipe = folder_.path() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(complaint<EnvironmentError>([&] { write_atomically(pipe, "text"); }),
+                HasSubstr("pipe: cannot write: it is not a file. Choose another place"));
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {

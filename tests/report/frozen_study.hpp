@@ -114,7 +114,7 @@ class FrozenStudy {
         traffic.edge_times = {{"emergency<0>", "north_in", 60.0, half_s},
                               {"emergency<0>", "south_out", 60.0 + half_s, half_s}};
         if (helps) traffic.holds = {{"J<1>", 1, 20.0 + luck_s}};
-        if (key.replication != 0) return;
+        if (key.replication >= 3) return;  // as many as keep journeys
         const double end_s = 60.0 + travel_time_s(key, 0);
         for (const auto& [time_s, distance_m] : {std::pair{60.0, 0.0}, {80.0, 200.0}, {end_s, 900.0}})
             traffic.journeys.push_back({"emergency<0>", "", "", time_s, distance_m});

@@ -85,7 +85,7 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
             fmt::format("Vehicle {}, replication {}: {} s {}. A level piece is a stop. Signals on its route "
                         "are drawn twice: without the condition above the stop line, with it below. Of the "
-                        "trips of this replication its gain is nearest to the mean.",
+                        "trips that were kept its gain is nearest to the mean.",
                         with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
                         saved_s >= 0.0 ? "sooner" : "later"),
             std::move(data)};

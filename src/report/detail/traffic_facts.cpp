@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -60,11 +61,17 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
     return shown;
 }
 
+/// A vehicle and how far its gain is from what is looked for, s.
+struct Typical {
+    std::string vehicle;
+    double off_s = 0.0;
+};
+
 /// Of the vehicles that occur in all runs the one whose gain, from the first to the second run, is nearest to
-/// `gain_s`; of equals the first. Empty if there is none.
-std::string typical_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs, double gain_s) {
-    std::string best;
-    double least = 0.0;
+/// `gain_s`; of equals the first. Nothing if there is none.
+std::optional<Typical> typical_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs,
+                                       double gain_s) {
+    std::optional<Typical> best;
     for (const auto& [vehicle, journey] : runs.front()) {
         const bool everywhere =
             std::ranges::all_of(runs, [&, &name = vehicle](const auto& run) { return run.contains(name); });
@@ -72,9 +79,7 @@ std::string typical_vehicle(const std::vector<std::map<std::string, JourneyFacts
         const JourneyFacts& with = runs[std::min<std::size_t>(1, runs.size() - 1)].at(vehicle);
         const double gained_s = journey.places.back().time_s - with.places.back().time_s;
         const double off_s = std::abs(gained_s - gain_s);
-        if (!best.empty() && off_s >= least) continue;
-        best = vehicle;
-        least = off_s;
+        if (!best || off_s < best->off_s) best = Typical{vehicle, off_s};
     }
     return best;
 }
@@ -87,23 +92,25 @@ std::vector<JourneyFacts> journeys_in(const results::Store& store, const Scenari
     const ConditionFacts& first = *conditions[std::min<std::size_t>(1, conditions.size() - 1)];
     const double gain_s = -first.outcome(Measure::emergency_restricted_time).difference.mean.value_or(0.0);
     constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
+    std::vector<JourneyFacts> journeys;
+    std::optional<Typical> shown;
     for (std::uint32_t replication = 0;
          replication < std::min<std::uint64_t>(looked_at, scenario.replications); ++replication) {
         std::vector<std::map<std::string, JourneyFacts>> runs;
         for (const ConditionFacts* condition : conditions)
             runs.push_back(
                 journeys_of(store.read_traffic({scenario.name, condition->name, replication}).journeys));
-        const std::string vehicle = typical_vehicle(runs, gain_s);
-        if (vehicle.empty()) continue;
-        std::vector<JourneyFacts> journeys;
+        const std::optional<Typical> found = typical_vehicle(runs, gain_s);
+        if (!found || (shown && shown->off_s <= found->off_s)) continue;
+        shown = found;
+        journeys.clear();
         for (std::size_t row = 0; row < runs.size(); ++row) {
-            JourneyFacts& journey = journeys.emplace_back(std::move(runs[row].at(vehicle)));
+            JourneyFacts& journey = journeys.emplace_back(std::move(runs[row].at(found->vehicle)));
             journey.condition = conditions[row]->label();
             journey.replication = replication;
         }
-        return journeys;
     }
-    return {};
+    return journeys;
 }
 
 std::vector<FlowFacts> flows_in(const std::filesystem::path& file, const results::Results& results,

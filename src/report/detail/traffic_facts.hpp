@@ -10,8 +10,8 @@
 
 namespace clearway::report::detail {
 
-/// One emergency vehicle's journey in the first replication that kept it, under the baseline and the
-/// conditions that help most: the vehicle whose gain is nearest to the mean. Empty if no journeys were kept.
+/// One emergency vehicle's journey under the baseline and the conditions that help most: of all journeys that
+/// were kept, the one whose gain is nearest to the mean. Empty if none was kept.
 std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario);
 
 /// Counted flows from the file, each with the mean flow of a condition's runs; empty if the file is missing.
