@@ -209,6 +209,13 @@ std::size_t Actuator::active() const {
     return sum;
 }
 
+std::vector<traffic::SignalStatus> Actuator::signals() const {
+    std::vector<traffic::SignalStatus> all;
+    for (const auto& [index, signal] : state_->signals)
+        all.push_back(signal.status(state_->last_step.value_or(core::Seconds(0.0))));
+    return all;
+}
+
 const std::map<std::string, LeaseCounts>& Actuator::counts() const {
     return state_->ledger.counts();
 }

@@ -13,6 +13,7 @@
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
 #include "traffic/lease.hpp"
+#include "traffic/signal_status.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/self_knowledge.hpp"
 #include "truth/snapshot.hpp"
@@ -77,6 +78,9 @@ class Actuator {
 
     /// Number of leases in force, waiting ones included.
     std::size_t active() const;
+    /// Signals with leases in force, or not yet back in their programs and in step, by index. A signal that
+    /// is missing runs its program, and a hold would begin there at once.
+    std::vector<traffic::SignalStatus> signals() const;
     /// By `policy/action`.
     const std::map<std::string, LeaseCounts>& counts() const;
 

@@ -33,6 +33,8 @@ class BackgroundPlan {
     /// Notes that it no longer runs.
     void leave() { state_.clear(); }
 
+    /// Whether its neighbours depend on its timing.
+    bool keeps_step() const { return keeps_step_; }
     /// Nothing left to do: it is in step, is not coordinated, or cannot get back into step.
     bool is_in_step(core::Seconds now) const;
     /// Cycle time, s; 0 without a program.

@@ -54,6 +54,7 @@ class LeaseQueue {
 
     HeldLease* best() { return held_.empty() ? nullptr : &held_.front(); }
     std::list<HeldLease>& all() { return held_; }
+    const std::list<HeldLease>& all() const { return held_; }
     std::size_t size() const { return held_.size(); }
     bool empty() const { return held_.empty(); }
 

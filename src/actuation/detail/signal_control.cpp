@@ -51,6 +51,26 @@ bool SignalControl::is_idle(core::Seconds now) const {
     return active() == 0 && stage_ == Stage::background_plan && now >= lockout_until_ && own_.is_in_step(now);
 }
 
+traffic::SignalStatus SignalControl::status(core::Seconds now) const {
+    traffic::SignalStatus status;
+    status.signal = index_;
+    status.stage = stage_ == Stage::background_plan ? traffic::SignalStage::program
+                   : stage_ == Stage::hold          ? traffic::SignalStage::dwell
+                                                    : traffic::SignalStage::transition;
+    if (stage_ != Stage::background_plan) status.held = way_.links;
+    status.capped = capped_;
+    if (own_.keeps_step())
+        status.coordination = stage_ == Stage::background_plan && own_.is_in_step(now)
+                                  ? traffic::Coordination::in_step
+                                  : traffic::Coordination::out_of_step;
+    for (const HeldLease& held : holds_.all()) {
+        const auto& asked = std::get<traffic::HoldGreen>(held.lease.action);
+        status.calls.push_back(
+            {held.lease.beneficiary, united(asked.own_links.empty() ? asked.links : asked.own_links, {})});
+    }
+    return status;
+}
+
 /// Links of the best lease and of all that are compatible with it. Leases that are already served come before
 /// waiting ones, because a change costs both of them time.
 Links SignalControl::requested(Ledger& ledger) {

@@ -13,6 +13,7 @@
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
+#include "traffic/signal_status.hpp"
 #include "truth/self_knowledge.hpp"
 
 namespace clearway::actuation::detail {
@@ -87,6 +88,8 @@ class SignalControl {
     std::size_t active() const { return holds_.size() + adjustments_.size(); }
     /// Whether nothing is held and a new hold would be accepted at once.
     bool is_idle(core::Seconds now) const;
+    /// For those who watch.
+    traffic::SignalStatus status(core::Seconds now) const;
 
   private:
     enum class Stage : std::uint8_t { background_plan, yellow, all_red, hold };
