@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "traffic/priority_request.hpp"
 
 namespace clearway::traffic {
 
@@ -11,6 +12,7 @@ namespace clearway::traffic {
 struct SignalCall {
     core::VehicleKey emergency;        ///< Value 0 where the policy named none.
     std::vector<std::uint16_t> links;  ///< That the emergency vehicle itself may take, ascending.
+    RequestStatus status = RequestStatus::processing;
 };
 
 /// What a signal is doing about requests.

@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 namespace clearway::testing {
 namespace {
 
+using traffic::RequestStatus;
 using traffic::SignalStage;
 
 TEST(SignalStatus, tells_stage_and_links_of_a_hold_from_its_call_to_the_return) {
@@ -45,6 +47,40 @@ TEST(SignalStatus, tells_that_a_hold_reached_its_longest_time) {
         if (capped_s == 0.0 && !signals.empty() && signals[0].capped) capped_s = now.now.value;
     });
     EXPECT_NEAR(capped_s, 60.25, 0.3);
+}
+
+/// Every different status that the request of a vehicle is given, in order.
+std::vector<RequestStatus> told(
+    ActuationBench& bench, core::VehicleKey vehicle, double until_s,
+    const std::vector<std::pair<core::VehicleKey, traffic::HoldGreen>>& requests) {
+    std::vector<RequestStatus> statuses;
+    watch(bench, until_s, [&](ActuationBench& b) {
+        for (const traffic::SignalStatus& signal : b.actuator.signals()) {
+            for (const traffic::SignalCall& call : signal.calls) {
+                if (call.emergency == vehicle && (statuses.empty() || statuses.back() != call.status))
+                    statuses.push_back(call.status);
+            }
+        }
+        for (const auto& [emergency, hold] : requests)
+            b.offer(signal_a, hold, 2.0, 0, "policy", emergency);
+    });
+    return statuses;
+}
+
+TEST(SignalStatus, tells_a_requestor_of_the_transition_the_grant_the_cap_and_the_lockout) {
+    ActuationBench bench;
+    const core::VehicleKey vehicle{1};
+    EXPECT_EQ(told(bench, vehicle, 70.0, {{vehicle, traffic::HoldGreen{west}}}),
+              (std::vector{RequestStatus::processing, RequestStatus::granted, RequestStatus::max_presence,
+                           RequestStatus::reservice_locked}));
+}
+
+TEST(SignalStatus, tells_a_requestor_that_another_comes_first) {
+    ActuationBench bench;
+    EXPECT_EQ(told(bench, core::VehicleKey{2}, 30.0,
+                   {{core::VehicleKey{1}, traffic::HoldGreen{west}},
+                    {core::VehicleKey{2}, traffic::HoldGreen{north}}}),
+              (std::vector{RequestStatus::processing}));
 }
 
 }  // namespace

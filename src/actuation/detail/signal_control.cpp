@@ -65,10 +65,26 @@ traffic::SignalStatus SignalControl::status(core::Seconds now) const {
                                   : traffic::Coordination::out_of_step;
     for (const HeldLease& held : holds_.all()) {
         const auto& asked = std::get<traffic::HoldGreen>(held.lease.action);
-        status.calls.push_back(
-            {held.lease.beneficiary, united(asked.own_links.empty() ? asked.links : asked.own_links, {})});
+        status.calls.push_back({held.lease.beneficiary,
+                                united(asked.own_links.empty() ? asked.links : asked.own_links, {}),
+                                status_of(held, now)});
     }
     return status;
+}
+
+traffic::RequestStatus SignalControl::status_of(const HeldLease& held, core::Seconds now) const {
+    const bool in_program = stage_ == Stage::background_plan;
+    if (capped_) return traffic::RequestStatus::max_presence;
+    if (in_program && now.value < lockout_until_.value - time_tolerance_s)
+        return traffic::RequestStatus::reservice_locked;
+    if (!held.served || stage_ != Stage::hold) return traffic::RequestStatus::processing;
+    const auto& asked = std::get<traffic::HoldGreen>(held.lease.action);
+    const Links& own = asked.own_links.empty() ? asked.links : asked.own_links;
+    const auto shows = [&](std::uint16_t link) { return link < shown_.size() ? shown_[link] : 'r'; };
+    if (!std::ranges::all_of(own, [&](std::uint16_t link) { return traffic::is_green(shows(link)); }))
+        return traffic::RequestStatus::rejected;
+    const bool yields = std::ranges::any_of(own, [&](std::uint16_t link) { return shows(link) == 'g'; });
+    return yields ? traffic::RequestStatus::watch_other_traffic : traffic::RequestStatus::granted;
 }
 
 /// Links of the best lease and of all that are compatible with it. Leases that are already served come before

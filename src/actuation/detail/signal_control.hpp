@@ -102,6 +102,7 @@ class SignalControl {
         std::optional<std::uint32_t> return_phase;
     };
 
+    traffic::RequestStatus status_of(const HeldLease& held, core::Seconds now) const;
     std::uint16_t link_count() const { return static_cast<std::uint16_t>(inner_lanes_.size()); }
     Links requested(Ledger& ledger);
     Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
