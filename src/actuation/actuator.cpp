@@ -67,7 +67,7 @@ struct Actuator::State {
         for (std::size_t row = 0; row < histories.size(); ++row)
             histories[row].watch(shown.state[row], now);
     }
-    std::optional<detail::SignalDuties> duties_of(core::SignalIndex index) const {
+    std::optional<detail::SignalDuties> duties_of(core::SignalIndex index) {
         const auto clearance = clearances.find(index);
         if (clearance == clearances.end() || index.value >= histories.size()) return std::nullopt;
         return detail::SignalDuties{clearance->second, histories[index.value]};

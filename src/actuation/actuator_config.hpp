@@ -19,7 +19,7 @@ struct ActuatorConfig {
     double hold_cap_s = 60.0;
     double lockout_s = 10.0;
     double least_green_s = 10.0;
-    ClearanceRule clearance = ClearanceRule::fixed;
+    ClearanceRule clearance = ClearanceRule::ite;
     double entry_green_s = 5.0;
     double walk_s = 7.0;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
@@ -29,17 +29,22 @@ struct ActuatorConfig {
         using C = ActuatorConfig;
         using core::Field;
         return std::make_tuple(
-            Field{"yellow_s", "s", &C::yellow_s, 0.0, 10.0,
-                  "Yellow before a green is withdrawn, on a dry road; longer on slippery roads",
-                  "usual in towns"},
-            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0, "All red after yellow",
+            Field{
+                "yellow_s", "s", &C::yellow_s, 0.0, 10.0,
+                "Shortest yellow before a green is withdrawn, on a dry road; longer on slippery roads. With "
+                "`clearance` `fixed` it is the yellow",
+                "the shortest of ITE, MUTCD and RiLSA"},
+            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0,
+                  "With `clearance` `fixed`: all red after yellow. With the others it comes only before a "
+                  "green to which one must yield that had right of way",
                   "assumed: usual in towns"},
-            Field{"clearing_s", "s", &C::clearing_s, 0.0, 30.0,
-                  "All red lasts up to this much longer while a vehicle that has lost green is still inside "
-                  "the junction",
-                  "assumed: a waiting left-turner needs 4 s to leave"},
+            Field{
+                "clearing_s", "s", &C::clearing_s, 0.0, 30.0,
+                "A green that conflicts waits up to this much longer while a vehicle that has lost green is "
+                "still inside the junction",
+                "assumed: a waiting left-turner needs 4 s to leave"},
             Field{"walking_s", "s", &C::walking_s, 0.0, 120.0,
-                  "All red lasts up to this much longer while a pedestrian is on a crossing that vehicles "
+                  "A green waits up to this much longer while a pedestrian is on a crossing that vehicles "
                   "with green will cross, or "
                   "a vehicle is in the way of pedestrians who get green; 0 without pedestrians",
                   "assumed: 20 m at 0.5 m/s, so that it ends when the crossing is empty, unless somebody is "
@@ -60,12 +65,12 @@ struct ActuatorConfig {
                   "No green of the background plan ends earlier while a signal recovers", "assumed"},
             Field{
                 "clearance", "", &C::clearance, 0.0, 0.0,
-                "Least yellow and red clearance of a link that loses green: `fixed` is `yellow_s` and "
-                "`all_red_s`; "
-                "with `ite` and `rilsa` they are also never shorter than in the signal's own program, or, "
-                "where "
-                "that shows none, than the formulas of the ITE or of RiLSA give for speed limit and crossing",
-                "figures of the findings are made with `fixed`"},
+                "Least yellow and red clearance of each link that loses green: `ite` and `rilsa` are what "
+                "the "
+                "signal's own program shows, or, where it shows none, what the formulas of the ITE or of "
+                "RiLSA give for speed limit and crossing, and a link waits only for those that conflict with "
+                "it; `fixed` is `yellow_s` and `all_red_s` for all, whatever the program shows",
+                "no transition may be faster than the program allows; older figures were made with `fixed`"},
             Field{
                 "entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
                 "No green ends earlier for a hold, nor before the program's own least; without effect where "

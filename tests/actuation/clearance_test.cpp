@@ -52,6 +52,27 @@ TEST(OwnClearance, is_nothing_where_no_link_that_conflicts_gets_green_in_between
     EXPECT_DOUBLE_EQ(own[0].red_s, 0.0);
 }
 
+TEST(OwnClearance, is_no_phase_that_lets_others_go_however_long_the_foes_wait) {
+    roads::Signal signal = two_links();
+    signal.links.resize(3);
+    signal.crossings.assign(3, false);
+    signal.foes = {{false, true, false}, {true, false, true}, {false, true, false}};
+    signal.program = {{30.0, "Grr"}, {3.0, "yrr"},  {1.0, "rrr"}, {25.0, "rrG"}, {3.0, "rry"},
+                      {2.0, "rrr"},  {36.0, "rGr"}, {4.0, "ryr"}, {1.0, "rrr"}};
+    const auto own = actuation::detail::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 1.0) << "not 31 s";
+    EXPECT_DOUBLE_EQ(own[2].red_s, 2.0);
+    EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
+}
+
+TEST(OwnClearance, of_a_green_after_which_no_foe_opens_says_nothing) {
+    roads::Signal signal = two_links();
+    signal.program = {{30.0, "Gr"}, {3.0, "yr"}, {2.0, "rr"},  {36.0, "rG"},
+                      {4.0, "ry"},  {1.0, "rr"}, {20.0, "Gr"}, {3.0, "yr"}};
+    const auto own = actuation::detail::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0) << "the second green is followed by the first of the next cycle";
+}
+
 TEST(ClearanceOfRule, has_the_yellow_that_the_formulas_give_for_a_speed_limit) {
     using actuation::detail::yellow_of_rule_s;
     EXPECT_NEAR(yellow_of_rule_s(ClearanceRule::ite, 50.0 / 3.6), 3.28, 0.005);
@@ -81,6 +102,8 @@ TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
     EXPECT_GT(history.green_s(0, core::Seconds(1.0)), 1e6) << "nobody saw it begin";
     EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(1.0)), 0.0);
     history.watch("yr", core::Seconds(2.0));
+    EXPECT_DOUBLE_EQ(history.yellow_s(0, core::Seconds(3.5)), 1.5);
+    EXPECT_DOUBLE_EQ(history.yellow_s(1, core::Seconds(3.5)), 0.0);
     EXPECT_DOUBLE_EQ(history.green_s(0, core::Seconds(3.0)), 0.0);
     EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(3.0)), 0.0);
     history.watch("rG", core::Seconds(5.0));
@@ -185,8 +208,82 @@ TEST_P(ConformingHold, is_never_entered_or_left_faster_than_program_and_rule_all
 INSTANTIATE_TEST_SUITE_P(Rules, ConformingHold, ::testing::Values(ClearanceRule::ite, ClearanceRule::rilsa),
                          [](const auto& rule) { return std::string(core::name(rule.param)); });
 
+/// When each link of the west gets green in a hold for them, s.
+std::vector<double> openings_s(const actuation::ActuatorConfig& config) {
+    ActuationBench bench(0.25, config);
+    std::vector<double> opened_s(west.size(), -1.0);
+    while (bench.now.value < 40.0) {
+        bench.offer(signal_a, traffic::HoldGreen{west}, 2.0);
+        bench.step();
+        for (std::size_t row = 0; row < west.size(); ++row) {
+            if (opened_s[row] < 0.0 && traffic::is_green(bench.shown[0][west[row]]))
+                opened_s[row] = bench.now.value;
+        }
+    }
+    return opened_s;
+}
+
+TEST(ConformingHold, opens_each_link_when_those_that_conflict_with_it_are_clear) {
+    const std::vector<double> opened_s = openings_s({});
+    const roads::Signal& signal = two_crossings().signal(signal_a);
+    const Clearance clearance(ClearanceRule::ite, signal, two_crossings());
+    for (std::size_t row = 0; row < west.size(); ++row) {
+        double needs_s = 0.0;
+        for (std::uint16_t other = 0; other < signal.links.size(); ++other) {
+            const bool loses = traffic::is_green(signal.program[0].state[other]);
+            if (loses && signal.foes[other][west[row]])
+                needs_s = std::max(needs_s, 4.0 + clearance.red_s(other, west[row]));
+        }
+        EXPECT_GE(opened_s[row] - 0.25, needs_s - 1e-9) << "link " << west[row];
+        EXPECT_LT(opened_s[row] - 0.25, needs_s + 0.25) << "link " << west[row];
+    }
+    EXPECT_NE(*std::ranges::min_element(opened_s), *std::ranges::max_element(opened_s))
+        << "nobody waits for the slowest pair";
+}
+
+TEST(ConformingHold, is_not_made_longer_by_the_all_red_of_fixed_transitions) {
+    EXPECT_EQ(openings_s({.all_red_s = 10.0}), openings_s({.all_red_s = 0.0}));
+    actuation::ActuatorConfig config = fixed_clearance();
+    config.all_red_s = 10.0;
+    EXPECT_NEAR(openings_s(config)[1], 0.25 + 3.0 + 10.0, 0.3);
+}
+
+TEST(ConformingHold, waits_for_a_vehicle_inside_the_junction_where_it_is_in_the_way_but_not_for_ever) {
+    for (const double leaves_s : {9.0, 100.0}) {
+        ActuationBench bench(0.25, {});
+        const auto turner =
+            bench.add({"h", traffic::VehicleClass::human, {"north_a_A", "A_B"}, 1, 280.0, 0.0});
+        bench.on_road[turner].lane = two_crossings().find_lane(":A_3_0").value();
+        const double free_s = openings_s({})[1];
+        double opened_s = 0.0;
+        watch(bench, 30.0, [&](ActuationBench& b) {
+            b.offer(signal_a, traffic::HoldGreen{west}, 2.0);
+            if (b.now.value >= leaves_s) b.on_road.erase(turner);
+            if (opened_s == 0.0 && b.shown[0][west[1]] == 'G') opened_s = b.now.value;
+        });
+        ASSERT_LT(free_s, 9.0);
+        EXPECT_NEAR(opened_s, leaves_s < 50.0 ? leaves_s + 0.25 : free_s + 6.0, 0.3);
+    }
+}
+
+TEST(ConformingHold, shows_that_it_takes_right_of_way_before_the_others_open) {
+    ActuationBench bench(0.25, {});
+    double yields_s = 0.0;
+    double opens_s = 0.0;
+    const traffic::HoldGreen from_north{north, {1, 2}};
+    const traffic::HoldGreen from_south{{8, 9, 10, 11}, {9, 10}};
+    watch(bench, 30.0, [&](ActuationBench& b) {
+        b.offer(signal_a, from_north, 2.0, 0, "policy", core::VehicleKey{1});
+        if (b.now.value >= 15.0) b.offer(signal_a, from_south, 2.0, 0, "policy", core::VehicleKey{2});
+        if (b.now.value > 15.0 && yields_s == 0.0 && b.shown[0][3] == 'g') yields_s = b.now.value;
+        if (b.now.value > 15.0 && opens_s == 0.0 && b.shown[0][9] == 'G') opens_s = b.now.value;
+    });
+    EXPECT_NEAR(yields_s, 15.25, 1e-9);
+    EXPECT_NEAR(opens_s - yields_s, 1.5, 0.25 + 1e-9) << "all_red_s";
+}
+
 TEST(ConformingHold, with_a_fixed_rule_shows_what_the_settings_say) {
-    actuation::ActuatorConfig config;
+    actuation::ActuatorConfig config = fixed_clearance();
     config.yellow_s = 2.0;
     double shortest_s = 100.0;
     for (const Stretch& run : stretches_of(seesaw(config), north[1])) {

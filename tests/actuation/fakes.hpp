@@ -51,10 +51,17 @@ inline const roads::Network& footway() {
     return network;
 }
 
+/// Transitions of the same length everywhere, so that tests of everything else have few numbers.
+inline actuation::ActuatorConfig fixed_clearance() {
+    actuation::ActuatorConfig config;
+    config.clearance = actuation::ClearanceRule::fixed;
+    return config;
+}
+
 /// An actuator with the two crossings, or another network, a clock and a record of every command.
 class ActuationBench {
   public:
-    explicit ActuationBench(double step_s = 0.25, actuation::Actuator::Config config = {},
+    explicit ActuationBench(double step_s = 0.25, actuation::Actuator::Config config = fixed_clearance(),
                             const roads::Network& network = two_crossings())
         : step_s_(step_s), network_(network), actuator(network, config) {
         now = core::Seconds(0.0);

@@ -100,6 +100,22 @@ TEST(BackgroundPlan, keeps_short_greens_that_are_shorter_than_the_least_time) {
     EXPECT_DOUBLE_EQ(change->lasting.value, 6.0) << "20 s late";
 }
 
+TEST(BackgroundPlan, never_cuts_the_least_green_of_the_program) {
+    roads::Signal signal = clockwork();
+    signal.program[2].least_s = 25.0;
+    BackgroundPlan own(signal, true);
+    own.watch("rG", core::Seconds(100.0));
+    own.watch("rG", core::Seconds(124.0));
+    EXPECT_FALSE(own.next_after(least_green, core::Seconds(124.0)));
+    own.watch("rG", core::Seconds(125.0));
+    EXPECT_EQ(own.next_after(least_green, core::Seconds(125.0)), 3U);
+    own.disturb(core::Seconds(125.0));
+    own.watch("yr", core::Seconds(196.0));
+    own.watch("rG", core::Seconds(200.0));
+    EXPECT_DOUBLE_EQ(own.step_back(least_green, core::Seconds(200.0)).value().lasting.value, 25.0)
+        << "20 s late";
+}
+
 TEST(BackgroundPlan, gives_up_after_five_cycles) {
     roads::Signal signal = clockwork();
     BackgroundPlan own(signal, true);

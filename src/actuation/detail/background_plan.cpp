@@ -61,9 +61,8 @@ bool BackgroundPlan::is_in_step(core::Seconds now) const {
 }
 
 std::optional<std::uint32_t> BackgroundPlan::next_after(core::Seconds least_green, core::Seconds now) const {
-    if ((now - since_).value < least_green.value - time_tolerance_s) return std::nullopt;
     const auto phase = green_phase(signal_, state_);
-    if (!phase) return std::nullopt;
+    if (!phase || (now - since_).value < least_s(*phase, least_green) - time_tolerance_s) return std::nullopt;
     return (*phase + 1) % static_cast<std::uint32_t>(signal_.program.size());
 }
 
@@ -75,9 +74,13 @@ std::optional<PhaseChange> BackgroundPlan::step_back(core::Seconds least_green, 
     in_step_ = std::abs(lag_s) <= in_step_s;
     if (in_step_) return std::nullopt;
     const double own_s = signal_.program[*phase].duration_s;
-    const double lasting_s =
-        std::clamp(own_s + lag_s, std::min(own_s, least_green.value), own_s * (1.0 + most_stretch));
+    const double lasting_s = std::clamp(own_s + lag_s, std::min(own_s, least_s(*phase, least_green)),
+                                        own_s * (1.0 + most_stretch));
     return PhaseChange{*phase, core::Seconds(lasting_s)};
+}
+
+double BackgroundPlan::least_s(std::uint32_t phase, core::Seconds least_green) const {
+    return std::max(least_green.value, signal_.program[phase].least_s);
 }
 
 double BackgroundPlan::lag_s(std::uint32_t phase, core::Seconds now) const {

@@ -39,13 +39,15 @@ class BackgroundPlan {
     bool is_in_step(core::Seconds now) const;
     /// Cycle time, s; 0 without a program.
     double cycle_s() const { return cycle_s_; }
-    /// The phase after the present green if that has lasted `least_green`; nothing otherwise.
+    /// The phase after the present green if that has lasted `least_green` and the least that the program owes
+    /// it; nothing otherwise.
     std::optional<std::uint32_t> next_after(core::Seconds least_green, core::Seconds now) const;
     /// At the start of a green that is out of step: the green's new length, which leads back into step the
     /// shorter way. At least `least_green` and at most half as long again as usual.
     std::optional<PhaseChange> step_back(core::Seconds least_green, core::Seconds now);
 
   private:
+    double least_s(std::uint32_t phase, core::Seconds least_green) const;
     /// How much later the phase would end if it were in step, s; within half a cycle either way.
     double lag_s(std::uint32_t phase, core::Seconds now) const;
 

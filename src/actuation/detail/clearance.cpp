@@ -30,29 +30,44 @@ class Cycle {
     std::size_t at_;
 };
 
-/// Whether a link that conflicts with `link` is green in `later` and was not in `before`.
-bool foe_opens(const roads::Signal& signal, std::size_t link, const roads::Phase& before,
-               const roads::Phase& later) {
+/// Which links get green on the way from `before` to `later`.
+enum class Opening : std::uint8_t { none, others, foe };
+
+Opening opening(const roads::Signal& signal, std::size_t link, const roads::Phase& before,
+                const roads::Phase& later) {
+    Opening found = Opening::none;
     for (std::size_t other = 0; other < signal.links.size(); ++other) {
-        if (signal.foes[link][other] && is_green_in(later, other) && !is_green_in(before, other)) return true;
+        if (!is_green_in(later, other) || is_green_in(before, other)) continue;
+        if (signal.foes[link][other]) return Opening::foe;
+        found = Opening::others;
     }
-    return false;
+    return found;
 }
 
-/// What follows the green of `link` in phase `row`.
-OwnClearance after_green(const roads::Signal& signal, std::size_t link, std::size_t row) {
+struct AfterGreen {
+    OwnClearance own;
+    bool foe_opens = false;
+};
+
+/// What follows the green of `link` in phase `row`. A phase that lets others go is no clearance, however long
+/// it keeps those waiting that conflict with the link.
+AfterGreen after_green(const roads::Signal& signal, std::size_t link, std::size_t row) {
     const roads::Phase& green = signal.program[row];
     Cycle cycle(signal.program, row + 1);
     OwnClearance own{green.yellow_s, green.red_s};
     std::size_t left = signal.program.size();
     for (; left > 0 && is_yellow_in(cycle.phase(), link); --left)
         own.yellow_s += cycle.advance();
+    bool clears = true;
+    double cleared_s = green.red_s;
     for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
-        if (foe_opens(signal, link, green, cycle.phase())) return own;
-        own.red_s += cycle.advance();
+        const Opening now = opening(signal, link, green, cycle.phase());
+        if (now == Opening::foe) return {{own.yellow_s, cleared_s}, true};
+        clears = clears && now == Opening::none;
+        const double lasting_s = cycle.advance();
+        if (clears) cleared_s += lasting_s;
     }
-    own.red_s = green.red_s;  // nobody gets green before the link has it again
-    return own;
+    return {own, false};
 }
 
 double overrun_s(const LeavingTraffic& leaving) {
@@ -109,10 +124,11 @@ std::vector<OwnClearance> own_clearances(const roads::Signal& signal) {
             const bool ends = is_green_in(signal.program[row], link) &&
                               !is_green_in(signal.program[(row + 1) % rows], link);
             if (!ends) continue;
-            const OwnClearance own = after_green(signal, link, row);
-            all[link].yellow_s = std::max(all[link].yellow_s, own.yellow_s);
-            all[link].red_s = has_red ? std::min(all[link].red_s, own.red_s) : own.red_s;
-            has_red = true;
+            const AfterGreen after = after_green(signal, link, row);
+            all[link].yellow_s = std::max(all[link].yellow_s, after.own.yellow_s);
+            if (has_red && !after.foe_opens) continue;
+            all[link].red_s = has_red ? std::min(all[link].red_s, after.own.red_s) : after.own.red_s;
+            has_red = after.foe_opens;
         }
     }
     return all;

@@ -32,6 +32,7 @@ SignalControl::SignalControl(core::SignalIndex index, const roads::Network& netw
     : index_(index),
       signal_(network.signal(index)),
       inner_lanes_(signal_.links.size()),
+      transition_(signal_),
       own_(signal_, keeps_step(index, network)) {
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
         for (const roads::SignalLink& way : signal_.links[link]) {
@@ -151,7 +152,12 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
     if (in_program || links != way_.links) {
         Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
-        if (in_green && (owes_green(way.target, around) || waits_for_gap(way.target, around))) return;
+        const bool goes_on =
+            owes_green(way.target, around) || (in_green && waits_for_gap(way.target, around));
+        if (goes_on) {
+            if (!in_program) proceed(around, commands);
+            return;
+        }
         // A lease that joins or leaves does not restart the hold of one that is stuck.
         if (in_program || (!overlap(links, last_held_) && conflict(signal_, links, last_held_)))
             taken_since_ = around.now;
@@ -179,38 +185,13 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalContext
 bool SignalControl::owes_green(const std::string& target, const SignalContext& around) const {
     if (around.duties == nullptr) return false;
     const auto phase = green_phase(signal_, around.state);
-    const double program_s = phase ? signal_.program[*phase].least_s : 0.0;
     return std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
         if (link >= signal_.links.size()) return false;
-        const double least_s =
-            signal_.crossings[link] ? around.timing.walk_s : std::max(around.timing.entry_green_s, program_s);
+        const double least_s = signal_.crossings[link] ? around.timing.walk_s
+                                                       : std::max(around.timing.entry_green_s,
+                                                                  least_green_s(signal_, link, phase));
         return around.duties->history.green_s(link, around.now) < least_s - time_tolerance_s;
     });
-}
-
-/// Of the present transition, s.
-double SignalControl::yellow_s(const SignalContext& around) const {
-    double longest_s = around.timing.yellow_s;
-    if (around.duties == nullptr) return longest_s;
-    for (std::uint16_t link = 0; link < link_count(); ++link) {
-        if (traffic::is_yellow(shown_[link]))
-            longest_s = std::max(longest_s, around.duties->clearance.yellow_s(link));
-    }
-    return longest_s;
-}
-
-/// Whether a link that will be red has not been red for long enough before one that gets green.
-bool SignalControl::owes_red(const SignalContext& around) const {
-    if (around.duties == nullptr) return false;
-    for (std::uint16_t link = 0; link < link_count(); ++link) {
-        if (traffic::is_green(way_.target[link])) continue;
-        const double red_s = around.duties->history.red_s(link, around.now) + time_tolerance_s;
-        const bool owes = std::ranges::any_of(way_.gaining, [&](std::uint16_t other) {
-            return other < link_count() && red_s < around.duties->clearance.red_s(link, other);
-        });
-        if (owes) return true;
-    }
-    return false;
 }
 
 /// Another program may have been switched on, or one that is in no file that was read.
@@ -267,6 +248,11 @@ SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
 void SignalControl::begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands) {
     way_ = std::move(way);
     if (!way_.links.empty()) last_held_ = way_.links;
+    if (around.duties != nullptr) {
+        transition_.begin(shown_, way_.target, way_.gaining, around.now);
+        if (stage_ == Stage::hold) stage_ = Stage::all_red;
+        return;
+    }
     const std::string& target = way_.target;
     const bool to_unknown = way_.links.empty() && !way_.return_phase;
     if (needs_yellow(shown_, target))
@@ -321,7 +307,7 @@ bool SignalControl::is_left_by_pedestrians(const SignalContext& around) const {
 /// wait longer for vehicles than vehicles do.
 bool SignalControl::may_open(const SignalContext& around) const {
     const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
-    if (red_s < 0.0 || owes_red(around)) return false;
+    if (red_s < 0.0) return false;
     Links walking;
     std::ranges::copy_if(way_.gaining, std::back_inserter(walking), [&](std::uint16_t link) {
         return link < signal_.crossings.size() && signal_.crossings[link];
@@ -331,17 +317,44 @@ bool SignalControl::may_open(const SignalContext& around) const {
             (is_left_by_pedestrians(around) && is_left_by_vehicles(walking, around)));
 }
 
+/// Where there are duties. What becomes red in this step may make room for what opens in it.
+void SignalControl::clear_link_by_link(const SignalContext& around, std::vector<traffic::Command>& commands) {
+    const std::function<bool(std::uint16_t)> has_vehicle = [&](std::uint16_t link) {
+        return std::ranges::any_of(inner_lanes_[link], [&](core::LaneIndex lane) {
+            return std::ranges::binary_search(around.occupied, lane);
+        });
+    };
+    const std::function<bool(std::uint16_t)> has_pedestrian = [&](std::uint16_t link) {
+        return std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
+            return around.self.has_pedestrian(way.to);
+        });
+    };
+    const TransitionContext context{around.now, around.timing, *around.duties, has_vehicle, has_pedestrian};
+    std::string state = shown_;
+    for (std::string next = transition_.next_state(state, context); next != state;
+         next = transition_.next_state(state, context)) {
+        state = next;
+        around.duties->history.watch(state, around.now);
+    }
+    const Stage stage = std::ranges::any_of(state, traffic::is_yellow) ? Stage::yellow
+                        : transition_.is_over(state, context)          ? Stage::hold
+                                                                       : Stage::all_red;
+    enter(stage, state, around.now, commands);
+}
+
 void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Command>& commands) {
+    if (around.duties != nullptr && stage_ != Stage::hold) clear_link_by_link(around, commands);
     const auto is_over = [&](double duration_s) {
         return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
     };
-    if (stage_ == Stage::yellow && is_over(yellow_s(around))) {
+    if (around.duties == nullptr && stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
         const std::string red = all_red_state(shown_, way_.target);
         const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target) ||
                             !is_left_by_pedestrians(around);
         enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : way_.target, around.now, commands);
     }
-    if (stage_ == Stage::all_red && may_open(around)) enter(Stage::hold, way_.target, around.now, commands);
+    if (around.duties == nullptr && stage_ == Stage::all_red && may_open(around))
+        enter(Stage::hold, way_.target, around.now, commands);
     if (stage_ == Stage::hold && way_.links.empty()) return_to_program(around.now, around.timing, commands);
 }
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "actuation/detail/background_plan.hpp"
-#include "actuation/detail/clearance.hpp"
 #include "actuation/detail/lease_queue.hpp"
-#include "actuation/detail/link_history.hpp"
+#include "actuation/detail/link_transition.hpp"
 #include "actuation/detail/signal_states.hpp"
+#include "actuation/detail/signal_timing.hpp"
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
@@ -17,26 +17,6 @@
 #include "truth/self_knowledge.hpp"
 
 namespace clearway::actuation::detail {
-
-/// Times of a signal's transitions, s.
-struct SignalTiming {
-    double yellow_s;
-    double all_red_s;
-    double clearing_s;
-    double walking_s;
-    double gap_wait_s;
-    double hold_cap_s;
-    double lockout_s;
-    double least_green_s;
-    double entry_green_s;
-    double walk_s;
-};
-
-/// What a signal owes its links beyond SignalTiming, when clearance follows its own program.
-struct SignalDuties {
-    const Clearance& clearance;
-    const LinkHistory& history;
-};
 
 /// Lanes, ascending.
 using Lanes = std::vector<core::LaneIndex>;
@@ -66,9 +46,8 @@ struct SignalContext {
 /// shown now. A stage ends at a simulated step, so it is never shorter than configured. A green ends when no
 /// vehicle on it could only just stop, or after a short wait.
 ///
-/// Where there are duties, no green ends before its least time, a yellow lasts as long as the slowest of the
-/// links that lose green needs, and a link opens only when every link that conflicts with it has been red for
-/// as long as both together need.
+/// Where there are duties, no green ends before its least time, and each link has a transition of its own
+/// (LinkTransition).
 ///
 /// While the background plan runs, an AdjustGreen lease ends a green that serves none of its links once that
 /// has lasted its least time: the program goes on to its next phase, through its own yellow. Afterwards a
@@ -119,8 +98,7 @@ class SignalControl {
     bool may_open(const SignalContext& around) const;
     bool waits_for_gap(const std::string& target, const SignalContext& around);
     bool owes_green(const std::string& target, const SignalContext& around) const;
-    double yellow_s(const SignalContext& around) const;
-    bool owes_red(const SignalContext& around) const;
+    void clear_link_by_link(const SignalContext& around, std::vector<traffic::Command>& commands);
     bool knows_program(const SignalContext& around) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
@@ -140,6 +118,7 @@ class SignalControl {
     bool capped_ = false;  ///< The hold reached its cap: it goes back, whatever leases ask for.
     std::string shown_;
     Way way_;
+    LinkTransition transition_;                 ///< Where there are duties.
     Links last_held_;                           ///< Links of the last hold.
     std::optional<core::Seconds> gap_awaited_;  ///< Since when a green waits for a gap.
     bool asked_for_gap_ = false;                ///< In this step.

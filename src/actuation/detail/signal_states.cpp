@@ -120,6 +120,16 @@ std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std:
     return static_cast<std::uint32_t>(shown - signal.program.begin());
 }
 
+double least_green_s(const roads::Signal& signal, std::uint16_t link, std::optional<std::uint32_t> phase) {
+    if (phase) return signal.program[*phase].least_s;
+    std::optional<double> shortest_s;
+    for (const roads::Phase& row : signal.program) {
+        if (is_green_for(row.state, link))
+            shortest_s = std::min(shortest_s.value_or(row.least_s), row.least_s);
+    }
+    return shortest_s.value_or(0.0);
+}
+
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right) {
     return std::ranges::any_of(left, [&](std::uint16_t link) { return is_foe_of_any(signal, link, right); });
 }
