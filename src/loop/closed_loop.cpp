@@ -40,7 +40,7 @@ metrics::LeaseTotals ClosedLoop::finish() {
     if (controller_->privilege) controller_->privilege->restore_all(commands_);
     controller_->actuator->restore_all(commands_);
     session_.apply(commands_);
-    return totals_of(*controller_->actuator, controller_->requests->counts());
+    return totals_of(*controller_);
 }
 
 void ClosedLoop::step() {
@@ -72,17 +72,21 @@ bool ClosedLoop::decide(const truth::Snapshot& snapshot) {
 }
 
 void ClosedLoop::act(const truth::Snapshot& snapshot, bool decided) {
-    const pipeline::DecisionChain& chain = *controller_->chain;
+    pipeline::DecisionChain& chain = *controller_->chain;
     commands_.clear();
     if (controller_->siren) controller_->siren->step(snapshot, session_.roster(), session_, commands_);
     if (controller_->privilege) controller_->privilege->step(snapshot, session_.roster(), commands_);
     if (controller_->listeners) controller_->actuator->heed(controller_->listeners->step(snapshot));
     pipeline::Requests& requests = *controller_->requests;
-    requests.step({chain.leases(), chain.unreachable(), decided}, snapshot, session_.roster());
+    requests.step({chain.leases(), chain.unreachable(), decided, chain.decided_there()}, snapshot,
+                  session_.roster());
     controller_->actuator->accept(requests.arrived(), snapshot.time, chain.unreachable());
     controller_->actuator->refuse(requests.lost(), "unheard");
     controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
+    const std::vector<traffic::SignalStatus> signals = controller_->actuator->signals();
+    controller_->greens->step(signals, snapshot, session_.roster());
+    if (decided) chain.answer(signals);
 }
 
 void ClosedLoop::score(const truth::Snapshot& snapshot) {

@@ -13,6 +13,7 @@
 #include "experiment/loop_config.hpp"
 #include "metrics/recorder.hpp"
 #include "pipeline/decision_chain.hpp"
+#include "pipeline/green_watch.hpp"
 #include "pipeline/requests.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
@@ -26,6 +27,7 @@ struct Controller {
     std::unique_ptr<pipeline::DecisionChain> chain;
     std::unique_ptr<pipeline::Requests> requests;
     std::unique_ptr<actuation::Actuator> actuator;
+    std::unique_ptr<pipeline::GreenWatch> greens;
     std::unique_ptr<drivers::Siren> siren;                    ///< Null if no driver reacts to a siren.
     std::unique_ptr<drivers::Listeners> listeners = nullptr;  ///< Null if no driver takes requests.
     std::unique_ptr<drivers::Privilege> privilege = nullptr;  ///< Null without privileges.

@@ -35,6 +35,7 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
                                   ? traffic::LateralModel::sublane
                                   : traffic::LateralModel::lane;
     controller.actuator = std::make_unique<actuation::Actuator>(context.network, actuation);
+    controller.greens = std::make_unique<pipeline::GreenWatch>(context.network);
     const experiment::Sirens sirens = experiment::siren_config(condition, context.siren);
     if (sirens.siren.compliance > 0.0)
         controller.siren =
@@ -63,10 +64,12 @@ sumo::Names names_of(const roads::Network& network) {
     return names;
 }
 
-metrics::LeaseTotals totals_of(const actuation::Actuator& actuator, const traffic::RequestCounts& requests) {
+metrics::LeaseTotals totals_of(const Controller& controller) {
     metrics::LeaseTotals totals;
-    totals.requests = requests;
-    for (const auto& [key, counts] : actuator.counts()) {
+    totals.requests = controller.requests->counts();
+    totals.signal_requests = controller.chain->signal_requests();
+    totals.greens = controller.greens->counts();
+    for (const auto& [key, counts] : controller.actuator->counts()) {
         totals.issued += counts.issued;
         totals.renewed += counts.renewed;
         totals.expired += counts.expired;

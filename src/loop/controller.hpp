@@ -27,6 +27,6 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
 sumo::Names names_of(const roads::Network& network);
 
 /// What became of the leases and requests of a run.
-metrics::LeaseTotals totals_of(const actuation::Actuator& actuator, const traffic::RequestCounts& requests);
+metrics::LeaseTotals totals_of(const Controller& controller);
 
 }  // namespace clearway::loop

@@ -232,9 +232,34 @@ void describe_requests(const traffic::RequestCounts& counts, RunMetrics& metrics
     metrics.requests_missed = counts.missed;
     metrics.request_messages = counts.messages;
     metrics.vehicles_asked = counts.vehicles_asked;
-    metrics.signal_requests_sent = counts.signal_sent;
-    metrics.signal_requests_heard = counts.signal_heard;
-    metrics.signal_request_messages = counts.signal_messages;
+}
+
+/// Requests to signals: those that were messages, and those that were leases.
+void describe_signal_requests(const LeaseTotals& totals, RunMetrics& metrics) {
+    const traffic::SignalRequestCounts& counts = totals.signal_requests;
+    const auto told = [&](traffic::RequestStatus status) {
+        return counts.told[static_cast<std::size_t>(status)];
+    };
+    metrics.signal_requests_sent = totals.requests.signal_sent + counts.sent;
+    metrics.signal_requests_heard = totals.requests.signal_heard + counts.heard;
+    metrics.signal_request_messages = totals.requests.signal_messages + counts.messages;
+    metrics.signal_request_updates = counts.updates;
+    metrics.signal_request_cancellations = counts.cancellations;
+    metrics.signal_answers_sent = counts.answers_sent;
+    metrics.signal_answers_heard = counts.answers_heard;
+    metrics.signal_told_requested = told(traffic::RequestStatus::requested);
+    metrics.signal_told_processing = told(traffic::RequestStatus::processing);
+    metrics.signal_told_watch_other_traffic = told(traffic::RequestStatus::watch_other_traffic);
+    metrics.signal_told_granted = told(traffic::RequestStatus::granted);
+    metrics.signal_told_rejected = told(traffic::RequestStatus::rejected);
+    metrics.signal_told_max_presence = told(traffic::RequestStatus::max_presence);
+    metrics.signal_told_reservice_locked = told(traffic::RequestStatus::reservice_locked);
+    if (metrics.signal_told_granted > 0)
+        metrics.signal_granted_after_s =
+            counts.until_granted_s / static_cast<double>(metrics.signal_told_granted);
+    metrics.held_greens = totals.greens.greens;
+    metrics.held_greens_useless = totals.greens.useless;
+    metrics.held_greens_useless_s = totals.greens.useless_s;
 }
 
 /// Mean time lost on the worst approach. Rows of one approach are adjacent.
@@ -358,6 +383,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_refused = end.leases.refused;
     metrics.leases_expired = end.leases.expired;
     describe_requests(end.leases.requests, metrics);
+    describe_signal_requests(end.leases, metrics);
     metrics.links_true_positive = link_counts().true_positive;
     metrics.links_false_positive = link_counts().false_positive;
     metrics.links_false_negative = link_counts().false_negative;

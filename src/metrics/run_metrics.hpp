@@ -35,6 +35,8 @@ struct LeaseTotals {
     std::uint64_t expired = 0;
     std::vector<LeaseRow> rows = {};  ///< The same by policy and action.
     traffic::RequestCounts requests = {};
+    traffic::SignalRequestCounts signal_requests = {};
+    traffic::HeldGreenCounts greens = {};
 
     bool operator==(const LeaseTotals&) const = default;
 };
@@ -106,6 +108,21 @@ struct RunMetrics {
     std::uint64_t signal_requests_sent = 0;
     std::uint64_t signal_requests_heard = 0;
     std::uint64_t signal_request_messages = 0;
+    std::uint64_t signal_request_updates = 0;
+    std::uint64_t signal_request_cancellations = 0;
+    std::uint64_t signal_answers_sent = 0;
+    std::uint64_t signal_answers_heard = 0;
+    std::uint64_t signal_told_requested = 0;
+    std::uint64_t signal_told_processing = 0;
+    std::uint64_t signal_told_watch_other_traffic = 0;
+    std::uint64_t signal_told_granted = 0;
+    std::uint64_t signal_told_rejected = 0;
+    std::uint64_t signal_told_max_presence = 0;
+    std::uint64_t signal_told_reservice_locked = 0;
+    std::optional<double> signal_granted_after_s;
+    std::uint64_t held_greens = 0;
+    std::uint64_t held_greens_useless = 0;
+    double held_greens_useless_s = 0.0;
 
     std::uint64_t links_true_positive = 0;
     std::uint64_t links_false_positive = 0;
@@ -262,6 +279,42 @@ struct RunMetrics {
             Field{"signal_request_messages", "1", &M::signal_request_messages, 0.0, 1e12,
                   "Transmissions of requests to signals", "channel"});
     }
+    static constexpr auto answer_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        constexpr const char* told = "SSM";
+        return std::make_tuple(
+            Field{"signal_request_updates", "1", &M::signal_request_updates, 0.0, 1e12,
+                  "Of those sent to signals: updates of an earlier one", "SRM"},
+            Field{"signal_request_cancellations", "1", &M::signal_request_cancellations, 0.0, 1e12,
+                  "Of those sent to signals: cancellations, after the EV has passed", "SRM"},
+            Field{"signal_answers_sent", "1", &M::signal_answers_sent, 0.0, 1e12,
+                  "Answers of signals, one for each message and open request", "SSM"},
+            Field{"signal_answers_heard", "1", &M::signal_answers_heard, 0.0, 1e12,
+                  "Of those: the EV heard it", "SSM"},
+            Field{"signal_told_requested", "1", &M::signal_told_requested, 0.0, 1e9,
+                  "Requests whose EV was told `requested` at least once", told},
+            Field{"signal_told_processing", "1", &M::signal_told_processing, 0.0, 1e9,
+                  "The same for `processing`", told},
+            Field{"signal_told_watch_other_traffic", "1", &M::signal_told_watch_other_traffic, 0.0, 1e9,
+                  "The same for `watchOtherTraffic`", told},
+            Field{"signal_told_granted", "1", &M::signal_told_granted, 0.0, 1e9, "The same for `granted`",
+                  told},
+            Field{"signal_told_rejected", "1", &M::signal_told_rejected, 0.0, 1e9, "The same for `rejected`",
+                  told},
+            Field{"signal_told_max_presence", "1", &M::signal_told_max_presence, 0.0, 1e9,
+                  "The same for `maxPresence`", told},
+            Field{"signal_told_reservice_locked", "1", &M::signal_told_reservice_locked, 0.0, 1e9,
+                  "The same for `reserviceLocked`", told},
+            Field{"signal_granted_after_s", "s", &M::signal_granted_after_s, 0.0, 1e9,
+                  "Time from an EV's first request to the first `granted` that it heard, mean", told},
+            Field{"held_greens", "1", &M::held_greens, 0.0, 1e9,
+                  "Greens that signals held for an EV, whichever policy asked", "actuation"},
+            Field{"held_greens_useless", "1", &M::held_greens_useless, 0.0, 1e9,
+                  "Of those: the EV did not pass in it", "actuation and routes"},
+            Field{"held_greens_useless_s", "s", &M::held_greens_useless_s, 0.0, 1e9, "Their duration, summed",
+                  "actuation and routes"});
+    }
     static constexpr auto link_fields() {
         using M = RunMetrics;
         using core::Field;
@@ -289,7 +342,7 @@ struct RunMetrics {
   public:
     static constexpr auto fields() {
         return std::tuple_cat(travel_fields(), safety_fields(), pedestrian_fields(), decision_fields(),
-                              request_fields(), link_fields());
+                              request_fields(), answer_fields(), link_fields());
     }
 };
 

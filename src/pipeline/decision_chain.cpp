@@ -52,12 +52,19 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
     for (const std::string& name : condition.policies)
         policies_.push_back(policy::make_policy(name, place, condition.settings));
     if (context.guest) policies_.push_back(context.guest(place));
+    radio_ = std::make_unique<SignalRadio>(context.network, failure, context.random);
+    for (const auto& policy : policies_) {
+        if (policy::SignalMessages* const talker = policy->messages()) talkers_.push_back(talker);
+    }
+    for (const policy::SignalMessages* const talker : talkers_)
+        decided_there_.push_back(talker->part());
 }
 
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     sensor_->observe(snapshot, roster, observation_);
     if (shown_) *shown_ = snapshot.signals;
     leases_.clear();
+    snapshot_ = &snapshot;
 }
 
 bool DecisionChain::decision_is_due() const {
@@ -70,9 +77,35 @@ void DecisionChain::decide() {
                  1;
     predictor_->predict(observation_, belief_);
     if (shown_) belief_.signals = *shown_;
+    exchange_messages();
     for (const auto& policy : policies_) {
         policy->act(belief_, leases_);
     }
+}
+
+void DecisionChain::exchange_messages() {
+    if (talkers_.empty()) return;
+    wanted_.clear();
+    for (const policy::SignalMessages* const talker : talkers_)
+        talker->ask(belief_, wanted_);
+    radio_->exchange(wanted_, *snapshot_);
+    if (radio_->is_perfect()) return;
+    for (policy::SignalMessages* const talker : talkers_)
+        talker->hear(radio_->arrived());
+}
+
+void DecisionChain::answer(std::span<const traffic::SignalStatus> signals) {
+    if (talkers_.empty()) return;
+    std::vector<policy::RequestKey> open;
+    if (radio_->is_perfect()) {
+        for (const traffic::PriorityRequest& request : wanted_)
+            open.emplace_back(request.vehicle, request.signal);
+    }
+    for (const policy::SignalMessages* const talker : talkers_) {
+        const std::vector<policy::RequestKey> own = talker->open_requests();
+        open.insert(open.end(), own.begin(), own.end());
+    }
+    radio_->answer(open, signals, *snapshot_);
 }
 
 }  // namespace clearway::pipeline

@@ -3,10 +3,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/random.hpp"
 #include "experiment/condition.hpp"
+#include "pipeline/signal_radio.hpp"
 #include "policy/agent.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
@@ -33,13 +35,15 @@ struct ChainContext {
 sensing::FailureConfig observed_failure(const experiment::ConditionSpec& condition);
 
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
-/// replay agree because both use this class. One thread.
+/// replay agree because both use this class. Requests that go to signals as messages travel within it,
+/// because signals decide from what they have heard; those that are leases leave it (Requests). One thread.
 class DecisionChain {
   public:
     /// Throws core::InputError for unknown names and settings, and for a model that does not fit.
     DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context);
 
-    /// Call at every step: takes the observation of the sensors. References outlive the step.
+    /// Call at every step: takes the observation of the sensors. References outlive the step, and its
+    /// decision and answers.
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
     /// Whether a policy period has passed since the last decision, in simulation time.
     bool decision_is_due() const;
@@ -47,6 +51,9 @@ class DecisionChain {
     /// and a crew sees what its signal shows: the belief tells every policy what signals show, even when the
     /// predictor does not know it.
     void decide();
+
+    /// Call after each decision was carried out: signals answer the requests that are open there.
+    void answer(std::span<const traffic::SignalStatus> signals);
 
     bool has_policy() const { return !policies_.empty(); }
     const traffic::Observation& observation() const { return observation_; }
@@ -58,7 +65,14 @@ class DecisionChain {
     /// Leases of the last decision; empty when no decision was made in this step.
     std::span<const traffic::Lease> leases() const { return leases_; }
 
+    /// Policies whose leases signals decided on by themselves, from messages.
+    std::span<const std::string_view> decided_there() const { return decided_there_; }
+    /// What became of requests that went to signals as messages.
+    const traffic::SignalRequestCounts& signal_requests() const { return radio_->counts(); }
+
   private:
+    void exchange_messages();
+
     std::unique_ptr<sensing::SensorModel> sensor_;
     std::unique_ptr<prediction::Predictor> predictor_;
     std::vector<std::unique_ptr<policy::Policy>> policies_;
@@ -69,6 +83,11 @@ class DecisionChain {
     traffic::Observation observation_;
     traffic::BelievedGraph belief_;
     std::vector<traffic::Lease> leases_;
+    std::unique_ptr<SignalRadio> radio_;
+    std::vector<policy::SignalMessages*> talkers_;  ///< Parts of `policies_`.
+    std::vector<std::string_view> decided_there_;
+    std::vector<traffic::PriorityRequest> wanted_;
+    const truth::Snapshot* snapshot_ = nullptr;  ///< Of the present step.
 };
 
 }  // namespace clearway::pipeline

@@ -76,8 +76,9 @@ Requests::Requests(const experiment::ConditionSpec& condition, const ChainContex
         informed_ = std::make_unique<DecisionChain>(informed(condition), context);
 }
 
-bool Requests::is_request(const traffic::Lease& lease) {
+bool Requests::is_request(const traffic::Lease& lease, std::span<const std::string_view> decided_there) {
     if (lease.beneficiary == core::VehicleKey{}) return false;
+    if (std::ranges::find(decided_there, lease.policy) != decided_there.end()) return false;
     const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
     return vehicle == nullptr || *vehicle != lease.beneficiary;
 }
@@ -113,7 +114,7 @@ void Requests::send(const Moment& moment) {
     sent_.clear();
     heard_.clear();
     for (const traffic::Lease& lease : moment.decision.leases) {
-        if (!is_request(lease)) {
+        if (!is_request(lease, moment.decision.decided_there)) {
             arrived_.push_back(lease);
         } else if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
             ask_vehicle(lease, *vehicle, moment);
@@ -242,7 +243,7 @@ void Requests::judge(const Moment& moment) {
         informed_->observe(moment.snapshot, moment.roster);
         informed_->decide();
         for (const traffic::Lease& lease : informed_->leases()) {
-            if (!is_request(lease)) continue;
+            if (!is_request(lease, moment.decision.decided_there)) continue;
             for (const core::VehicleKey vehicle : meant_by(lease, moment.snapshot))
                 needed_.push_back({lease.beneficiary, vehicle, lease.action.index()});
         }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "experiment/condition.hpp"
@@ -27,8 +28,9 @@ namespace clearway::pipeline {
 /// requests of an emergency vehicle to vehicles at one decision are one message, those to signals another. A
 /// vehicle hears it from the emergency vehicle or, with more than one hop, from an automated vehicle that has
 /// heard it and sends it on; each hop adds the latency. Human-driven vehicles that are not equipped hear
-/// nothing. Leases of vehicles and signals about themselves need no message. With perfect channels, every
-/// lease arrives at once. One thread.
+/// nothing. Leases of vehicles and signals about themselves need no message, nor do those that signals
+/// decided from messages which have come to them already (SignalRadio). With perfect channels, every lease
+/// arrives at once. One thread.
 class Requests {
   public:
     /// Throws core::InputError as DecisionChain does.
@@ -40,6 +42,8 @@ class Requests {
         /// Vehicles that commands cannot reach, ordered by key: they hear nothing.
         std::span<const core::VehicleKey> unreachable;
         bool is_new = false;  ///< Whether a decision was made at this step.
+        /// Policies whose leases signals decided on by themselves (SignalRadio): these need no message.
+        std::span<const std::string_view> decided_there = {};
     };
     /// Call at every step.
     void step(const Decision& decision, const truth::Snapshot& snapshot, const traffic::Roster& roster);
@@ -73,7 +77,7 @@ class Requests {
         const traffic::Roster& roster;
     };
 
-    static bool is_request(const traffic::Lease& lease);
+    static bool is_request(const traffic::Lease& lease, std::span<const std::string_view> decided_there);
     /// Whether the channel's next message is due; a perfect one sends at every decision.
     static bool is_due(const sensing::Channel& channel, core::Seconds now,
                        std::optional<sensing::MessageNumber>& last);

@@ -1,5 +1,7 @@
 #include "policy/corridor.hpp"
 
+#include <tuple>
+
 #include "policy/clear_lane.hpp"
 #include "policy/preempt_signals.hpp"
 #include "policy/recover_signals.hpp"
@@ -7,19 +9,23 @@
 namespace clearway::policy {
 namespace {
 
-template <class Kind, class Config>
+template <class Kind, class... Config>
 std::unique_ptr<Policy> configured(const char* name, const PolicyContext& context,
                                    const core::Settings& settings) {
-    Config config;
-    core::set_all(core::settings_of(settings, name), std::string(name) + ".", config);
-    return std::make_unique<Kind>(context, config);
+    std::tuple<Config...> config;
+    return std::apply(
+        [&](auto&... parts) -> std::unique_ptr<Policy> {
+            core::set_all(core::settings_of(settings, name), std::string(name) + ".", parts...);
+            return std::make_unique<Kind>(context, parts...);
+        },
+        config);
 }
 
 }  // namespace
 
 Corridor::Corridor(const PolicyContext& context, const core::Settings& settings) {
-    policies_.push_back(
-        configured<PreemptSignals, PreemptSignalsConfig>("preempt_signals", context, settings));
+    policies_.push_back(configured<PreemptSignals, PreemptSignalsConfig, RequestMemorySettings>(
+        "preempt_signals", context, settings));
     policies_.push_back(
         configured<RecoverSignals, RecoverSignalsConfig>("recover_signals", context, settings));
     policies_.push_back(configured<ClearLane, ClearLaneConfig>("clear_lane", context, settings));

@@ -16,9 +16,10 @@ class Corridor : public Policy {
 
     std::string_view name() const override { return "corridor"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+    SignalMessages* messages() override { return policies_.front()->messages(); }
 
   private:
-    std::vector<std::unique_ptr<Policy>> policies_;
+    std::vector<std::unique_ptr<Policy>> policies_;  ///< PreemptSignals first.
 };
 
 }  // namespace clearway::policy

@@ -9,6 +9,7 @@
 
 #include "core/settings.hpp"
 #include "core/units.hpp"
+#include "policy/signal_messages.hpp"
 #include "roads/network.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/lease.hpp"
@@ -28,6 +29,8 @@ class Policy {
     virtual std::string_view name() const = 0;
     /// Called every `PolicyContext::period` with the belief of that moment. Appends to `leases`.
     virtual void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) = 0;
+    /// Its part that asks signals by message; null for policies whose leases are the requests themselves.
+    virtual SignalMessages* messages() { return nullptr; }
 };
 
 /// What a policy needs besides the belief. The network outlives the policy.

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/fields.hpp"
+#include "policy/detail/request_table.hpp"
+#include "policy/detail/room.hpp"
 #include "policy/policy.hpp"
+#include "policy/request_memory.hpp"
+#include "policy/signal_messages.hpp"
 
 namespace clearway::policy {
 
@@ -62,20 +67,43 @@ struct PreemptSignalsConfig {
 /// Preempts the signals on the route of every emergency vehicle: green for its approach, early enough that
 /// the queue ahead is gone when it arrives. Yellow, all-red, the longest hold, lockout and the return to the
 /// background plan are up to actuation. Where short blocks form closed loops it can be told to hold back.
-class PreemptSignals : public Policy {
+///
+/// Emergency vehicles ask by message, and each signal decides from what came to it (SignalMessages). With a
+/// perfect channel every signal knows what every emergency vehicle knows of itself.
+class PreemptSignals : public Policy, public SignalMessages {
   public:
-    explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {});
+    explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {},
+                            RequestMemorySettings memory = {});
 
     std::string_view name() const override { return "preempt_signals"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+    SignalMessages* messages() override { return this; }
+
+    std::string_view part() const override { return name(); }
+    void ask(const traffic::BelievedGraph& belief,
+             std::vector<traffic::PriorityRequest>& wanted) const override;
+    void hear(std::span<const traffic::PriorityRequest> messages) override;
+    std::vector<RequestKey> open_requests() const override;
 
   private:
+    /// Seconds to a place so far ahead.
+    double arrival_s(const detail::View& view, const traffic::BelievedVehicle& emergency,
+                     double distance_m) const;
+    /// Emergency vehicles that come to signals, as these know.
+    std::vector<detail::Arrival> arrivals(const detail::View& view);
+    /// Whether a signal in short blocks does not answer.
+    bool stands_back(const detail::Arrival& arrival, const detail::Room* room, bool is_asked) const;
+    bool is_early(const detail::View& view, const detail::Arrival& arrival) const;
+
     PolicyContext context_;
     PreemptSignalsConfig config_;
+    RequestMemorySettings memory_;
     std::vector<bool> is_careful_;  ///< By signal; empty if none is on a loop of short blocks.
     /// Vehicles and the signals requested for them at the last call. A request stands until the vehicle has
     /// passed, because a queue that begins to move is not gone yet.
-    std::set<std::pair<core::VehicleKey, core::SignalIndex>> asked_;
+    std::set<RequestKey> asked_;
+    std::optional<detail::RequestTable> table_;  ///< Once it was told of messages.
+    std::vector<traffic::PriorityRequest> inbox_;
 };
 
 }  // namespace clearway::policy

@@ -72,7 +72,7 @@ const std::vector<PolicyEntry>& policies() {
             "listing_5_5", "The dissertation's listing 5.5 as published, defects included", Reads::links),
         entry<Dissertation, DissertationConfig>(
             "dissertation", "The dissertation's policy as described in 4.3, made workable", Reads::links),
-        entry<PreemptSignals, PreemptSignalsConfig>(
+        entry<PreemptSignals, PreemptSignalsConfig, RequestMemorySettings>(
             "preempt_signals", "Green for the emergency vehicle's approach on its arrival"),
         entry<RecoverSignals, RecoverSignalsConfig>("recover_signals",
                                                     "Gives time back to the approaches that waited"),

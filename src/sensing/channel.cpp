@@ -63,10 +63,19 @@ bool Channel::hears(std::uint64_t sender, std::uint64_t receiver, MessageNumber 
                     double distance_m) const {
     if (is_perfect()) return true;
     if (!is_in_reach(sender, receiver, message, distance_m)) return false;
-    if (config_.loss_rate > 0.0 &&
-        random_.uniform(loss_, core::mix64(sender) ^ receiver, message) < config_.loss_rate)
-        return false;
-    return !outages_.dark(receiver, message);
+    return !is_lost(sender, receiver, message) && !outages_.dark(receiver, message);
+}
+
+bool Channel::hears_answer(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
+                           double distance_m) const {
+    if (is_perfect()) return true;
+    return is_in_reach(sender, receiver, message, distance_m) && !is_lost(receiver, sender, message) &&
+           !outages_.dark(receiver, message) && !is_silent(sender, message);
+}
+
+bool Channel::is_lost(std::uint64_t from, std::uint64_t to, MessageNumber message) const {
+    return config_.loss_rate > 0.0 &&
+           random_.uniform(loss_, core::mix64(from) ^ to, message) < config_.loss_rate;
 }
 
 bool Channel::is_in_reach(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,

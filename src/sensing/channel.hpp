@@ -43,8 +43,13 @@ class Channel {
     bool is_silent(std::uint64_t sender, MessageNumber message) const;
     /// Whether the receiver, a vehicle's key or a signal's number, hears the message.
     bool hears(std::uint64_t sender, std::uint64_t receiver, MessageNumber message, double distance_m) const;
+    /// Whether `sender` hears an answer of `receiver`: shadowing and outages are those of the way there, for
+    /// the radios are the same; the loss is drawn anew.
+    bool hears_answer(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
+                      double distance_m) const;
 
   private:
+    bool is_lost(std::uint64_t from, std::uint64_t to, MessageNumber message) const;
     Channel(const ChannelConfig& config, EmergencyDark sender_dark, const core::KeyedRandom& random,
             Receivers receivers);
     bool is_in_reach(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,

@@ -214,6 +214,59 @@ void add_unknown_parts(std::vector<FailurePreset>& presets) {
     presets.push_back({"mixed", "B20, D3M and R50 together", with_routes(matched(bursty(20.0), 3.0), 0.5)});
 }
 
+/// Reach of requests whose loss alone is of interest, m.
+constexpr double unlimited_m = 10000.0;
+
+void lose_requests(FailureConfig& config, double rate) {
+    SignalRequestChannel& channel = config;
+    if (channel.propagation == Propagation::perfect) {
+        channel.propagation = Propagation::sharp;
+        channel.range_m = unlimited_m;
+    }
+    channel.loss_rate = rate;
+}
+
+void limit_requests(FailureConfig& config, double range_m) {
+    SignalRequestChannel& channel = config;
+    channel.propagation = Propagation::los;
+    channel.range_m = range_m;
+}
+
+/// What a preset changes in a configuration.
+void apply(const FailurePreset& preset, FailureConfig& config) {
+    const SignalRequestChannel& channel = preset.config;
+    switch (preset.kind) {
+        case PresetKind::reports:
+            config = preset.config;
+            break;
+        case PresetKind::request_loss:
+            lose_requests(config, channel.loss_rate);
+            break;
+        case PresetKind::request_range:
+            limit_requests(config, channel.range_m);
+            break;
+    }
+}
+
+void add_request_presets(std::vector<FailurePreset>& presets) {
+    for (int percent = 10; percent <= 90; percent += 10) {
+        FailureConfig config;
+        lose_requests(config, percent / 100.0);
+        presets.push_back({fmt::format("Q{}", percent),
+                           fmt::format("{} % of the messages between EVs and signals lost", percent), config,
+                           PresetKind::request_loss});
+    }
+    for (const int metres : {75, 150, 300, 600, 10000}) {
+        FailureConfig config;
+        limit_requests(config, metres);
+        const std::string range =
+            metres >= 1000 ? fmt::format("{}km", metres / 1000) : fmt::format("{}m", metres);
+        presets.push_back({"range_" + range,
+                           fmt::format("half of the signals at {} m hear EVs, in line of sight", metres),
+                           config, PresetKind::request_range});
+    }
+}
+
 /// Reads `FIELD=VALUE` items one after the other.
 class FieldReader {
   public:
@@ -235,6 +288,27 @@ class FieldReader {
         seen_.emplace_back(name);
     }
 
+    void read_preset(std::string_view item) {
+        const std::vector<FailurePreset> presets = failure_presets();
+        const auto preset = std::ranges::find(presets, item, &FailurePreset::name);
+        if (preset == presets.end()) {
+            std::vector<std::string> names;
+            for (const FailurePreset& one : presets)
+                names.push_back(one.name);
+            problems.push_back(unknown("failure preset", item, names));
+            return;
+        }
+        const bool is_late = !seen_.empty() || (preset->kind == PresetKind::reports && !named_.empty());
+        const bool is_second = std::ranges::find(named_, preset->kind) != named_.end();
+        if (is_late || is_second)
+            problems.push_back({"failure", fmt::format("the preset '{}' after other items", item),
+                                "one preset of reports, at the front; then one of loss and one of range of "
+                                "requests; then fields",
+                                "Give its fields instead"});
+        named_.push_back(preset->kind);
+        apply(*preset, config);
+    }
+
     FailureConfig config;
     std::vector<core::Problem> problems;
 
@@ -242,7 +316,8 @@ class FieldReader {
     void problem(std::string_view name, const std::string& what, const std::string& allowed) {
         problems.push_back({fmt::format("failure.{}", name), what, allowed, ""});
     }
-    std::vector<std::string> seen_;
+    std::vector<std::string> seen_;  ///< Fields.
+    std::vector<PresetKind> named_;
 };
 
 }  // namespace
@@ -282,33 +357,22 @@ std::vector<FailurePreset> failure_presets() {
     presets.push_back({"DL2", "every report arrives 2 s late", late(2.0)});
     presets.push_back({"D3B10", "D3 and B10 together", noisy(bursty(10.0), 3.0)});
     add_unknown_parts(presets);
+    add_request_presets(presets);
     return presets;
 }
 
 FailureConfig failure_from(const std::string& text) {
     FieldReader reader;
     std::string_view rest = text;
-    for (bool first = true, more = true; more; first = false) {
+    for (bool more = true; more;) {
         const std::size_t comma = rest.find(',');
         const std::string_view item = trimmed(rest.substr(0, comma));
         more = comma != std::string_view::npos;
         if (more) rest.remove_prefix(comma + 1);
         if (item.find('=') != std::string_view::npos) {
             reader.read(item);
-            continue;
-        }
-        std::vector<std::string> names;
-        bool found = false;
-        for (const FailurePreset& preset : failure_presets()) {
-            names.push_back(preset.name);
-            if (preset.name != item) continue;
-            found = true;
-            if (first) reader.config = preset.config;
-        }
-        if (!found) reader.problems.push_back(unknown("failure preset", item, names));
-        if (found && !first) {
-            reader.problems.push_back({"failure", fmt::format("the preset '{}' after other items", item),
-                                       "one preset, at the front", "Give its fields instead"});
+        } else {
+            reader.read_preset(item);
         }
     }
     if (reader.problems.empty()) reader.problems = problems_of(reader.config, "failure");

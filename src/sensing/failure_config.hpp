@@ -289,11 +289,19 @@ bool reports_fail(const FailureConfig& config);
 /// names the place, for example `study.toml: failure`. Empty when all is well.
 std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where);
 
+/// What a preset is about. One of each kind may be named.
+enum class PresetKind : std::uint8_t {
+    reports,        ///< A whole configuration.
+    request_loss,   ///< Loss of requests to signals.
+    request_range,  ///< Range of requests to signals.
+};
+
 /// A named, frozen configuration.
 struct FailurePreset {
     std::string name;
     std::string summary;
-    FailureConfig config;
+    FailureConfig config;  ///< Of the preset alone.
+    PresetKind kind = PresetKind::reports;
 };
 
 /// `perfect`, A.1 to A.7 (independent loss of 0.1 to 0.7 of the reports), B5, B10, B20 (outages of 5, 10, 20
@@ -301,14 +309,17 @@ struct FailurePreset {
 /// by presence or with a range of 1 m error), D1, D3, D5 (white position noise of 1, 3, 5 m), DL2 (2 s
 /// latency), D3B10 (D3 and B10), B40 (outages of 40 s), D3M, D5M (D3 and D5 with heading errors and map
 /// matching by the receiver), R50, R0 (routes of half of the vehicles and of none), S0 (no letters of
-/// signals), mixed (B20, D3M and R50 together).
+/// signals), mixed (B20, D3M and R50 together). Of requests to signals: Q10 to Q90 (10 to 90 % of the
+/// messages lost, both ways; in reach of 10 km where no range is named), range_75m, range_150m, range_300m,
+/// range_600m and range_10km (heard in line of sight, by half of the signals at this distance).
 std::vector<FailurePreset> failure_presets();
 
-/// The configuration that a text names: a preset, fields of FailureConfig, or both, separated by commas:
-/// `B10`, `B10,dark_share=0.5,exits=unknown`, `connected_share=0.3,onboard_range_m=80`. Without a preset, it
-/// starts from reports at 1 Hz that never fail. Throws core::InputError with every problem: unknown names
-/// (with the nearest known one), repeated fields, values that are not numbers, are out of range or contradict
-/// each other.
+/// The configuration that a text names: presets, fields of FailureConfig, or both, separated by commas:
+/// `B10`, `B10,Q50,range_150m`, `B10,dark_share=0.5,exits=unknown`, `connected_share=0.3,onboard_range_m=80`.
+/// A preset of reports comes first, those of requests follow in any order, then fields. Without a preset of
+/// reports, it starts from reports at 1 Hz that never fail. Throws core::InputError with every problem:
+/// unknown names (with the nearest known one), repeated fields, values that are not numbers, are out of range
+/// or contradict each other.
 FailureConfig failure_from(const std::string& text);
 
 }  // namespace clearway::sensing

@@ -40,7 +40,7 @@ class OneRoad {
         decide(leases, at_s);
     }
     void decide(const std::vector<traffic::Lease>& leases, double at_s = 0.0) {
-        step({leases, unreachable, true}, at_s);
+        step({leases, unreachable, true, decided_there}, at_s);
     }
     void wait(double at_s) { step({}, at_s); }
 
@@ -50,6 +50,7 @@ class OneRoad {
 
     support::Scene scene;
     std::vector<core::VehicleKey> unreachable;
+    std::vector<std::string_view> decided_there;
 
   private:
     void step(const Requests::Decision& decision, double at_s) {
@@ -187,6 +188,17 @@ TEST(Requests, ToSignalsHaveAChannelOfTheirOwn) {
     EXPECT_THAT(near.arrived(), ElementsAre("signal"));
     EXPECT_EQ(near.counts().signal_heard, 1u);
     EXPECT_EQ(near.counts().sent, 0u);
+}
+
+TEST(Requests, ThatSignalsDecidedOnThemselvesNeedNoMessage) {
+    OneRoad one("perfect,signal_request_propagation=sharp,signal_request_range_m=10");
+    const traffic::Lease green = lease(core::SignalIndex(0), traffic::HoldGreen{{0}}, one.scene.key("e1"));
+    one.decide({green});
+    EXPECT_THAT(one.arrived(), IsEmpty());
+    one.decided_there = {"part"};
+    one.decide({green});
+    EXPECT_THAT(one.arrived(), ElementsAre("signal"));
+    EXPECT_EQ(one.counts().signal_sent, 1u) << "the first";
 }
 
 /// A message of e1 to whoever is on its lane from here to there, `at_s` seconds after the start.

@@ -63,6 +63,24 @@ TEST(Channel, IsShadowedAlikeBothWays) {
         EXPECT_EQ(los.hears(ambulance, other, 9, 100.0), los.hears(other, ambulance, 9, 100.0));
 }
 
+TEST(Channel, BringsAnswersOverTheSameShadowWithLossesOfTheirOwn) {
+    const Channel shadowed = channel("range_150m", Channel::Receivers::signals);
+    const Channel lossy = channel("Q50", Channel::Receivers::signals);
+    int both = 0;
+    int answers = 0;
+    for (std::uint64_t signal = 0; signal < receivers; ++signal) {
+        EXPECT_EQ(shadowed.hears_answer(ambulance, signal, 9, 150.0),
+                  shadowed.hears(ambulance, signal, 9, 150.0));
+        const bool is_answered = lossy.hears_answer(ambulance, signal, 9, 150.0);
+        answers += is_answered ? 1 : 0;
+        both += is_answered && lossy.hears(ambulance, signal, 9, 150.0) ? 1 : 0;
+    }
+    // Standard errors 0.008 and 0.007.
+    EXPECT_NEAR(static_cast<double>(answers) / receivers, 0.5, 0.03);
+    EXPECT_NEAR(static_cast<double>(both) / receivers, 0.25, 0.03) << "independent of the request";
+    EXPECT_TRUE(channel("B10", Channel::Receivers::signals).hears_answer(ambulance, 3, 9, 1e6));
+}
+
 TEST(Channel, KeepsItsShadowFromOneMessageToTheNextAndLosesItInTime) {
     // At the range, two messages agree with probability 1/2 + asin(correlation) / pi.
     const Channel los = channel("request_propagation=los,request_range_m=100,request_interval_s=0.1");

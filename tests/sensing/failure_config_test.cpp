@@ -20,9 +20,11 @@ TEST(FailurePresets, AreThoseOfTheBenchmarkInItsOrder) {
     for (const FailurePreset& preset : failure_presets()) {
         names.push_back(preset.name);
     }
-    EXPECT_THAT(names, ElementsAre("perfect", "A.1", "A.2", "A.3", "A.4", "A.5", "A.6", "A.7", "B5", "B10",
-                                   "B20", "C.link", "C.range", "D1", "D3", "D5", "DL2", "D3B10", "B40", "D3M",
-                                   "D5M", "R50", "R0", "S0", "mixed"));
+    EXPECT_THAT(
+        names, ElementsAre("perfect", "A.1", "A.2", "A.3", "A.4", "A.5", "A.6", "A.7", "B5", "B10", "B20",
+                           "C.link", "C.range", "D1", "D3", "D5", "DL2", "D3B10", "B40", "D3M", "D5M", "R50",
+                           "R0", "S0", "mixed", "Q10", "Q20", "Q30", "Q40", "Q50", "Q60", "Q70", "Q80", "Q90",
+                           "range_75m", "range_150m", "range_300m", "range_600m", "range_10km"));
 }
 
 TEST(FailurePresets, HaveTheFrozenValues) {
@@ -95,13 +97,37 @@ TEST(FailureText, IsRefusedWithAllThatIsWrong) {
     EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
     EXPECT_THAT(refusal("B10,exits=maybe"), HasSubstr("known, unknown"));
     EXPECT_THAT(refusal("B10,dark_share=0.1,dark_share=0.2"), HasSubstr("occurs twice"));
-    EXPECT_THAT(refusal("dark_share=0.1,B10"), HasSubstr("one preset, at the front"));
+    EXPECT_THAT(refusal("dark_share=0.1,B10"), HasSubstr("one preset of reports, at the front"));
     EXPECT_THAT(refusal("B10,"), HasSubstr("'' is not a failure preset"));
     EXPECT_THAT(refusal(""), HasSubstr("'' is not a failure preset"));
     EXPECT_THAT(refusal("B10,dark_share=1.5"), HasSubstr("1.5 is out of range"));
     EXPECT_THAT(refusal("B10,dark_share=nan"), HasSubstr("out of range"));
     EXPECT_THAT(refusal("B10,dark_share=0.5,mean_outage_s=1"), HasSubstr("too short"));
     EXPECT_THAT(refusal("B1O,dark_shore=1"), ::testing::AllOf(HasSubstr("'B1O'"), HasSubstr("dark_shore")));
+}
+
+TEST(FailureText, CombinesPresetsOfRequestsWithOneOfReports) {
+    EXPECT_EQ(failure_from("Q50"), failure_from("signal_request_propagation=sharp,signal_request_range_m="
+                                                "10000,signal_request_loss_rate=0.5"));
+    EXPECT_EQ(failure_from("perfect,range_150m"),
+              failure_from("perfect,signal_request_propagation=los,signal_request_range_m=150"));
+    EXPECT_EQ(failure_from("B10,Q30,range_75m"),
+              failure_from("B10,signal_request_propagation=los,signal_request_range_m=75,"
+                           "signal_request_loss_rate=0.3"));
+    EXPECT_EQ(failure_from("range_75m,Q30"), failure_from("Q30,range_75m"));
+    EXPECT_EQ(failure_from("Q30,signal_request_latency_s=2").SignalRequestChannel::latency_s, 2.0);
+    EXPECT_EQ(failure_from("Q90").RequestChannel::propagation, Propagation::perfect) << "vehicles hear all";
+}
+
+TEST(FailureText, RefusesPresetsThatDoNotCombine) {
+    EXPECT_THAT(refusal("B10,B20"), HasSubstr("the preset 'B20' after other items"));
+    EXPECT_THAT(refusal("Q10,Q20"), HasSubstr("the preset 'Q20' after other items"));
+    EXPECT_THAT(refusal("range_75m,range_150m"), HasSubstr("one of range of requests"));
+    EXPECT_THAT(refusal("Q10,B10"), HasSubstr("one preset of reports, at the front"));
+    EXPECT_THAT(refusal("signal_request_latency_s=2,Q10"), HasSubstr("then fields"));
+    EXPECT_THAT(refusal("Q55"), HasSubstr("'Q55' is not a failure preset"));
+    EXPECT_THAT(refusal("Q50,signal_request_loss_rate=1.2"), HasSubstr("1.2 is out of range"));
+    EXPECT_THAT(refusal("Q50,signal_request_latency_s=-1"), HasSubstr("-1 is out of range"));
 }
 
 TEST(FailureConfig, RefusesPartsOfAnErrorThatIsNotThere) {

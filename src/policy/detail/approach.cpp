@@ -59,11 +59,12 @@ std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicl
     return found;
 }
 
-std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
+std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, const Piece& piece,
                         double halted_mps) {
     std::map<core::LaneIndex, std::size_t> by_lane;
-    for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, core::Metres(distance_m))) {
-        if (ahead.vehicle->state.speed_mps < halted_mps) ++by_lane[ahead.vehicle->state.lane];
+    for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, core::Metres(piece.to_m))) {
+        if (ahead.distance_m >= piece.from_m && ahead.vehicle->state.speed_mps < halted_mps)
+            ++by_lane[ahead.vehicle->state.lane];
     }
     std::map<core::EdgeIndex, std::size_t> by_edge;
     for (const auto& [lane, count] : by_lane) {

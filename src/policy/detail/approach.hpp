@@ -23,9 +23,14 @@ struct Approach {
 std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
                                  core::Metres horizon);
 
-/// Number of vehicles slower than `halted_mps` on the way to a stop line `distance_m` ahead: on each edge
-/// those of the lane with the most, summed over edges.
-std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m,
+/// A piece of the way ahead, by distances from the vehicle.
+struct Piece {
+    double from_m = 0.0;
+    double to_m = 0.0;
+};
+/// Number of vehicles slower than `halted_mps` on a piece of the way to a stop line: on each edge those of
+/// the lane with the most, summed over edges.
+std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, const Piece& piece,
                         double halted_mps);
 
 /// Time to drive `distance_m` along the route at the allowed speed on each edge, s.
