@@ -58,9 +58,9 @@ struct PreemptSignalsConfig {
                   "them",
                   "0: no gain by it is shown, docs/findings/short-blocks.md"},
             Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,
-                  "Lifetime of a request that is not renewed; 0: two periods",
-                  "short, because the next emergency vehicle waits for its end; longer where messages are "
-                  "lost"});
+                  "Lifetime of a hold that the signal does not renew; 0: two periods",
+                  "short, because the next emergency vehicle waits for its end; `memory` says how long a "
+                  "request lasts"});
     }
 };
 

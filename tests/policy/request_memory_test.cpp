@@ -1,5 +1,5 @@
 // What signals do about requests that come by message, and between two messages.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "policy/preempt_signals.hpp"
 #include "support/crossing_scene.hpp"
@@ -111,17 +111,17 @@ TEST_P(EveryMemory, never_outlives_the_longest_age_of_a_message) {
     policy::RequestMemorySettings patient;
     patient.timeout_s = 60.0;
     patient.window_s = 60.0;
-    patient.longest_memory_s = 20.0;
+    patient.longest_memory_s = 8.0;
     Junction junction(GetParam(), patient);
     junction.shown = red;  // It is believed to wait.
     ASSERT_TRUE(junction.holds(100.0, {Junction::message(20.0, 100.0)}));
-    EXPECT_EQ(junction.held_until_s(100.5, 150.0), 120.5);
+    EXPECT_EQ(junction.held_until_s(100.5, 150.0), 108.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Memories, EveryMemory,
                          ::testing::Values(RequestMemory::forget, RequestMemory::hold_eta,
                                            RequestMemory::dead_reckon, RequestMemory::graph),
-                         [](const auto& info) { return std::string(core::name(info.param)); });
+                         [](const auto& one) { return std::string(core::name(one.param)); });
 
 TEST(ForgettingSignal, lets_go_when_a_message_is_overdue) {
     Junction junction(RequestMemory::forget);
@@ -188,6 +188,27 @@ TEST(BelievingSignal, goes_on_from_there_by_dead_reckoning_when_the_graph_loses_
     junction.road.remove(seen);
     EXPECT_FALSE(junction.holds(103.5)) << "85 m left";
     EXPECT_TRUE(junction.holds(104.0)) << "80 m left; by the message alone it would be 360 m";
+}
+
+std::string refusal(const core::Settings& settings) {
+    try {
+        policy::make_policy("corridor", {two_crossings()}, settings);
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(MemorySettings, are_those_of_the_page_and_nothing_else) {
+    EXPECT_EQ(refusal({{"preempt_signals.memory", "graph"}, {"preempt_signals.timeout_s", "4"}}), "accepted");
+    EXPECT_THAT(
+        refusal({{"preempt_signals.memory", "guess"}}),
+        ::testing::AllOf(::testing::HasSubstr("preempt_signals.memory"), ::testing::HasSubstr("guess"),
+                         ::testing::HasSubstr("forget, hold_eta, dead_reckon, graph")));
+    EXPECT_THAT(
+        refusal({{"preempt_signals.window_s", "-1"}}),
+        ::testing::AllOf(::testing::HasSubstr("preempt_signals.window_s"), ::testing::HasSubstr("0 to 60")));
+    EXPECT_THAT(refusal({{"preempt_signals.longest_memory_s", "1e9"}}), ::testing::HasSubstr("1 to 300"));
 }
 
 TEST(RequestMessage, has_the_content_of_an_srm) {
