@@ -131,17 +131,19 @@ std::string hash_of_inputs(const ScenarioConfig& config) {
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
     core::make_folder(folder);
     const std::filesystem::path raw = folder / "raw.net.xml";
+    const bool is_taken_whole = !config.network.plain() && config.network.restrict == Restriction::none;
     if (config.network.plain()) {
         std::vector<std::string> arguments = plain_arguments(config);
         arguments.insert(arguments.end(), {"--output-file", raw.string()});
         run_netconvert(config, arguments, folder);
-    } else {
-        const std::filesystem::path source = resolve(config, config.network.file);
-        core::write_atomically(raw, NetworkDocument(source).without_newer_classes().text());
-        if (config.network.restrict == Restriction::largest_car_component)
-            restrict_network(config, folder, raw);
+    } else if (!is_taken_whole) {
+        core::write_atomically(
+            raw, NetworkDocument(resolve(config, config.network.file)).without_newer_classes().text());
+        restrict_network(config, folder, raw);
     }
-    NetworkDocument document(raw);
+    // Large networks are parsed once where that is enough.
+    NetworkDocument document(is_taken_whole ? resolve(config, config.network.file) : raw);
+    if (is_taken_whole) document.without_newer_classes();
     if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
     if (config.road.changes_limits()) slow_down(config, document);
     core::write_atomically(folder / network_name, document.text());

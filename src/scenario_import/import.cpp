@@ -255,9 +255,11 @@ std::string in_own_words(std::string text, const Import& import) {
     return text;
 }
 
-detail::Tried try_out_demand(Import& import, scenario::ScenarioConfig& config) {
+scenario::Prepared try_out_demand(Import& import, scenario::ScenarioConfig& config) {
     try {
-        return detail::try_out(import, config);
+        detail::Tried tried = detail::make_demand(import, config);
+        detail::require_load(import, tried.demand);
+        return std::move(tried.demand);
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
         for (core::Problem& problem : problems) {
@@ -290,7 +292,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     if (has_files &&
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
         take_over_times(sources, config);
-        detail::compare_steps(import, try_out_demand(import, config).demand, sources.step_length_s);
+        detail::compare_steps(import, try_out_demand(import, config), sources.step_length_s);
         return;
     }
     if (has_files)

@@ -31,6 +31,14 @@ inline const roads::Network& short_square() {
     return network;
 }
 
+/// Two squares like that without T, one side of each cut into two edges; in the second, a side street leaves
+/// where it is cut. Corners are asw, ase, ane, anw and bsw to bnw; see data/cut_squares.net.xml.
+inline const roads::Network& cut_squares() {
+    static const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/cut_squares.net.xml");
+    return network;
+}
+
 /// A vehicle of a scene.
 struct SceneVehicle {
     std::string id;

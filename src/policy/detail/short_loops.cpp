@@ -17,21 +17,52 @@ void for_each_way(const roads::Network& network, const Visit& visit) {
                 visit(row, way);
 }
 
+/// The one edge to which cars go on from `edge` without turning round; none where there are several or none.
+core::EdgeIndex only_way_on(const roads::Network& network, core::EdgeIndex edge) {
+    core::EdgeIndex next;
+    for (std::uint32_t number = 0; number < network.edge(edge).lane_count; ++number)
+        for (const roads::Connection& way : network.connections_from(network.lane_of(edge, number))) {
+            if (!way.allows_cars || way.direction == 't') continue;
+            const core::EdgeIndex to = network.lane(way.to).edge;
+            if (next.exists() && next != to) return {};
+            next = to;
+        }
+    return next;
+}
+
+/// Visits the signals at which the block ends that begins with `edge`.
+template <class Visit>
+void for_each_end(const roads::Network& network, const std::vector<std::set<std::uint32_t>>& ahead,
+                  core::EdgeIndex edge, double shorter_than_m, const Visit& visit) {
+    std::set<core::EdgeIndex> passed;
+    double length_m = 0.0;
+    while (edge.exists() && !network.edge(edge).internal && passed.insert(edge).second) {
+        length_m += network.edge(edge).length_m;
+        if (length_m >= shorter_than_m) return;
+        if (!ahead[edge.value].empty()) {
+            for (const std::uint32_t signal : ahead[edge.value])
+                visit(signal);
+            return;
+        }
+        edge = only_way_on(network, edge);
+    }
+}
+
 Neighbours short_blocks(const roads::Network& network, double shorter_than_m) {
-    std::vector<std::set<std::uint32_t>> behind(network.edges().size());
+    std::vector<std::set<std::uint32_t>> ahead(network.edges().size());
+    std::vector<std::set<core::EdgeIndex>> behind(network.signals().size());
     for_each_way(network, [&](std::uint32_t signal, const roads::SignalLink& way) {
-        behind[network.lane(way.to).edge.value].insert(signal);
+        ahead[network.lane(way.from).edge.value].insert(signal);
+        behind[signal].insert(network.lane(way.to).edge);
     });
     Neighbours neighbours(network.signals().size());
-    for_each_way(network, [&](std::uint32_t signal, const roads::SignalLink& way) {
-        const core::EdgeIndex edge = network.lane(way.from).edge;
-        if (network.edge(edge).internal || network.edge(edge).length_m >= shorter_than_m) return;
-        for (const std::uint32_t before : behind[edge.value]) {
-            if (before == signal) continue;
-            neighbours[before].insert(signal);
-            neighbours[signal].insert(before);
-        }
-    });
+    for (std::uint32_t before = 0; before < behind.size(); ++before)
+        for (const core::EdgeIndex edge : behind[before])
+            for_each_end(network, ahead, edge, shorter_than_m, [&](std::uint32_t signal) {
+                if (signal == before) return;
+                neighbours[before].insert(signal);
+                neighbours[signal].insert(before);
+            });
     return neighbours;
 }
 

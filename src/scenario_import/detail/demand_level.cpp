@@ -22,6 +22,9 @@ constexpr double fewest_cars = 4.0;
 /// Demands of other replications that a level must bear, too.
 constexpr std::uint32_t more_demands = 2;
 
+/// Cars a kilometre of lane and hour from which the search goes up or down.
+constexpr double usual_density = 20.0;
+
 /// Runs shares of a demand.
 class Probe {
   public:
@@ -37,7 +40,7 @@ class Probe {
               std::string("--summary-output"), summary.string(), std::string("--summary-output.period"),
               std::string("10"), std::string("--no-warnings")})
             arguments.push_back(word);
-        LoadWatch watch(summary, free_speed_);
+        LoadWatch watch(summary, {(demand.human + demand.automated) * share, free_speed_});
         const Tool tool{"sumo",
                         std::move(arguments),
                         import_.work / "probe.log",
@@ -45,21 +48,23 @@ class Probe {
                         "sumo",
                         [&] { return watch.is_decided(); }};
         const bool ran = succeeds(tool, import_.on_progress);
+        const LoadFault fault = ran ? watch.fault() : LoadFault::fails;
         load_ = watch.load();
-        if (!ran) return LoadFault::fails;
-        const LoadFault fault = watch.fault();
-        load_ = watch.load();
+        has_room_ = fault == LoadFault::none && watch.has_room();
         return fault;
     }
     /// The speed of the last run is that of free flow from now on.
     void take_as_free_flow() { free_speed_ = load_.speed_of_all_time; }
     double free_speed() const { return free_speed_; }
     const Load& load() const { return load_; }
+    /// Of the last run.
+    bool has_room() const { return has_room_; }
 
   private:
     Import& import_;
     double free_speed_ = 0.0;
     Load load_;
+    bool has_room_ = false;
 };
 
 double share_of(int rung) {
@@ -74,6 +79,21 @@ int lowest_rung_of(int most) {
     const double rungs = std::log(most / fewest_cars) / std::log(ladder_step);
     return std::clamp(static_cast<int>(rungs), 0, most_rungs);
 }
+
+/// Where the search begins, above the lowest rung.
+int first_rung(double lane_km, int most, int lowest_rung) {
+    const double hours = demand_window_s / 3600.0;
+    const double times_too_many = most / (usual_density * std::max(0.001, lane_km) * hours);
+    const double rungs = std::log(std::max(1.0, times_too_many)) / std::log(ladder_step);
+    return std::clamp(static_cast<int>(std::lround(rungs)), 0, std::max(0, lowest_rung - 1));
+}
+
+/// A rung that the network bears.
+struct Borne {
+    int rung = 0;
+    Load load;
+    bool has_room = false;
+};
 
 std::string words_of(LoadFault fault, const Import& import) {
     switch (fault) {
@@ -126,32 +146,34 @@ void set_cars(scenario::ScenarioConfig& config, int cars, double automated_share
 DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int most) {
     set_cars(config, most, import.request.automated_share);
     const int lowest_rung = lowest_rung_of(most);
-    const Tried tried = try_out(import, config);
+    const Tried tried = make_demand(import, config);
     Probe probe(import);
     LoadFault fault = probe.try_share(tried.demand, share_of(lowest_rung));
+    if (fault == LoadFault::fails) require_load(import, tried.demand);
     if (fault != LoadFault::none) refuse_every_level(import, fault, cars_on(lowest_rung, most));
     probe.take_as_free_flow();
-    Load borne = probe.load();
-    int best = lowest_rung;
-    for (int too_high = -1; best - too_high > 1;) {
-        const int middle = (best + too_high) / 2;
-        if (probe.try_share(tried.demand, share_of(middle)) == LoadFault::none) {
-            best = middle;
-            borne = probe.load();
+    Borne best{lowest_rung, probe.load(), probe.has_room()};
+    for (int too_high = -1, rung = first_rung(import.findings.lane_km, most, lowest_rung);
+         best.rung - too_high > 1; rung = (best.rung + too_high) / 2) {
+        if (probe.try_share(tried.demand, share_of(rung)) == LoadFault::none) {
+            best = {rung, probe.load(), probe.has_room()};
         } else {
-            too_high = middle;
+            too_high = rung;
         }
     }
     const auto fault_of_best = [&] {
-        set_cars(config, cars_on(best, most), import.request.automated_share);
-        return fault_of_more(tried.network, config, import.work / "more", probe);
+        set_cars(config, cars_on(best.rung, most), import.request.automated_share);
+        return best.has_room ? LoadFault::none
+                             : fault_of_more(tried.network, config, import.work / "more", probe);
     };
     while ((fault = fault_of_best()) != LoadFault::none) {
-        if (++best > lowest_rung) refuse_every_level(import, fault, cars_on(lowest_rung, most));
-        probe.try_share(tried.demand, share_of(best));
-        borne = probe.load();
+        if (++best.rung > lowest_rung) refuse_every_level(import, fault, cars_on(lowest_rung, most));
+        probe.try_share(tried.demand, share_of(best.rung));
+        best.load = probe.load();
+        best.has_room = probe.has_room();
     }
-    return {cars_on(best, most), borne, probe.free_speed(), cars_on(lowest_rung, most)};
+    return {cars_on(best.rung, most), best.load, probe.free_speed(), cars_on(lowest_rung, most),
+            best.has_room ? 1 : 1 + static_cast<int>(more_demands)};
 }
 
 }  // namespace clearway::scenario_import::detail

@@ -11,16 +11,19 @@ struct DemandLevel {
     Load load;                ///< Under the first demand.
     double free_speed = 0.0;  ///< Mean ratio of speed to limit with `fewest_cars`, signals as they are.
     int fewest_cars = 0;
+    int demands = 0;  ///< In so many demands it was tried.
 };
 
 /// Sets the number of cars of a synthetic demand, a share of them automated.
 void set_cars(scenario::ScenarioConfig& config, int cars, double automated_share);
 
 /// Finds the largest number of cars, on a ladder of at most ten rungs down from `most` (factor 1.5; at least
-/// four cars), that the network bears in three demands, tried with SUMO at steps of 1 s: everybody arrives by
-/// the horizon, at most 1 % teleport, and over minutes 12 to 15 the mean speed is at least half of that on
-/// the lowest rung and at most 5 % wait to enter. Bisects, so it makes up to eight runs; one ends as soon as
-/// it is too much. Throws core::InputError, with the reason, when the network does not bear the lowest rung.
+/// four cars), that the network bears, tried with SUMO at steps of 1 s: everybody arrives by the horizon, at
+/// most 1 % teleport, and over minutes 12 to 15 the mean speed is at least half of that on the lowest rung
+/// and at most 5 % wait to enter. Two more demands are tried unless the first is borne with room to spare
+/// (LoadWatch::has_room). Begins at a usual density and bisects, so it makes two to eight runs; one ends as
+/// soon as it is too much. Throws core::InputError, with the reason, when the network does not bear the
+/// lowest rung.
 DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int most);
 
 }  // namespace clearway::scenario_import::detail

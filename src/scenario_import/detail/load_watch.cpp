@@ -9,11 +9,17 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-constexpr double measured_from_s = demand_window_s - 180.0;
+constexpr double measured_from_s = demand_window_s - judged_s;
 /// Of the free speed: below it, vehicles take twice their time.
 constexpr double least_speed_share = 0.5;
 constexpr double most_waiting_share = 0.05;
 constexpr double most_teleported_share = 0.01;
+/// Limits before the last minutes of the departures: roads only fill until then, so a load that is beyond
+/// these earlier is beyond the others later. Stricter by a third, because an early jam may be one of chance.
+constexpr double hopeless_speed_share = 1.0 / 3.0;
+constexpr double hopeless_waiting_share = 0.075;
+constexpr double room_speed_share = 0.75;
+constexpr double room_waiting_share = 0.01;
 
 /// A number of a row `<step time="10.00" running="3" .../>`; 0 where it has none.
 double value_of(const std::string& row, const std::string& name) {
@@ -26,8 +32,8 @@ double value_of(const std::string& row, const std::string& name) {
 
 }  // namespace
 
-LoadWatch::LoadWatch(std::filesystem::path summary, double free_speed)
-    : summary_(std::move(summary)), free_speed_(free_speed) {}
+LoadWatch::LoadWatch(std::filesystem::path summary, LoadMeasure measure)
+    : summary_(std::move(summary)), measure_(measure) {}
 
 bool LoadWatch::is_decided() {
     std::ifstream stream(summary_);
@@ -53,20 +59,34 @@ void LoadWatch::take(const std::string& row) {
     const double running = value_of(row, "running");
     const double speeds = running * std::max(0.0, value_of(row, "meanSpeedRelative"));
     if (time_s >= demand_window_s && !window_is_over_) end_window();
-    load_.loaded = value_of(row, "loaded");
     load_.teleports = value_of(row, "teleports");
     load_.left = running + value_of(row, "waiting");
     if (load_.left > 0.0) load_.end_s = time_s;
     running_of_all_time_ += running;
     if (running_of_all_time_ > 0.0)
         load_.speed_of_all_time += (speeds - running * load_.speed_of_all_time) / running_of_all_time_;
-    if (load_.teleports > most_teleported_share * load_.loaded) fault_ = LoadFault::teleports;
-    if (window_is_over_ || time_s < measured_from_s) return;
+    if (load_.teleports > most_teleported_share * measure_.cars) fault_ = LoadFault::teleports;
+    if (window_is_over_) return;
+    const double waiting = value_of(row, "waiting");
+    if (time_s >= early_.end_s) end_early();
+    if (time_s < measured_from_s) {
+        ++early_.rows;
+        early_.running += running;
+        early_.speeds += speeds;
+        early_.waiting += waiting;
+        return;
+    }
     ++rows_;
     load_.running += running;
     load_.relative_speed += speeds;
     load_.halting += value_of(row, "halting");
-    load_.waiting += value_of(row, "waiting");
+    load_.waiting += waiting;
+}
+
+void LoadWatch::end_early() {
+    if (early_.speeds < hopeless_speed_share * measure_.free_speed * early_.running) fault_ = LoadFault::slow;
+    if (early_.waiting > hopeless_waiting_share * measure_.cars * early_.rows) fault_ = LoadFault::queues;
+    early_ = {early_.end_s + judged_s};
 }
 
 void LoadWatch::end_window() {
@@ -75,8 +95,13 @@ void LoadWatch::end_window() {
     for (double* const mean : {&load_.running, &load_.halting, &load_.waiting})
         *mean /= std::max(1.0, rows_);
     if (load_.running < 1.0) return;
-    if (load_.relative_speed < least_speed_share * free_speed_) fault_ = LoadFault::slow;
-    if (load_.waiting > most_waiting_share * load_.loaded) fault_ = LoadFault::queues;
+    if (load_.relative_speed < least_speed_share * measure_.free_speed) fault_ = LoadFault::slow;
+    if (load_.waiting > most_waiting_share * measure_.cars) fault_ = LoadFault::queues;
+}
+
+bool LoadWatch::has_room() const {
+    return load_.teleports == 0.0 && load_.waiting <= room_waiting_share * measure_.cars &&
+           load_.relative_speed >= room_speed_share * measure_.free_speed;
 }
 
 }  // namespace clearway::scenario_import::detail

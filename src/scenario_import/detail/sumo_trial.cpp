@@ -73,7 +73,7 @@ std::vector<std::string> sumo_arguments(const scenario::Prepared& prepared) {
             "warn"};
 }
 
-Tried try_out(Import& import, scenario::ScenarioConfig& config) {
+Tried make_demand(Import& import, scenario::ScenarioConfig& config) {
     double& least_m = config.measured ? config.measured->emergency_minimum_length_m
                                       : config.trips.emergency_minimum_length_m;
     scenario::BuiltNetwork network = scenario::build_network(config, import.work / "network");
@@ -89,7 +89,11 @@ Tried try_out(Import& import, scenario::ScenarioConfig& config) {
             config.trips.minimum_length_m = std::min(config.trips.minimum_length_m, least_m);
         }
     }
-    std::vector<std::string> arguments = sumo_arguments(*prepared);
+    return {std::move(network), *std::move(prepared)};
+}
+
+void require_load(const Import& import, const scenario::Prepared& demand) {
+    std::vector<std::string> arguments = sumo_arguments(demand);
     arguments.insert(arguments.end(), {"--end", "1"});
     const Tool tool{"sumo", std::move(arguments), import.work / "sumo.log", "loading it in SUMO", "sumo"};
     if (!succeeds(tool, import.on_progress))
@@ -97,7 +101,6 @@ Tried try_out(Import& import, scenario::ScenarioConfig& config) {
             core::Problem{import.request.files.front().string(),
                           fmt::format("SUMO does not load the imported scenario:\n{}", complaint(tool.log)),
                           "files that SUMO 1.15 loads", "correct what it names"});
-    return {std::move(network), *std::move(prepared)};
 }
 
 void compare_steps(Import& import, const scenario::Prepared& demand, double own_step_s) {

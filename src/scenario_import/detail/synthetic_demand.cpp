@@ -36,9 +36,11 @@ std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& 
             : "no speed known";
     return fmt::format(
         "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} per km of "
-        "lane, {}, {:.0f} waiting to enter; all have arrived after {:.0f} minutes; borne in three demands",
+        "lane, {}, {:.0f} waiting to enter; all have arrived after {:.0f} minutes; borne {}",
         level.cars, demand_window_s, places, load.running, load.running < 10.0 ? 1 : 0,
-        load.running / std::max(0.001, lane_km), speed, load.waiting, std::ceil(load.end_s / 60.0));
+        load.running / std::max(0.001, lane_km), speed, load.waiting, std::ceil(load.end_s / 60.0),
+        level.demands > 1 ? fmt::format("in {} demands", level.demands)
+                          : std::string("with room to spare, so that one demand was tried"));
 }
 
 }  // namespace
