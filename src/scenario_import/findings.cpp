@@ -62,6 +62,7 @@ std::string to_json(const Findings& findings) {
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},
                                    {"routed_trips", findings.routed_trips},
+                                   {"routed_at_departure", findings.routed_at_departure},
                                    {"bad_vehicles_share", findings.bad_vehicles_share},
                                    {"persons", findings.persons},
                                    {"demand", findings.demand},

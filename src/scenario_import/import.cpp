@@ -77,7 +77,7 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
     const detail::Configuration configuration = detail::read_configuration(file);
     sources.network = configuration.network;
     sources.demand = {configuration.routes, configuration.additional, configuration.begin_s,
-                      configuration.end_s, configuration.scale};
+                      configuration.end_s,  configuration.scale,      configuration.rerouting};
     sources.step_length_s = configuration.step_length_s;
     sources.time_to_teleport_s = configuration.time_to_teleport_s;
     if (configuration.scale != 1.0)

@@ -51,7 +51,8 @@ struct Findings {
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
     double vehicles_per_hour = 0.0;       ///< Human and automated vehicles, over the departure window.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
-    std::size_t routed_trips = 0;         ///< Vehicles whose files give only ends; routed at free flow.
+    std::size_t routed_trips = 0;         ///< Vehicles whose files give only ends.
+    std::size_t routed_at_departure = 0;  ///< Of these, those that SUMO routes by the traffic of the moment.
     /// Share of the vehicles in the files that cannot drive their route and were left out, 0 to 1.
     double bad_vehicles_share = 0.0;
     std::size_t persons = 0;  ///< Persons of the scenario's own files, in the window.

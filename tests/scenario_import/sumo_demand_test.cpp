@@ -282,17 +282,21 @@ TEST_F(SumoDemand, fine_steps_and_no_teleports_are_taken_over) {
     EXPECT_THAT(findings.changes, Not(Contains(HasSubstr("steps of"))));
 }
 
-TEST_F(SumoDemand, trips_that_sumo_would_route_at_departure_are_named) {
-    const Findings findings = run(line_with(cars(2) + "<trip id='t' depart='3' from='first' to='second'/>"));
-    EXPECT_EQ(findings.routed_trips, 1U);
+TEST_F(SumoDemand, trips_that_sumo_cannot_route_at_departure_are_named) {
+    const Findings findings = run(
+        line_with(cars(2) +
+                  "<trip id='t' depart='3' from='first' to='second'/><trip id='u' depart='4' from='first' "
+                  "via='second' to='second'/><trip id='v' depart='5' fromJunction='a' to='second'/>"));
+    EXPECT_EQ(findings.routed_trips, 3U);
+    EXPECT_EQ(findings.routed_at_departure, 1U);
     EXPECT_THAT(findings.changes,
-                Contains(HasSubstr("1 vehicles without a route take the fastest one at free flow")));
-    EXPECT_THAT(findings.demand, Not(HasSubstr("as the route files say, 60 s")));
-    EXPECT_THAT(findings.demand, HasSubstr("routes of trips from duarouter"));
+                AllOf(Contains(HasSubstr("2 vehicles without a route take the fastest one at free flow")),
+                      Contains(HasSubstr("1 vehicles without a route are routed by SUMO at departure"))));
+    EXPECT_THAT(findings.demand, HasSubstr("routes of trips partly from duarouter"));
     EXPECT_THAT(
         run(request({line_network(), write("plain.rou.xml", "<routes>" + cars(2) + "</routes>")}, "plain"))
             .demand,
-        testing::StartsWith("as the route files say"));
+        testing::StartsWith("as the route files say, 60 s"));
 }
 
 TEST_F(SumoDemand, a_scenario_without_cars_has_emergency_vehicles_on_the_routes_of_others) {

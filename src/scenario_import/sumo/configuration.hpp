@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scenario_import/sumo/rerouting.hpp"
+
 namespace clearway::scenario_import::detail {
 
 /// What an import takes from a SUMO configuration.
@@ -19,6 +21,7 @@ struct Configuration {
     /// After which SUMO teleports a vehicle that stands; -1: never. Nothing: SUMO's default.
     std::optional<double> time_to_teleport_s;
     bool ignores_route_errors = false;
+    Rerouting rerouting;
     std::vector<std::string> other_options;  ///< Set there, but not taken over: `time-to-teleport = 60`.
 };
 

@@ -229,6 +229,27 @@ void keep_window(const Window& window, Demand& demand, Findings& findings, std::
                         all, vehicles.size(), window.begin_s, window.end_s()));
 }
 
+/// How vehicles without a route find one.
+void describe_ways(const Demand& demand, Findings& findings) {
+    const auto count = [&](auto&& is_so) {
+        return static_cast<std::size_t>(std::ranges::count_if(demand.vehicles, is_so));
+    };
+    findings.routed_trips = count(&RoadUser::is_trip);
+    findings.routed_at_departure = count(&RoadUser::is_routed_at_departure);
+    if (findings.routed_at_departure > 0)
+        findings.changes.push_back(
+            fmt::format("{} vehicles without a route are routed by SUMO at departure, by the traffic of the "
+                        "moment, as in the scenario; so their ways may differ between conditions",
+                        findings.routed_at_departure));
+    if (const std::size_t others = findings.routed_trips - findings.routed_at_departure; others > 0)
+        findings.changes.push_back(fmt::format(
+            "{} vehicles without a route take the fastest one at free flow, as duarouter finds it, because "
+            "they have vias, or ends that are no edges; SUMO would choose at departure, by the traffic of "
+            "the "
+            "moment, which spreads them over longer ways",
+            others));
+}
+
 void describe_vehicles(const Import& import, const Demand& demand, const Window& window, Findings& findings) {
     std::size_t with_blue_lights = 0;
     for (const RoadUser& vehicle : demand.vehicles) {
@@ -242,19 +263,14 @@ void describe_vehicles(const Import& import, const Demand& demand, const Window&
                         "own are measured",
                         with_blue_lights));
     findings.vehicles_per_hour = static_cast<double>(demand.vehicles.size()) * 3600.0 / window.length_s;
-    findings.routed_trips =
-        static_cast<std::size_t>(std::ranges::count_if(demand.vehicles, &RoadUser::is_trip));
-    if (findings.routed_trips > 0)
-        findings.changes.push_back(fmt::format(
-            "{} vehicles without a route take the fastest one at free flow, as duarouter finds it; SUMO "
-            "would choose at departure, by the traffic of the moment, which spreads them over longer "
-            "ways",
-            findings.routed_trips));
-    findings.demand = fmt::format("{}, {:.0f} s of it; {:.0f} % of the cars are automated",
-                                  findings.routed_trips == 0
-                                      ? "as the route files say"
-                                      : "departures as the route files say, routes of trips from duarouter",
-                                  window.length_s, 100.0 * import.request.automated_share);
+    describe_ways(demand, findings);
+    findings.demand =
+        fmt::format("{}, {:.0f} s of it; {:.0f} % of the cars are automated",
+                    findings.routed_trips == 0 ? "as the route files say"
+                    : findings.routed_trips == findings.routed_at_departure
+                        ? "as the route files say, trips without a route routed by SUMO at departure"
+                        : "departures as the route files say, routes of trips partly from duarouter",
+                    window.length_s, 100.0 * import.request.automated_share);
 }
 
 /// Shifts the signal programs so that the scenario's time 0 is their `begin_s`.
@@ -310,6 +326,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     const Window window = choose_window(demand.vehicles, files, import);
     keep_window(window, demand, findings, all);
     describe_vehicles(import, demand, window, findings);
+    add_routing_devices(demand, files.rerouting);
     config.measured = describe_types(import, demand);
     config.measured->emergency_minimum_length_m = emergency_length_m(demand, network, access);
     // The types are the scenario's own, so this is the largest allowed limit.

@@ -7,6 +7,7 @@
 #include "roads/network.hpp"
 #include "scenario_import/detail/context.hpp"
 #include "scenario_import/sumo/demand_reader.hpp"
+#include "scenario_import/sumo/rerouting.hpp"
 
 namespace clearway::scenario_import::detail {
 
@@ -17,6 +18,7 @@ struct SumoFiles {
     std::optional<double> begin_s;
     std::optional<double> end_s;
     double scale = 1.0;  ///< SUMO's option: number of copies of each vehicle and person.
+    Rerouting rerouting;
 };
 
 /// Turns them into the measured demand of `config`: traffic.rou.xml (single vehicles, sorted, times from the

@@ -364,6 +364,7 @@ bool DemandReader::set_trip(const Element& source, RoadUser& vehicle) {
         return false;
     }
     vehicle.is_trip = true;
+    vehicle.is_routed_at_departure = source.has("from") && source.has("to") && !source.has("via");
     vehicle.trip.name = "trip";
     for (const char* const name : ends_of_trips)
         if (source.has(name)) vehicle.trip.set(name, source.text(name));

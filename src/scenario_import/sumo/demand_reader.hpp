@@ -34,6 +34,8 @@ struct RoadUser {
     double later_s = 0.0;            ///< As `Departure::later_s`.
     std::vector<std::string> edges;  ///< Of a trip: its ends and vias.
     bool is_trip = false;
+    /// A trip between two edges without vias, of which SUMO can find the way again when it departs.
+    bool is_routed_at_departure = false;
     /// For a trip: `<trip>` with its ends, which are edges, zones or junctions.
     Element trip;
     Element element;    ///< `<vehicle>` with its stops, without route, type and departure.

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace clearway::scenario_import::detail {
+
+struct Demand;
+
+/// Who chooses new ways by the traffic of the moment, as a configuration says: SUMO's routing device.
+struct Rerouting {
+    double share = 0.0;     ///< Of all vehicles (`device.rerouting.probability`), drawn by their ids.
+    double period_s = 0.0;  ///< These choose again so often on their way; 0: only at departure.
+};
+
+/// Gives SUMO's routing device to vehicles of that share, and to those that SUMO equips by itself: trips
+/// between two edges without vias. They keep the way that they have, from which SUMO departs.
+void add_routing_devices(Demand& demand, const Rerouting& rerouting);
+
+}  // namespace clearway::scenario_import::detail
