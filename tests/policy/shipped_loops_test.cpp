@@ -12,7 +12,8 @@ namespace clearway::testing {
 namespace {
 
 /// Every published figure but those of docs/findings/short-blocks.md is from a network without loops of short
-/// blocks, so no signal stands back in any of them.
+/// blocks, so no signal stands back in any of them. In the city the two carriageways of a street with a
+/// signal each would be one, if they did not count as one place.
 TEST(ShippedScenarios, have_short_loops_only_where_they_are_made_for_it) {
     setenv("SUMO_HOME", "/usr/share/sumo", 0);
     setenv("CLEARWAY_HOME", CLEARWAY_SOURCE_DIR, 1);

@@ -1,12 +1,15 @@
 #include "policy/detail/short_loops.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 
 namespace clearway::policy::detail {
 namespace {
 
-/// By signal: the other signals that a short block joins to it, in either direction.
+/// By place of signals: the other places that a short block joins to it, in either direction.
 using Neighbours = std::vector<std::set<std::uint32_t>>;
 
 template <class Visit>
@@ -30,7 +33,7 @@ core::EdgeIndex only_way_on(const roads::Network& network, core::EdgeIndex edge)
     return next;
 }
 
-/// Visits the signals at which the block ends that begins with `edge`.
+/// Visits the places of signals at which the block ends that begins with `edge`.
 template <class Visit>
 void for_each_end(const roads::Network& network, const std::vector<std::set<std::uint32_t>>& ahead,
                   core::EdgeIndex edge, double shorter_than_m, const Visit& visit) {
@@ -48,12 +51,54 @@ void for_each_end(const roads::Network& network, const std::vector<std::set<std:
     }
 }
 
-Neighbours short_blocks(const roads::Network& network, double shorter_than_m) {
+/// Where a signal stands: the mean of its stop lines. No number for one without links.
+roads::Point centre_of(const roads::Network& network, std::uint32_t signal) {
+    roads::Point sum;
+    float count = 0.0F;
+    for (const auto& ways : network.signal(core::SignalIndex{signal}).links)
+        for (const roads::SignalLink& way : ways) {
+            const roads::Point end = network.lane(way.from).shape.back();
+            sum = {sum.x_m + end.x_m, sum.y_m + end.y_m};
+            ++count;
+        }
+    return {sum.x_m / count, sum.y_m / count};
+}
+
+/// By signal, the first of those that stand at the same place as it: the carriageways of one street.
+std::vector<std::uint32_t> places_of(const roads::Network& network) {
+    constexpr float same_place_m = 25.0F;
+    const auto count = static_cast<std::uint32_t>(network.signals().size());
+    std::vector<roads::Point> centres;
+    for (std::uint32_t signal = 0; signal < count; ++signal)
+        centres.push_back(centre_of(network, signal));
+    std::vector<std::uint32_t> places(count);
+    std::iota(places.begin(), places.end(), 0U);
+    const auto first_of = [&](std::uint32_t signal) {
+        while (places[signal] != signal)
+            signal = places[signal];
+        return signal;
+    };
+    for (std::uint32_t signal = 0; signal < count; ++signal)
+        for (std::uint32_t before = 0; before < signal; ++before) {
+            const float x_m = centres[signal].x_m - centres[before].x_m;
+            const float y_m = centres[signal].y_m - centres[before].y_m;
+            if (std::hypot(x_m, y_m) < same_place_m) {
+                const auto [first, second] = std::minmax({first_of(before), first_of(signal)});
+                places[second] = first;
+            }
+        }
+    for (std::uint32_t& place : places)
+        place = first_of(place);
+    return places;
+}
+
+Neighbours short_blocks(const roads::Network& network, double shorter_than_m,
+                        const std::vector<std::uint32_t>& places) {
     std::vector<std::set<std::uint32_t>> ahead(network.edges().size());
     std::vector<std::set<core::EdgeIndex>> behind(network.signals().size());
     for_each_way(network, [&](std::uint32_t signal, const roads::SignalLink& way) {
-        ahead[network.lane(way.from).edge.value].insert(signal);
-        behind[signal].insert(network.lane(way.to).edge);
+        ahead[network.lane(way.from).edge.value].insert(places[signal]);
+        behind[places[signal]].insert(network.lane(way.to).edge);
     });
     Neighbours neighbours(network.signals().size());
     for (std::uint32_t before = 0; before < behind.size(); ++before)
@@ -69,7 +114,8 @@ Neighbours short_blocks(const roads::Network& network, double shorter_than_m) {
 }  // namespace
 
 std::vector<bool> on_short_loops(const roads::Network& network, double shorter_than_m) {
-    Neighbours neighbours = short_blocks(network, shorter_than_m);
+    const std::vector<std::uint32_t> places = places_of(network);
+    Neighbours neighbours = short_blocks(network, shorter_than_m, places);
     std::vector<std::uint32_t> ends;
     const auto add_if_end = [&](std::uint32_t signal) {
         if (neighbours[signal].size() == 1) ends.push_back(signal);
@@ -87,7 +133,7 @@ std::vector<bool> on_short_loops(const roads::Network& network, double shorter_t
     }
     std::vector<bool> on_loop;
     for (std::uint32_t signal = 0; signal < neighbours.size(); ++signal) {
-        if (neighbours[signal].empty()) continue;
+        if (neighbours[places[signal]].empty()) continue;
         on_loop.resize(neighbours.size());
         on_loop[signal] = true;
     }
