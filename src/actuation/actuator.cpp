@@ -73,6 +73,11 @@ struct Actuator::State {
         return detail::SignalDuties{clearance->second, histories[index.value]};
     }
 
+    traffic::Preemption preemption_of(core::SignalIndex signal) const {
+        return signal.value < config.preemption.size() ? config.preemption[signal.value]
+                                                       : traffic::Preemption{};
+    }
+
     const char* check(const traffic::Lease& lease, core::Seconds now) const {
         if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return "expired_on_arrival";
         if (std::holds_alternative<traffic::Stretch>(lease.target)) return "wrong_target";
@@ -116,15 +121,12 @@ struct Actuator::State {
             if (!pressed) pressed = pressed_lanes(snapshot, roster);
             return *pressed;
         };
-        const detail::SignalTiming timing{config.yellow_s,  config.all_red_s,     config.clearing_s,
-                                          config.walking_s, config.gap_wait_s,    config.hold_cap_s,
-                                          config.lockout_s, config.least_green_s, config.entry_green_s,
-                                          config.walk_s};
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
             const auto duties = duties_of(index);
+            const detail::SignalTiming timing = detail::timing_of(config, preemption_of(index));
             signal.step({snapshot.time, shown, timing, occupied, look, self, duties ? &*duties : nullptr},
                         ledger, commands);
         }
@@ -136,7 +138,8 @@ struct Actuator::State {
             const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
             signals.try_emplace(signal, signal, network).first->second.offer(lease, ledger);
             if (keeps_clearance())
-                clearances.try_emplace(signal, config.clearance, network.signal(signal), network);
+                clearances.try_emplace(signal, config.clearance, network.signal(signal), network,
+                                       preemption_of(signal).pedestrian_clearance_s);
         }
     }
 };

@@ -42,7 +42,9 @@ namespace clearway::actuation {
 /// - `no_room_beside`: the vehicle itself would not change now;
 /// - `outranked`, `hold_cap`, `lockout`: see Config;
 /// - a green that cannot be granted: `no_phase_serves`, `unknown_program` (the signal runs a program other
-///   than its initial one).
+///   than its initial one, or SUMO's controller NEMA), `exit_phase` (the signal has one of its own);
+/// - what the signal's controller is set to: `preemption_off`, `preemption_delay`, `priority` (see
+///   traffic::Preemption).
 ///
 /// A speed lease never brakes harder than the vehicle's usual deceleration: while the safety checks are on,
 /// SUMO limits the change per step.

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <tuple>
+#include <vector>
 
 #include "actuation/clearance_rule.hpp"
 #include "core/fields.hpp"
 #include "traffic/command.hpp"
+#include "traffic/preemption.hpp"
 
 namespace clearway::actuation {
 
@@ -24,6 +26,7 @@ struct ActuatorConfig {
     double walk_s = 7.0;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
+    std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
 
     static constexpr auto fields() {
         using C = ActuatorConfig;

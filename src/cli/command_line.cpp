@@ -59,6 +59,8 @@ constexpr std::array all_verbs = {
          "clearway init my-crossing --from intersection", configure_init},
     Verb{"import", "Make a scenario from an OpenStreetMap extract or a SUMO scenario",
          "clearway import monaco.osm.pbf --name monaco", configure_import},
+    Verb{"signals", "List a scenario's signals, draw them, write their preemption parameters",
+         "clearway signals city --svg signals.svg --out preemption.csv", configure_signals},
     Verb{"check", "Run a scenario briefly and check whether it is fit for a study", "clearway check ./monaco",
          configure_check},
     Verb{"attach", "Take over a SUMO that was started elsewhere, with a policy of Clearway",

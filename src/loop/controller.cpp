@@ -30,6 +30,7 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
     actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
     actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
     if (!context.has_pedestrians) actuation.walking_s = 0.0;
+    actuation.preemption = context.preemption;
     actuation.safety_checks = condition.safety_checks;
     actuation.lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
                                   ? traffic::LateralModel::sublane

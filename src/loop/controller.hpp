@@ -14,9 +14,10 @@ struct ControllerContext {
     LoopConfig loop;
     drivers::SirenConfig siren;
     drivers::PrivilegeConfig privilege = {};
-    double friction = 1.0;          ///< See scenario::RoadCondition.
-    bool has_pedestrians = true;    ///< Whether there may be pedestrians.
-    policy::GuestMaker guest = {};  ///< See pipeline::ChainContext.
+    double friction = 1.0;                             ///< See scenario::RoadCondition.
+    bool has_pedestrians = true;                       ///< Whether there may be pedestrians.
+    std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
+    policy::GuestMaker guest = {};                     ///< See pipeline::ChainContext.
 };
 
 /// Sensors, predictor, policies and actuation of a condition. Throws core::InputError for unknown names and

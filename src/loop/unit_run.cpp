@@ -153,6 +153,7 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
         .privilege = static_cast<const traffic::PrivilegeConfig&>(config_.privilege),
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians(),
+        .preemption = network_.preemption,
         .guest = guest_};
     return run_condition(loop_, recorder_, condition,
                          {.context = context,

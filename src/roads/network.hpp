@@ -73,6 +73,7 @@ struct Phase {
     double least_s = 0.0;
     double yellow_s = 0.0;
     double red_s = 0.0;
+    std::string name = {};  ///< Of the phase, where the program names it.
 };
 
 /// A link of a signal: one connection that it controls.
@@ -92,6 +93,8 @@ struct Signal {
     std::vector<bool> crossings;  ///< By link number: whether it is a crossing.
     std::vector<Phase> program;
     std::string program_id;
+    /// What runs the program, as SUMO spells it: `static`, `actuated`, `delay_based`, `NEMA`, ...
+    std::string controller = "static";
     double offset_s = 0.0;    ///< The program restarts whenever time - offset is a multiple of its cycle.
     bool fixed_time = false;  ///< Not actuated by vehicles, so it stays coordinated with its neighbours.
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.

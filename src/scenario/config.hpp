@@ -81,6 +81,7 @@ struct NetworkSource {
     std::string file;
     Restriction restrict = Restriction::none;
     std::string attribution;
+    std::string preemption;
 
     bool plain() const { return file.empty(); }
     static constexpr auto fields() {
@@ -96,7 +97,10 @@ struct NetworkSource {
             core::Field{"restrict", "", &S::restrict, 0, 0, "none or largest_car_component (imports only).",
                         "none: the network as it is"},
             core::Field{"attribution", "", &S::attribution, 0, 0, "Whom users of the map data must name.",
-                        "licence"});
+                        "licence"},
+            core::Field{"preemption", "", &S::preemption, 0, 0,
+                        "CSV of the signals' preemption parameters (clearway signals writes it); optional.",
+                        "none: the settings of the condition"});
     }
 };
 

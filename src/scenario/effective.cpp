@@ -83,8 +83,8 @@ std::string road_text(const RoadCondition& road) {
 /// The files that a configuration names relative to its folder.
 std::vector<std::string> own_files(const ScenarioConfig& config) {
     const NetworkSource& network = config.network;
-    std::vector<std::string> files = {network.nodes,   network.edges, network.connections,
-                                      network.signals, network.file,  config.demand.counts};
+    std::vector<std::string> files = {network.nodes, network.edges,      network.connections, network.signals,
+                                      network.file,  network.preemption, config.demand.counts};
     if (config.measured) {
         files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());
         files.insert(files.end(), config.measured->additional.begin(), config.measured->additional.end());

@@ -11,6 +11,7 @@
 #include "core/process.hpp"
 #include "core/units.hpp"
 #include "scenario/network_document.hpp"
+#include "scenario/preemption.hpp"
 
 namespace clearway::scenario {
 
@@ -153,7 +154,14 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
 
 BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / network_name;
-    return {file, roads::Network::read(file, additional_files(config)), hash_of_inputs(config)};
+    BuiltNetwork built{file, roads::Network::read(file, additional_files(config)), hash_of_inputs(config)};
+    if (config.network.preemption.empty()) return built;
+    const std::filesystem::path parameters = resolve(config, config.network.preemption);
+    std::vector<core::Problem> problems;
+    const PreemptionRows rows = read_preemption_rows(parameters, problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    built.preemption = preemption_of(rows, parameters, built.network);
+    return built;
 }
 
 std::vector<WideEdge> wide_edges(const roads::Network& network, int lanes) {

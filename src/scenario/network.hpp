@@ -6,6 +6,7 @@
 
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
+#include "traffic/preemption.hpp"
 
 namespace clearway::scenario {
 
@@ -14,6 +15,7 @@ struct BuiltNetwork {
     std::filesystem::path file;  ///< `network.net.xml`
     roads::Network network;
     std::string inputs_hash;  ///< Hash of the inputs and of how it was built from them.
+    std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty where the scenario names no file.
 };
 
 /// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file,
@@ -21,7 +23,8 @@ struct BuiltNetwork {
 /// `limits.road_kmh` and then slowed as `[road]` says. Plain XML gets sidewalks and crossings if there are
 /// pedestrians; network files keep those that they have. The result holds no time stamp and no path, so equal
 /// inputs give equal bytes. Throws core::InputError naming file and cure for input that netconvert refuses,
-/// for a network without edges open to cars and for a stretch of road that is not in it;
+/// for a network without edges open to cars, for a stretch of road that is not in it and for preemption
+/// parameters that do not fit its signals (`preemption_of`);
 /// core::EnvironmentError when netconvert is missing.
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 

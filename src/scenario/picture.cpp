@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/markup.hpp"
+#include "scenario/signal_sheet.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -113,11 +114,9 @@ void draw_scale_bar(const Frame& frame, std::string& svg) {
         frame.stretch > 1.0 ? fmt::format("; drawn {:.1f} times as wide across", frame.stretch) : "");
 }
 
-}  // namespace
-
-std::string network_picture(const roads::Network& network, const std::string& title) {
-    const Frame frame = frame_of(network);
-    std::string svg = fmt::format(
+/// The opening of a picture, with its title and style.
+std::string opened(const Frame& frame, const std::string& title) {
+    return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\" "
         "class=\"network\">\n"
         "<title>{}</title>\n<style>.network polyline{{fill:none;stroke:currentColor;stroke-linejoin:round}}"
@@ -125,9 +124,53 @@ std::string network_picture(const roads::Network& network, const std::string& ti
         ".network .bar{{stroke:currentColor;stroke-width:2}}.network text{{font:12px "
         "sans-serif;fill:currentColor}}</style>\n",
         picture_width, frame.height, core::escaped(title));
+}
+
+std::string roads_of(const roads::Network& network, const Frame& frame) {
+    std::string svg;
     draw_lanes(network, frame, svg);
     draw_signals(network, frame, svg);
     draw_scale_bar(frame, svg);
+    return svg;
+}
+
+/// Names longer than this, or among more signals than that, would lie upon each other.
+constexpr std::size_t longest_name = 14;
+constexpr std::size_t most_names = 40;
+
+void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
+    auto out = std::back_inserter(svg);
+    const std::vector<SignalSheet> sheets = signal_sheets(network, {});
+    for (std::size_t row = 0; row < sheets.size(); ++row) {
+        const double x = frame.x(sheets[row].place.x_m);
+        const double y = frame.y(sheets[row].place.y_m);
+        const std::string name = core::escaped(sheets[row].signal);
+        fmt::format_to(
+            out,
+            "<g fill=\"#000\"><title>{0}: {1}</title><circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"9\" "
+            "fill=\"#d55e00\"/><text x=\"{2:.1f}\" y=\"{4:.1f}\" text-anchor=\"middle\" "
+            "style=\"font-size:10px;fill:#fff\">{0}</text>",
+            row + 1, name, x, y, y + 3.5);
+        if (sheets.size() <= most_names && sheets[row].signal.size() <= longest_name)
+            fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 12.0, y - 8.0, name);
+        svg += "</g>\n";
+    }
+}
+
+}  // namespace
+
+std::string network_picture(const roads::Network& network, const std::string& title) {
+    const Frame frame = frame_of(network);
+    return opened(frame, title) + roads_of(network, frame) + "</svg>\n";
+}
+
+std::string signals_picture(const roads::Network& network, const std::string& title) {
+    const Frame frame = frame_of(network);
+    std::string svg = opened(frame, title);
+    svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
+                       picture_width, frame.height);
+    svg += roads_of(network, frame) + "</g>\n";
+    draw_labels(network, frame, svg);
     return svg + "</svg>\n";
 }
 

@@ -11,4 +11,8 @@ namespace clearway::scenario {
 /// dark pages. `title` is escaped.
 std::string network_picture(const roads::Network& network, const std::string& title);
 
+/// The same on white paper, with the number of each signal (from 1, in the order of the network) and, where
+/// there is room, its name.
+std::string signals_picture(const roads::Network& network, const std::string& title);
+
 }  // namespace clearway::scenario

@@ -16,6 +16,7 @@
 #include "roads/crossings.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/picture.hpp"
+#include "scenario/preemption.hpp"
 #include "scenario_import/detail/context.hpp"
 #include "scenario_import/detail/source.hpp"
 #include "scenario_import/detail/sumo_trial.hpp"
@@ -36,6 +37,7 @@ using detail::SourceKind;
 using detail::SumoFiles;
 
 constexpr const char* network_name = "network.net.xml";
+constexpr const char* preemption_name = "preemption.csv";
 
 /// The files of a request by kind.
 struct Sources {
@@ -344,9 +346,15 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     Findings& findings = import.findings;
     findings.name = config.name;
     findings.left_out = import.left_out.lines();
+    const roads::Network network =
+        roads::Network::read(import.scenario / network_name, scenario::additional_files(config));
+    if (!network.signals().empty()) {
+        config.network.preemption = preemption_name;
+        core::write_atomically(import.scenario / preemption_name,
+                               scenario::preemption_csv(network, scenario::preemption_in(network)));
+    }
     core::write_atomically(import.scenario / "scenario.toml", scenario::to_toml(config));
     core::write_atomically(import.scenario / "import.json", to_json(findings));
-    const roads::Network network = roads::Network::read(import.scenario / network_name);
     core::write_atomically(import.scenario / "network.svg", scenario::network_picture(network, config.title));
     scenario::load((import.scenario / "scenario.toml").string());
     on_progress("done", 0.0);

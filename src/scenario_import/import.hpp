@@ -69,10 +69,10 @@ using OnProgress = std::function<void(const std::string& stage, double elapsed_s
 inline constexpr double most_bad_vehicles = 0.1;
 
 /// Makes a scenario folder that `scenario::load` reads: scenario.toml, network.net.xml, network.svg,
-/// import.json with the findings and, for SUMO scenarios, their demand. The folder is made elsewhere and
-/// renamed when complete. Netconvert, osmium, duarouter and sumo run in child processes. Equal inputs give
-/// equal bytes. Throws core::InputError for what cannot be imported, core::EnvironmentError when a program is
-/// missing.
+/// import.json with the findings, preemption.csv where there are signals and, for SUMO scenarios, their
+/// demand. The folder is made elsewhere and renamed when complete. Netconvert, osmium, duarouter and sumo run
+/// in child processes. Equal inputs give equal bytes. Throws core::InputError for what cannot be imported,
+/// core::EnvironmentError when a program is missing.
 Findings import(const ImportRequest& request, const OnProgress& on_progress);
 
 /// The findings as lines of text, and as JSON with units in the names.

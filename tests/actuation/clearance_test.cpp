@@ -17,62 +17,6 @@ namespace {
 using actuation::ClearanceRule;
 using actuation::detail::Clearance;
 
-/// Two links that conflict; the second has no yellow of its own.
-roads::Signal two_links() {
-    roads::Signal signal;
-    signal.links.resize(2);
-    signal.crossings.assign(2, false);
-    signal.foes = {{false, true}, {true, false}};
-    signal.program = {{30.0, "Gr"}, {3.0, "yr"}, {1.0, "yr"}, {2.0, "rr"}, {36.0, "rG"}, {4.0, "rr"}};
-    return signal;
-}
-
-TEST(OwnClearance, is_read_from_the_program_of_a_signal) {
-    const auto own = actuation::detail::own_clearances(two_links());
-    EXPECT_DOUBLE_EQ(own[0].yellow_s, 4.0) << "two phases of yellow";
-    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0);
-    EXPECT_DOUBLE_EQ(own[1].yellow_s, 0.0);
-    EXPECT_DOUBLE_EQ(own[1].red_s, 4.0) << "until the cycle begins again";
-}
-
-TEST(OwnClearance, of_several_greens_is_the_longest_yellow_and_the_shortest_red) {
-    roads::Signal signal = two_links();
-    signal.program = {{30.0, "Gr"}, {5.0, "yr"}, {3.0, "rr"}, {9.0, "rG"},
-                      {9.0, "Gr"},  {3.0, "yr"}, {1.0, "rr"}, {9.0, "rG"}};
-    const auto own = actuation::detail::own_clearances(signal);
-    EXPECT_DOUBLE_EQ(own[0].yellow_s, 5.0);
-    EXPECT_DOUBLE_EQ(own[0].red_s, 1.0);
-}
-
-TEST(OwnClearance, is_nothing_where_no_link_that_conflicts_gets_green_in_between) {
-    roads::Signal signal = two_links();
-    signal.program = {{30.0, "Gg"}, {3.0, "yg"}, {9.0, "rg"}};
-    const auto own = actuation::detail::own_clearances(signal);
-    EXPECT_DOUBLE_EQ(own[0].yellow_s, 3.0);
-    EXPECT_DOUBLE_EQ(own[0].red_s, 0.0);
-}
-
-TEST(OwnClearance, is_no_phase_that_lets_others_go_however_long_the_foes_wait) {
-    roads::Signal signal = two_links();
-    signal.links.resize(3);
-    signal.crossings.assign(3, false);
-    signal.foes = {{false, true, false}, {true, false, true}, {false, true, false}};
-    signal.program = {{30.0, "Grr"}, {3.0, "yrr"},  {1.0, "rrr"}, {25.0, "rrG"}, {3.0, "rry"},
-                      {2.0, "rrr"},  {36.0, "rGr"}, {4.0, "ryr"}, {1.0, "rrr"}};
-    const auto own = actuation::detail::own_clearances(signal);
-    EXPECT_DOUBLE_EQ(own[0].red_s, 1.0) << "not 31 s";
-    EXPECT_DOUBLE_EQ(own[2].red_s, 2.0);
-    EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
-}
-
-TEST(OwnClearance, of_a_green_after_which_no_foe_opens_says_nothing) {
-    roads::Signal signal = two_links();
-    signal.program = {{30.0, "Gr"}, {3.0, "yr"}, {2.0, "rr"},  {36.0, "rG"},
-                      {4.0, "ry"},  {1.0, "rr"}, {20.0, "Gr"}, {3.0, "yr"}};
-    const auto own = actuation::detail::own_clearances(signal);
-    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0) << "the second green is followed by the first of the next cycle";
-}
-
 TEST(ClearanceOfRule, has_the_yellow_that_the_formulas_give_for_a_speed_limit) {
     using actuation::detail::yellow_of_rule_s;
     EXPECT_NEAR(yellow_of_rule_s(ClearanceRule::ite, 50.0 / 3.6), 3.28, 0.005);
@@ -123,17 +67,6 @@ TEST(SharedArea, of_two_ways_that_cross_begins_and_ends_where_vehicles_would_tou
     EXPECT_GT(area.first_on_second_m, 3.0);
     EXPECT_TRUE(actuation::detail::turns(two_crossings(), signal.links[west[3]].front()));
     EXPECT_FALSE(actuation::detail::turns(two_crossings(), signal.links[west[1]].front()));
-}
-
-TEST(OwnClearance, of_a_controller_that_times_its_yellow_itself_is_what_its_phases_say) {
-    roads::Signal signal = two_links();
-    signal.program = {{.duration_s = 30.0, .state = "Gr", .least_s = 5.0, .yellow_s = 4.0, .red_s = 2.0},
-                      {.duration_s = 36.0, .state = "rG", .least_s = 5.0, .yellow_s = 3.0, .red_s = 1.0}};
-    const auto own = actuation::detail::own_clearances(signal);
-    EXPECT_DOUBLE_EQ(own[0].yellow_s, 4.0);
-    EXPECT_DOUBLE_EQ(own[0].red_s, 2.0);
-    EXPECT_DOUBLE_EQ(own[1].yellow_s, 3.0);
-    EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
 }
 
 /// Offers holds of either side in turn, some short and some long.

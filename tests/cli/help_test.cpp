@@ -13,7 +13,7 @@ namespace {
 const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit", "merge",
                                              "report",    "compare", "results", "replay", "live",   "verify",
                                              "dataset",   "train",   "list",    "init",   "doctor", "links",
-                                             "import",    "check",   "attach",  "python"};
+                                             "import",    "check",   "attach",  "python", "signals"};
 
 class HelpTest : public UserTest {};
 

@@ -240,6 +240,31 @@ TEST_F(NetworkTest, ReadsWhatAControllerOwesItsPhases) {
         << "SUMO looks at minDur only where vehicles actuate the program";
 }
 
+TEST_F(NetworkTest, KnowsTheControllersOfSumoAndRefusesOthersWithTheNearest) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto controller_of = [&](const std::string& type) {
+        const auto programs = folder_.write(
+            "tls.add.xml", "<additional>\n    <tlLogic id=\"J\" type=\"" + type +
+                               R"(" programID="p"><phase duration="9" name="one" state="GGrr"/></tlLogic>
+</additional>)");
+        const Network network = Network::read(file, {programs});
+        EXPECT_EQ(network.signals()[0].program[0].name, "one");
+        return network.signals()[0].controller;
+    };
+    EXPECT_EQ(Network::read(file).signals()[0].controller, "static");
+    for (const char* type : {"actuated", "delay_based", "NEMA", "sotl_phase"})
+        EXPECT_EQ(controller_of(type), type);
+    try {
+        controller_of("actuatd");
+        FAIL() << "no InputError";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(
+            core::format_problem(error.problems().front()),
+            AllOf(HasSubstr("tls.add.xml:2"), HasSubstr("type=\"actuatd\" of signal \"J\""),
+                  HasSubstr("static, actuated, delay_based, NEMA"), HasSubstr("Did you mean 'actuated'?")));
+    }
+}
+
 TEST_F(NetworkTest, TakesAProgramWithIdleLettersAsSumoDoes) {
     const auto file = folder_.write("test.net.xml", crossing_network());
     const auto programs = folder_.write("tls.add.xml", R"(<additional>

@@ -3,72 +3,11 @@
 #include <algorithm>
 
 #include "actuation/detail/ways.hpp"
-#include "traffic/signal.hpp"
 
 namespace clearway::actuation::detail {
 namespace {
 
 constexpr double kmh_per_mps = 3.6;
-
-bool is_green_in(const roads::Phase& phase, std::size_t link) {
-    return link < phase.state.size() && traffic::is_green(phase.state[link]);
-}
-
-bool is_yellow_in(const roads::Phase& phase, std::size_t link) {
-    return link < phase.state.size() && traffic::is_yellow(phase.state[link]);
-}
-
-/// A program, read round and round from one of its phases.
-class Cycle {
-  public:
-    Cycle(const std::vector<roads::Phase>& program, std::size_t start) : program_(program), at_(start) {}
-    const roads::Phase& phase() const { return program_[at_ % program_.size()]; }
-    double advance() { return program_[at_++ % program_.size()].duration_s; }
-
-  private:
-    const std::vector<roads::Phase>& program_;
-    std::size_t at_;
-};
-
-/// Which links get green on the way from `before` to `later`.
-enum class Opening : std::uint8_t { none, others, foe };
-
-Opening opening(const roads::Signal& signal, std::size_t link, const roads::Phase& before,
-                const roads::Phase& later) {
-    Opening found = Opening::none;
-    for (std::size_t other = 0; other < signal.links.size(); ++other) {
-        if (!is_green_in(later, other) || is_green_in(before, other)) continue;
-        if (signal.foes[link][other]) return Opening::foe;
-        found = Opening::others;
-    }
-    return found;
-}
-
-struct AfterGreen {
-    OwnClearance own;
-    bool foe_opens = false;
-};
-
-/// What follows the green of `link` in phase `row`. A phase that lets others go is no clearance, however long
-/// it keeps those waiting that conflict with the link.
-AfterGreen after_green(const roads::Signal& signal, std::size_t link, std::size_t row) {
-    const roads::Phase& green = signal.program[row];
-    Cycle cycle(signal.program, row + 1);
-    OwnClearance own{green.yellow_s, green.red_s};
-    std::size_t left = signal.program.size();
-    for (; left > 0 && is_yellow_in(cycle.phase(), link); --left)
-        own.yellow_s += cycle.advance();
-    bool clears = true;
-    double cleared_s = green.red_s;
-    for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
-        const Opening now = opening(signal, link, green, cycle.phase());
-        if (now == Opening::foe) return {{own.yellow_s, cleared_s}, true};
-        clears = clears && now == Opening::none;
-        const double lasting_s = cycle.advance();
-        if (clears) cleared_s += lasting_s;
-    }
-    return {own, false};
-}
 
 double overrun_s(const LeavingTraffic& leaving) {
     return leaving.turns ? 2.0 : 3.0;
@@ -115,25 +54,6 @@ double least_red_s(ClearanceRule rule, const Leaving& leaving,
 
 }  // namespace
 
-std::vector<OwnClearance> own_clearances(const roads::Signal& signal) {
-    std::vector<OwnClearance> all(signal.links.size());
-    const std::size_t rows = signal.program.size();
-    for (std::size_t link = 0; link < signal.links.size(); ++link) {
-        bool has_red = false;
-        for (std::size_t row = 0; row < rows; ++row) {
-            const bool ends = is_green_in(signal.program[row], link) &&
-                              !is_green_in(signal.program[(row + 1) % rows], link);
-            if (!ends) continue;
-            const AfterGreen after = after_green(signal, link, row);
-            all[link].yellow_s = std::max(all[link].yellow_s, after.own.yellow_s);
-            if (has_red && !after.foe_opens) continue;
-            all[link].red_s = has_red ? std::min(all[link].red_s, after.own.red_s) : after.own.red_s;
-            has_red = after.foe_opens;
-        }
-    }
-    return all;
-}
-
 double yellow_of_rule_s(ClearanceRule rule, double speed_limit_mps) {
     const double speed_kmh = speed_limit_mps * kmh_per_mps;
     if (rule == ClearanceRule::rilsa) {
@@ -160,8 +80,9 @@ double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const Leaving
     return std::max(0.0, intergreen_s - yellow_s);
 }
 
-Clearance::Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network) {
-    const std::vector<OwnClearance> own = own_clearances(signal);
+Clearance::Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network,
+                     std::optional<double> on_foot_s) {
+    const std::vector<roads::OwnClearance> own = roads::own_clearances(signal);
     const std::size_t count = signal.links.size();
     red_s_.assign(count, std::vector<double>(count, 0.0));
     for (std::size_t link = 0; link < count; ++link) {
@@ -172,8 +93,9 @@ Clearance::Clearance(ClearanceRule rule, const roads::Signal& signal, const road
         for (std::size_t other = 0; other < count; ++other) {
             if (!signal.foes[link][other]) continue;
             const Leaving leaving{network, signal.links[link], on_foot, yellow_s_[link]};
-            red_s_[link][other] =
-                own[link].red_s > 0.0 ? own[link].red_s : least_red_s(rule, leaving, signal.links[other]);
+            red_s_[link][other] = on_foot && on_foot_s    ? std::max(*on_foot_s, own[link].red_s)
+                                  : own[link].red_s > 0.0 ? own[link].red_s
+                                                          : least_red_s(rule, leaving, signal.links[other]);
         }
     }
 }

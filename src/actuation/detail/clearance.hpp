@@ -1,23 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "actuation/clearance_rule.hpp"
 #include "roads/network.hpp"
+#include "roads/own_clearance.hpp"
 
 namespace clearway::actuation::detail {
-
-/// What the program of a signal shows of one link, s; 0 where it shows none.
-struct OwnClearance {
-    double yellow_s = 0.0;  ///< Longest yellow after a green.
-    /// From the end of the yellow (of the green, without one) until any link opens: the shortest in the cycle
-    /// of those after which one that conflicts with it opens before it is green again.
-    double red_s = 0.0;
-};
-
-/// By link number.
-std::vector<OwnClearance> own_clearances(const roads::Signal& signal);
 
 /// Yellow for an approach with this speed limit, s.
 /// `ite`: t + v / (2 a), t = 1 s, a = 3.05 m/s2, level road (ITE, "Guidelines for Determining Traffic Signal
@@ -51,7 +42,10 @@ double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const Leaving
 /// link, and where that shows none, what the rule gives for the geometry of the crossing.
 class Clearance {
   public:
-    Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network);
+    /// `on_foot_s`: red of a crossing that the controller has set, instead of the rule's; never less than the
+    /// program's.
+    Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network,
+              std::optional<double> on_foot_s = std::nullopt);
 
     /// For a link that loses green, s; 0 for crossings on foot, which have no yellow.
     double yellow_s(std::uint16_t link) const { return yellow_s_[link]; }

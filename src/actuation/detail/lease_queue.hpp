@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct HeldLease {
     core::EdgeIndex granted_on;  ///< Edge on which a stop was found feasible; it stays so there.
     std::vector<const char*> counted_refusals;  ///< Each reason is counted once per lease.
     bool counted_act = false;
-    bool served = false;  ///< A hold that is carried out or in transition.
+    bool served = false;                                ///< A hold that is carried out or in transition.
+    std::optional<core::Seconds> since = std::nullopt;  ///< When it was first judged.
 };
 
 /// Leases in force for one target, competing for the same thing; best first: by priority, then by age. A

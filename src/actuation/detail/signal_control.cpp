@@ -78,22 +78,29 @@ traffic::RequestStatus SignalControl::status_of(const HeldLease& held, core::Sec
     if (capped_) return traffic::RequestStatus::max_presence;
     if (in_program && now.value < lockout_until_.value - time_tolerance_s)
         return traffic::RequestStatus::reservice_locked;
-    if (!held.served || stage_ != Stage::hold) return traffic::RequestStatus::processing;
+    if (!held.served || in_program) return traffic::RequestStatus::processing;
     const auto& asked = std::get<traffic::HoldGreen>(held.lease.action);
     const Links& own = asked.own_links.empty() ? asked.links : asked.own_links;
     const auto shows = [&](std::uint16_t link) { return link < shown_.size() ? shown_[link] : 'r'; };
     if (!std::ranges::all_of(own, [&](std::uint16_t link) { return traffic::is_green(shows(link)); }))
-        return traffic::RequestStatus::rejected;
+        return stage_ == Stage::hold ? traffic::RequestStatus::rejected : traffic::RequestStatus::processing;
     const bool yields = std::ranges::any_of(own, [&](std::uint16_t link) { return shows(link) == 'g'; });
     return yields ? traffic::RequestStatus::watch_other_traffic : traffic::RequestStatus::granted;
 }
 
 /// Links of the best lease and of all that are compatible with it. Leases that are already served come before
 /// waiting ones, because a change costs both of them time.
-Links SignalControl::requested(Ledger& ledger) {
+Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
     std::vector<HeldLease*> order;
-    for (HeldLease& held : holds_.all())
-        order.push_back(&held);
+    for (HeldLease& held : holds_.all()) {
+        const char* const reason = reason_to_wait(held, around);
+        if (reason == nullptr) {
+            order.push_back(&held);
+            continue;
+        }
+        held.served = false;
+        LeaseQueue::refuse(held, reason, ledger);
+    }
     std::ranges::stable_sort(order, std::greater{}, [](const HeldLease* held) {
         return std::pair(held->lease.priority, held->served);
     });
@@ -117,11 +124,34 @@ Links SignalControl::requested(Ledger& ledger) {
     return links;
 }
 
-Links SignalControl::allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger) {
+/// Why the controller does not grant a request now, or null.
+const char* SignalControl::reason_to_wait(HeldLease& held, const SignalContext& around) const {
+    if (!held.since) held.since = around.now;
+    if (!around.timing.enabled) return "preemption_off";
+    if (held.lease.priority < around.timing.least_priority) return "priority";
+    const double waited_s = (around.now - *held.since).value;
+    return waited_s < around.timing.delay_s - time_tolerance_s ? "preemption_delay" : nullptr;
+}
+
+/// Whether a hold without a request must go on: it is shorter than its least duration or dwell.
+bool SignalControl::must_go_on(const SignalContext& around) const {
+    if (stage_ == Stage::background_plan || capped_ || way_.links.empty()) return false;
+    if ((around.now - taken_since_).value < around.timing.minimum_duration_s - time_tolerance_s) return true;
+    if (around.timing.dwell_s <= 0.0) return false;
+    return stage_ != Stage::hold ||
+           (around.now - stage_since_).value < around.timing.dwell_s - time_tolerance_s;
+}
+
+Links SignalControl::allowed_now(const SignalContext& around, Ledger& ledger) {
+    const core::Seconds now = around.now;
+    const SignalTiming& timing = around.timing;
     const bool in_program = stage_ == Stage::background_plan;
     if (!in_program && (now - taken_since_).value >= timing.hold_cap_s - time_tolerance_s) capped_ = true;
     const bool cooling = in_program && now.value < lockout_until_.value - time_tolerance_s;
-    if (!capped_ && !cooling) return requested(ledger);
+    if (!capped_ && !cooling) {
+        Links links = requested(around, ledger);
+        return links.empty() && must_go_on(around) ? way_.links : links;
+    }
     for (HeldLease& held : holds_.all()) {
         held.served = false;
         LeaseQueue::refuse(held, capped_ ? "hold_cap" : "lockout", ledger);
@@ -139,7 +169,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
         stage_ = Stage::background_plan;
         return;
     }
-    const Links links = allowed_now(around.now, around.timing, ledger);
+    const Links links = allowed_now(around, ledger);
     const bool in_program = stage_ == Stage::background_plan;
     if (!asked_for_gap_) gap_awaited_.reset();
     asked_for_gap_ = false;
@@ -150,7 +180,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
         program_known_ = knows_program(around);
     }
     if (in_program || links != way_.links) {
-        Way way = links.empty() ? plan_return(ledger) : plan_hold(links);
+        Way way = links.empty() ? plan_return(around.timing, ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
         const bool goes_on =
             owes_green(way.target, around) || (in_green && waits_for_gap(way.target, around));
@@ -194,9 +224,10 @@ bool SignalControl::owes_green(const std::string& target, const SignalContext& a
     });
 }
 
-/// Another program may have been switched on, or one that is in no file that was read.
+/// Another program may have been switched on, or one that is in no file that was read. The phases of SUMO's
+/// controller NEMA are those of two rings: what it shows is no single one of them.
 bool SignalControl::knows_program(const SignalContext& around) const {
-    return around.self.running_program(index_) == signal_.program_id;
+    return signal_.controller != "NEMA" && around.self.running_program(index_) == signal_.program_id;
 }
 
 void SignalControl::run_background_plan(const SignalContext& around, Ledger& ledger,
@@ -225,17 +256,29 @@ SignalControl::Way SignalControl::plan_hold(const Links& links) const {
     return {links, std::move(target), std::move(gaining), std::nullopt};
 }
 
-SignalControl::Way SignalControl::plan_return(Ledger& ledger) {
+std::optional<std::uint32_t> SignalControl::phase_after_hold(const SignalTiming& timing, Ledger& ledger) {
+    HeldLease* const adjustment = adjustments_.best();
+    const auto asked =
+        adjustment == nullptr || !program_known_
+            ? std::nullopt
+            : best_phase(signal_, std::get<traffic::AdjustGreen>(adjustment->lease.action).links);
+    const bool is_set = timing.exit_phase && program_known_ && *timing.exit_phase < signal_.program.size();
+    const auto phase = is_set ? timing.exit_phase : asked;
+    if (adjustment == nullptr) return phase;
+    if (asked && asked == phase)
+        LeaseQueue::act(*adjustment, ledger);
+    else
+        LeaseQueue::refuse(*adjustment,
+                           !program_known_ ? "unknown_program"
+                           : asked         ? "exit_phase"
+                                           : "no_phase_serves",
+                           ledger);
+    return phase;
+}
+
+SignalControl::Way SignalControl::plan_return(const SignalTiming& timing, Ledger& ledger) {
     Way way;
-    if (HeldLease* adjustment = adjustments_.best()) {
-        if (program_known_)
-            way.return_phase =
-                best_phase(signal_, std::get<traffic::AdjustGreen>(adjustment->lease.action).links);
-        if (way.return_phase)
-            LeaseQueue::act(*adjustment, ledger);
-        else
-            LeaseQueue::refuse(*adjustment, program_known_ ? "no_phase_serves" : "unknown_program", ledger);
-    }
+    way.return_phase = phase_after_hold(timing, ledger);
     way.target.assign(shown_.size(), 'r');
     if (way.return_phase) {
         const std::string& state = signal_.program[*way.return_phase].state;

@@ -53,6 +53,10 @@ struct SignalContext {
 /// has lasted its least time: the program goes on to its next phase, through its own yellow. Afterwards a
 /// fixed-time program is brought back into step, green by green, because its neighbours depend on it.
 ///
+/// A signal may have parameters of its own (traffic::Preemption): a request waits for its delay; a hold that
+/// was begun goes on for its least duration and dwell though the request has ended, unless another takes
+/// over; the return leads to the exit phase, whatever a lease asks for.
+///
 /// A hold that ended at its cap may return after a whole cycle of the background plan, so that an emergency
 /// vehicle that is stuck does not keep everybody else waiting.
 class SignalControl {
@@ -83,10 +87,13 @@ class SignalControl {
 
     traffic::RequestStatus status_of(const HeldLease& held, core::Seconds now) const;
     std::uint16_t link_count() const { return static_cast<std::uint16_t>(inner_lanes_.size()); }
-    Links requested(Ledger& ledger);
-    Links allowed_now(core::Seconds now, const SignalTiming& timing, Ledger& ledger);
+    const char* reason_to_wait(HeldLease& held, const SignalContext& around) const;
+    Links requested(const SignalContext& around, Ledger& ledger);
+    Links allowed_now(const SignalContext& around, Ledger& ledger);
+    bool must_go_on(const SignalContext& around) const;
     Way plan_hold(const Links& links) const;
-    Way plan_return(Ledger& ledger);
+    Way plan_return(const SignalTiming& timing, Ledger& ledger);
+    std::optional<std::uint32_t> phase_after_hold(const SignalTiming& timing, Ledger& ledger);
     void begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands);
     void run_background_plan(const SignalContext& around, Ledger& ledger,
                              std::vector<traffic::Command>& commands);

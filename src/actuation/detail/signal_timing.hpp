@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include "actuation/actuator_config.hpp"
 #include "actuation/detail/clearance.hpp"
 #include "actuation/detail/link_history.hpp"
+#include "traffic/preemption.hpp"
 
 namespace clearway::actuation::detail {
 
@@ -17,7 +22,16 @@ struct SignalTiming {
     double least_green_s;
     double entry_green_s;
     double walk_s;
+    bool enabled = true;
+    int least_priority = 0;
+    double delay_s = 0.0;
+    double minimum_duration_s = 0.0;
+    double dwell_s = 0.0;
+    std::optional<std::uint32_t> exit_phase = std::nullopt;
 };
+
+/// Of one signal: the settings of the condition, and what its controller has set of its own.
+SignalTiming timing_of(const ActuatorConfig& config, const traffic::Preemption& own);
 
 /// What a signal owes its links beyond SignalTiming, when clearance follows its own program.
 struct SignalDuties {

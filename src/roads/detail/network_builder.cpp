@@ -1,6 +1,7 @@
 #include "roads/detail/network_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,17 @@ namespace {
 
 constexpr std::size_t most_problems = 20;
 constexpr double any = std::numeric_limits<double>::max();
+
+/// What runs a program: SUMO 1.15, SUMOXMLDefinitions. The last ones are experiments of SUMO, or railways.
+constexpr std::array<std::string_view, 16> controllers = {
+    "static",       "actuated",     "delay_based", "NEMA",          "off",   "sotl_phase",
+    "sotl_platoon", "sotl_request", "sotl_wave",   "sotl_marching", "swarm", "deterministic",
+    "railSignal",   "railCrossing", "rail_signal", "rail_crossing"};
+
+std::string nearest_controller(const std::string& word) {
+    const std::string near = core::nearest(word, {controllers.begin(), controllers.end()});
+    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
+}
 
 bool is_inside_junction(std::string_view function) {
     return function == "internal" || function == "crossing" || function == "walkingarea";
@@ -220,7 +232,11 @@ void NetworkBuilder::read_program(const core::XmlAttributes& attributes) {
     program_id_ = attributes.find("programID").value_or("");
     program_offset_s_.reset();
     if (attributes.find("offset")) program_offset_s_ = number_or(attributes, "offset", -any, any, 0.0);
-    is_fixed_time_ = attributes.find("type").value_or("static") == "static";
+    controller_ = attributes.find("type").value_or("static");
+    is_fixed_time_ = controller_ == "static";
+    if (std::ranges::find(controllers, controller_) == controllers.end())
+        add_problem(fmt::format("type=\"{}\" of signal \"{}\" is no controller of SUMO", controller_, id),
+                    "static, actuated, delay_based, NEMA", nearest_controller(controller_));
     phases_.clear();
 }
 
@@ -231,6 +247,7 @@ void NetworkBuilder::read_phase(const core::XmlAttributes& attributes) {
         read.yellow_s = number_or(attributes, "yellow", 0, any, 0.0);
         read.red_s = number_or(attributes, "red", 0, any, 0.0);
     }
+    read.name = attributes.find("name").value_or("");
     phases_.push_back(std::move(read));
     const Phase& phase = phases_.back();
     if (phase.state.size() != phases_.front().state.size()) {
@@ -273,6 +290,7 @@ void NetworkBuilder::end_program() {
     signal.program_id = program_id_;
     signal.offset_s = program_offset_s_.value_or(0.0);
     signal.fixed_time = is_fixed_time_;
+    signal.controller = controller_;
 }
 
 void NetworkBuilder::read_junction(const core::XmlAttributes& attributes) {

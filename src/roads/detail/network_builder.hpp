@@ -85,6 +85,7 @@ class NetworkBuilder : public core::XmlHandler {
     Signal* program_signal_ = nullptr;
     std::string program_id_;
     std::optional<double> program_offset_s_;
+    std::string controller_;
     bool is_fixed_time_ = false;
     std::vector<Phase> phases_;
     std::vector<Junction> junctions_;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scenario/preemption.hpp"
 #include "traffic/vehicle.hpp"
 
 namespace clearway::scenario::detail {
@@ -98,6 +99,14 @@ void check_file(const ScenarioConfig& config, const std::string& key, const std:
          of_sumo ? "install package sumo-tools" : "correct the path, relative to this scenario's folder"});
 }
 
+/// What needs no network; `build_network` checks the rest.
+void check_preemption(const ScenarioConfig& config, Problems& problems) {
+    const std::string& path = config.network.preemption;
+    const std::size_t before = problems.size();
+    check_file(config, "network.preemption", path, problems);
+    if (!path.empty() && problems.size() == before) read_preemption_rows(resolve(config, path), problems);
+}
+
 void check_network(const ScenarioConfig& config, Problems& problems) {
     const NetworkSource& network = config.network;
     const bool has_plain = !network.nodes.empty() || !network.edges.empty() || !network.connections.empty() ||
@@ -117,6 +126,7 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     check_file(config, "network.connections", network.connections, problems);
     check_file(config, "network.signals", network.signals, problems);
     check_file(config, "network.file", network.file, problems);
+    check_preemption(config, problems);
 }
 
 void check_time(const ScenarioConfig& config, Problems& problems) {

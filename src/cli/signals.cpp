@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/detail/common_options.hpp"
+#include "cli/detail/scenario_options.hpp"
+#include "cli/verb.hpp"
+#include "core/csv.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/temporary_folder.hpp"
+#include "report/text.hpp"
+#include "scenario/network.hpp"
+#include "scenario/picture.hpp"
+#include "scenario/preemption.hpp"
+#include "scenario/signal_sheet.hpp"
+
+namespace clearway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scenario::SecondsRange;
+using scenario::SignalSheet;
+
+struct Arguments {
+    std::string scenario;
+    std::filesystem::path picture;
+    std::filesystem::path parameters;
+    Printing printing = Printing::text;
+    scenario::Options options;
+};
+
+/// `4`, `3 to 5`, or `-` where the program shows none.
+std::string text_of(const std::optional<SecondsRange>& times) {
+    if (!times) return "-";
+    if (times->shortest_s == times->longest_s) return fmt::format("{:g}", times->shortest_s);
+    return fmt::format("{:g} to {:g}", times->shortest_s, times->longest_s);
+}
+
+/// `dwell_s=8, priority=1`, or `-`.
+std::string text_of(const traffic::Preemption& set) {
+    std::vector<std::string> parts;
+    core::for_each_field<traffic::Preemption>([&](const auto& field) {
+        const auto& value = set.*field.member;
+        if (value) parts.push_back(fmt::format("{}={}", field.name, core::csv_cell(value)));
+    });
+    return parts.empty() ? "-" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string approach_text(const SignalSheet& sheet, const std::vector<std::string>& edges) {
+    std::vector<std::string> names;
+    for (const scenario::SignalApproach& approach : sheet.approaches) {
+        if (std::ranges::find(edges, approach.edge) == edges.end()) continue;
+        names.push_back(approach.street.empty() ? approach.edge
+                                                : fmt::format("{} ({})", approach.edge, approach.street));
+    }
+    return report::printable(fmt::format("{}", fmt::join(names, ", ")));
+}
+
+void print_text(const std::vector<SignalSheet>& sheets) {
+    if (sheets.empty()) {
+        fmt::print("The network has no signals.\n");
+        return;
+    }
+    fmt::print("{:>3}  {:24} {:12} {:>7} {:>9} {:>9} {:>11} {:>10}\n", "No.", "Signal", "Controller",
+               "Cycle s", "Yellow s", "Red s", "Min green s", "Crossings");
+    for (std::size_t row = 0; row < sheets.size(); ++row) {
+        const SignalSheet& sheet = sheets[row];
+        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1,
+                   report::printable(sheet.signal), sheet.controller, sheet.cycle_s, text_of(sheet.yellow),
+                   text_of(sheet.red_clearance), text_of(sheet.least_green), sheet.crossings);
+        for (const scenario::SignalPhase& phase : sheet.phases) {
+            if (!phase.green) continue;
+            fmt::print("{:>8}  {:>5g} s  {}\n", fmt::format("phase {}", phase.number), phase.duration_s,
+                       approach_text(sheet, phase.edges));
+        }
+        const std::string set = text_of(sheet.set);
+        if (set != "-") fmt::print("{:>8}  {}\n", "set", set);
+    }
+    fmt::print(
+        "\n{} signals. Yellow, red clearance and least green as their programs show them; -: none, so "
+        "that a\nhold takes them from a formula (actuation.clearance) or setting.\n",
+        sheets.size());
+}
+
+Json range_json(const std::optional<SecondsRange>& times) {
+    if (!times) return nullptr;
+    return Json{{"shortest", times->shortest_s}, {"longest", times->longest_s}};
+}
+
+Json set_json(const traffic::Preemption& set) {
+    Json json = Json::object();
+    core::for_each_field<traffic::Preemption>([&](const auto& field) {
+        const auto& value = set.*field.member;
+        json[field.name] = value ? Json(*value) : Json(nullptr);
+    });
+    return json;
+}
+
+Json sheet_json(const SignalSheet& sheet, std::size_t number) {
+    Json approaches = Json::array();
+    for (const scenario::SignalApproach& approach : sheet.approaches)
+        approaches.push_back(
+            {{"edge", approach.edge}, {"street", approach.street}, {"links", approach.links}});
+    Json phases = Json::array();
+    for (const scenario::SignalPhase& phase : sheet.phases)
+        phases.push_back({{"phase", phase.number},
+                          {"name", phase.name},
+                          {"state", phase.state},
+                          {"duration_s", phase.duration_s},
+                          {"minimum_s", phase.least_s > 0.0 ? Json(phase.least_s) : Json(nullptr)},
+                          {"green", phase.green},
+                          {"approaches", phase.edges}});
+    return {{"number", number},
+            {"signal", sheet.signal},
+            {"x_m", sheet.place.x_m},
+            {"y_m", sheet.place.y_m},
+            {"controller", sheet.controller},
+            {"program", sheet.program},
+            {"fixed_time", sheet.coordinated},
+            {"cycle_s", sheet.cycle_s},
+            {"offset_s", sheet.offset_s},
+            {"crossings", sheet.crossings},
+            {"yellow_s", range_json(sheet.yellow)},
+            {"red_clearance_s", range_json(sheet.red_clearance)},
+            {"minimum_green_s", range_json(sheet.least_green)},
+            {"approaches", approaches},
+            {"phases", phases},
+            {"set", set_json(sheet.set)}};
+}
+
+void print_json(const std::string& name, const std::vector<SignalSheet>& sheets) {
+    Json rows = Json::array();
+    for (const SignalSheet& sheet : sheets)
+        rows.push_back(sheet_json(sheet, rows.size() + 1));
+    const Json json = {{"scenario", name}, {"signals", rows}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+/// What is set in the scenario's file; for signals without a row what the network tells.
+std::vector<traffic::Preemption> to_edit(const scenario::BuiltNetwork& built) {
+    std::vector<traffic::Preemption> signals = scenario::preemption_in(built.network);
+    for (std::size_t row = 0; row < built.preemption.size(); ++row) {
+        if (built.preemption[row] != traffic::Preemption{}) signals[row] = built.preemption[row];
+    }
+    return signals;
+}
+
+void refuse_to_overwrite(const std::filesystem::path& file) {
+    if (file.empty() || !std::filesystem::exists(file)) return;
+    throw core::InputError(core::Problem{fmt::format("--out {}", file.string()), "exists already",
+                                         "a file that does not exist",
+                                         "choose another name, or remove it first"});
+}
+
+core::ExitCode show(const Arguments& arguments) {
+    refuse_to_overwrite(arguments.parameters);
+    const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
+    const core::TemporaryFolder folder;
+    const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
+    const std::vector<SignalSheet> sheets = scenario::signal_sheets(built.network, built.preemption);
+    if (!arguments.picture.empty())
+        core::write_atomically(arguments.picture, scenario::signals_picture(built.network, config.title));
+    if (!arguments.parameters.empty())
+        core::write_atomically(arguments.parameters, scenario::preemption_csv(built.network, to_edit(built)));
+    if (arguments.printing == Printing::json)
+        print_json(config.name, sheets);
+    else
+        print_text(sheets);
+    if (!arguments.picture.empty())
+        fmt::print(stderr, "clearway: map of the signals in {}\n", arguments.picture.string());
+    if (!arguments.parameters.empty())
+        fmt::print(stderr,
+                   "clearway: preemption parameters in {}; name it in scenario.toml: [network] preemption = "
+                   "\"FILE\"\n",
+                   arguments.parameters.string());
+    return core::ExitCode::ok;
+}
+
+}  // namespace
+
+Action configure_signals(CLI::App& app) {
+    const auto arguments = std::make_shared<Arguments>();
+    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
+        ->required()
+        ->option_text("SCENARIO (required)");
+    app.add_option("--svg", arguments->picture, "Write a map of the signals with their numbers")
+        ->option_text("FILE [none]");
+    app.add_option("--out", arguments->parameters,
+                   "Write the CSV of preemption parameters to edit; never over a file")
+        ->option_text("FILE [none]");
+    add_json_option(app, arguments->printing, "the signals");
+    add_scenario_options(app, arguments->options);
+    return [arguments](const Invocation&) { return show(*arguments); };
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,250 @@
+#include "scenario/preemption.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "core/csv.hpp"
+#include "core/files.hpp"
+#include "roads/own_clearance.hpp"
+#include "traffic/signal.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using core::Problem;
+using traffic::Preemption;
+
+constexpr const char* name_column = "signal";
+
+std::vector<std::string> column_names() {
+    std::vector<std::string> names = {name_column};
+    core::for_each_field<Preemption>([&](const auto& field) { names.emplace_back(field.name); });
+    return names;
+}
+
+std::string header_line() {
+    return fmt::format("{}", fmt::join(column_names(), ","));
+}
+
+std::string hint(const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = core::nearest(word, known);
+    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
+}
+
+/// Line ends of other systems, and the mark that spreadsheets put before UTF-8.
+std::string normalised(std::string text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    std::erase(text, '\r');
+    return text;
+}
+
+/// A file while it is read.
+class Reading {
+  public:
+    Reading(const std::filesystem::path& file, std::vector<Problem>& problems)
+        : file_(file.string()), problems_(problems) {}
+
+    /// Where each column stands; empty after a header that does not fit.
+    void read_header(const std::vector<std::string_view>& cells) {
+        const std::vector<std::string> known = column_names();
+        const std::size_t before = problems_.size();
+        for (const std::string_view cell : cells) {
+            const std::string name(cell);
+            if (std::ranges::find(known, name) == known.end())
+                refuse(
+                    1, name, "is no column of this file", header_line(),
+                    name.find(';') != std::string::npos ? "separate columns by commas" : hint(name, known));
+            else if (std::ranges::find(columns_, name) != columns_.end())
+                refuse(1, name, "is there twice", "each column once", "remove one");
+            columns_.push_back(name);
+        }
+        for (const std::string& name : known) {
+            if (std::ranges::find(columns_, name) == columns_.end())
+                refuse(1, name, "is missing", header_line(), "add the column; its cells may be empty");
+        }
+        if (problems_.size() > before) columns_.clear();
+    }
+    bool has_columns() const { return !columns_.empty(); }
+
+    void read_row(std::size_t line, const std::vector<std::string_view>& cells, PreemptionRows& rows) {
+        if (cells.size() != columns_.size()) {
+            problems_.push_back({fmt::format("{}:{}", file_, line), fmt::format("has {} cells", cells.size()),
+                                 fmt::format("{}, as in the header", columns_.size()), ""});
+            return;
+        }
+        std::string id;
+        PreemptionRow row{{}, line};
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            if (columns_[column] == name_column) id = cells[column];
+            core::for_each_field<Preemption>([&](const auto& field) {
+                if (columns_[column] == field.name) read_value(line, cells[column], field, row.values);
+            });
+        }
+        if (id.empty()) return refuse(line, name_column, "is empty", "id of a signal", "");
+        const auto [first, is_new] = rows.emplace(id, row);
+        if (!is_new)
+            refuse(line, name_column, fmt::format("\"{}\" is in line {} already", id, first->second.line),
+                   "one row for each signal", "remove one of the rows");
+    }
+
+  private:
+    template <class Field>
+    void read_value(std::size_t line, std::string_view cell, const Field& field, Preemption& values) {
+        auto& target = values.*field.member;
+        try {
+            core::read_cell(cell, target);
+        } catch (const std::runtime_error&) {
+            target.reset();
+            return refuse_value(line, cell, field, "is no number");
+        }
+        if (target && !(*target >= field.minimum && *target <= field.maximum))
+            refuse_value(line, cell, field, "is out of range");
+    }
+
+    template <class Field>
+    void refuse_value(std::size_t line, std::string_view cell, const Field& field, const char* what) {
+        constexpr bool is_whole = std::is_same_v<std::decay_t<decltype(*(Preemption{}.*field.member))>, int>;
+        refuse(
+            line, field.name, fmt::format("\"{}\" {}", cell, what),
+            fmt::format("{}{} to {}{}{}, or nothing", is_whole ? "a whole number from " : "", field.minimum,
+                        field.maximum, *field.unit == '1' ? "" : " ", *field.unit == '1' ? "" : field.unit),
+            "");
+    }
+
+    void refuse(std::size_t line, const std::string& column, std::string what, std::string allowed,
+                std::string cure) {
+        problems_.push_back({fmt::format("{}:{}: {}", file_, line, column), std::move(what),
+                             std::move(allowed), std::move(cure)});
+    }
+
+    std::string file_;
+    std::vector<Problem>& problems_;
+    std::vector<std::string> columns_;
+};
+
+double cycle_s(const roads::Signal& signal) {
+    double sum_s = 0.0;
+    for (const roads::Phase& phase : signal.program)
+        sum_s += phase.duration_s;
+    return sum_s;
+}
+
+bool is_green_phase(const roads::Phase& phase) {
+    return std::ranges::any_of(phase.state, traffic::is_green) &&
+           std::ranges::none_of(phase.state, traffic::is_yellow);
+}
+
+/// Checks one row against its signal.
+void check(const traffic::Preemption& row, const std::string& where, const roads::Signal& signal,
+           std::vector<Problem>& problems) {
+    const double longest_s = cycle_s(signal);
+    for (const auto& [name, value] :
+         {std::pair{"minimum_green_s", row.minimum_green_s}, std::pair{"walk_s", row.walk_s}}) {
+        if (value && *value > longest_s)
+            problems.push_back({fmt::format("{}: {}", where, name),
+                                fmt::format("{} is longer than the cycle of signal '{}'", *value, signal.id),
+                                fmt::format("up to {} s", longest_s), "lower it"});
+    }
+    if (!row.exit_phase) return;
+    const auto phase = static_cast<std::size_t>(*row.exit_phase);
+    std::vector<std::string> greens;
+    for (std::size_t number = 0; number < signal.program.size(); ++number) {
+        if (is_green_phase(signal.program[number])) greens.push_back(std::to_string(number));
+    }
+    if (std::ranges::find(greens, std::to_string(phase)) != greens.end()) return;
+    problems.push_back(
+        {fmt::format("{}: exit_phase", where),
+         fmt::format("{} {} of signal '{}'", phase,
+                     phase < signal.program.size() ? "is no green phase" : "is no phase", signal.id),
+         core::listed(greens), "clearway signals lists the phases"});
+}
+
+}  // namespace
+
+PreemptionRows read_preemption_rows(const std::filesystem::path& file, std::vector<Problem>& problems) {
+    const std::string text = normalised(core::read_file(file));
+    PreemptionRows rows;
+    Reading reading(file, problems);
+    core::CsvReader reader(text);
+    std::size_t line = 1;
+    try {
+        if (!reader.next()) {
+            problems.push_back(
+                {file.string(), "is empty", header_line(), "clearway signals SCENARIO --out FILE writes it"});
+            return rows;
+        }
+        reading.read_header(reader.cells());
+        for (line = 2; reading.has_columns() && reader.next(); ++line) {
+            const bool is_blank = reader.cells().size() == 1 && reader.cells().front().empty();
+            if (!is_blank) reading.read_row(line, reader.cells(), rows);
+        }
+    } catch (const std::runtime_error& error) {
+        problems.push_back({fmt::format("{}:{}", file.string(), line), error.what(), "", ""});
+    }
+    return rows;
+}
+
+std::vector<Preemption> preemption_of(const PreemptionRows& rows, const std::filesystem::path& file,
+                                      const roads::Network& network) {
+    std::vector<Problem> problems;
+    std::vector<std::string> known;
+    for (const roads::Signal& signal : network.signals())
+        known.push_back(signal.id);
+    std::vector<Preemption> signals(network.signals().size());
+    for (const auto& [id, row] : rows) {
+        const std::string where = fmt::format("{}:{}", file.string(), row.line);
+        const auto signal = network.find_signal(id);
+        if (!signal) {
+            problems.push_back({fmt::format("{}: {}", where, name_column),
+                                fmt::format("the network has no signal '{}'", id), "ids of its signals",
+                                hint(id, known)});
+            continue;
+        }
+        check(row.values, where, network.signal(*signal), problems);
+        signals[signal->value] = row.values;
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return signals;
+}
+
+std::vector<Preemption> preemption_in(const roads::Network& network) {
+    std::vector<Preemption> signals(network.signals().size());
+    for (std::size_t row = 0; row < signals.size(); ++row) {
+        const roads::Signal& signal = network.signals()[row];
+        Preemption& known = signals[row];
+        known.enabled = 1;
+        for (const roads::Phase& phase : signal.program) {
+            if (phase.least_s > 0.0 && is_green_phase(phase))
+                known.minimum_green_s = std::min(known.minimum_green_s.value_or(255.0), phase.least_s);
+        }
+        const std::vector<roads::OwnClearance> own = roads::own_clearances(signal);
+        for (std::size_t link = 0; link < own.size(); ++link) {
+            if (signal.crossings[link] && own[link].red_s > 0.0)
+                known.pedestrian_clearance_s =
+                    std::min(255.0, std::max(known.pedestrian_clearance_s.value_or(0.0), own[link].red_s));
+        }
+    }
+    return signals;
+}
+
+std::string preemption_csv(const roads::Network& network, const std::vector<Preemption>& signals) {
+    std::vector<std::size_t> order(signals.size());
+    for (std::size_t row = 0; row < order.size(); ++row)
+        order[row] = row;
+    std::ranges::sort(order, {}, [&](std::size_t row) { return network.signals()[row].id; });
+    std::string text = header_line() + "\n";
+    for (const std::size_t row : order) {
+        text += core::csv_text(network.signals()[row].id);
+        core::append_cells(text, signals[row]);
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace clearway::scenario

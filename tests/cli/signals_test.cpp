@@ -1,0 +1,114 @@
+// The signals of a scenario, and their preemption parameters.
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+class SignalsTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write("crossings/net.net.xml",
+              core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml"));
+        write_scenario("");
+    }
+    void write_scenario(const std::string& key) const {
+        write("crossings/scenario.toml", R"(name = "crossings"
+version = "v1"
+title = "Two crossings"
+[network]
+file = "net.net.xml"
+)" + key + R"([time]
+warm_up_s = 20.0
+window_s = 60.0
+horizon_s = 400.0
+[demand]
+human = 5
+automated = 3
+emergency = 1
+[[flow]]
+from = "west_A"
+to = "B_east"
+share = 1.0
+)");
+    }
+    std::string header() const {
+        const std::string text = read("p.csv");
+        return text.substr(0, text.find('\n') + 1);
+    }
+};
+
+TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
+    const Ended ended = clearway({"signals", "./crossings"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::ContainsRegex("1  A +static +90 +4 +- +- +0\n"));
+    EXPECT_THAT(ended.out, testing::ContainsRegex("phase 0 +41 s +north_a_A, south_a_A\n"));
+    EXPECT_THAT(ended.out, HasSubstr("2 signals."));
+    const auto json = nlohmann::json::parse(clearway({"signals", "./crossings", "--json"}).out);
+    const auto& first = json.at("signals").at(0);
+    EXPECT_EQ(first.at("signal"), "A");
+    EXPECT_EQ(first.at("yellow_s").at("longest"), 4.0);
+    EXPECT_EQ(first.at("phases").size(), 4U);
+    EXPECT_TRUE(first.at("set").at("dwell_s").is_null());
+}
+
+TEST_F(SignalsTest, are_drawn_with_their_numbers) {
+    ASSERT_EQ(clearway({"signals", "./crossings", "--svg", "map.svg"}).code, 0);
+    EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">2</text>")));
+}
+
+TEST_F(SignalsTest, have_their_parameters_in_a_file_to_edit_that_the_scenario_then_names) {
+    ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
+    write("crossings/p.csv", header() + "A,1,,,,,,9,,,,\n");
+    write_scenario("preemption = \"p.csv\"\n");
+    const Ended set = clearway({"signals", "./crossings", "--out", "again.csv"});
+    EXPECT_THAT(set.out, HasSubstr("set  enabled=1, dwell_s=9"));
+    EXPECT_EQ(read("again.csv"), header() + "A,1,,,,,,9,,,,\nB,1,,,,,,,,,,\n");
+    const Ended run = clearway({"run", "./crossings", "--policy", "corridor", "--seeds", "1", "--no-solo",
+                                "--name", "mine", "--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(read("out/scenarios/crossings/p.csv"), read("crossings/p.csv"));
+    write("crossings/p.csv", header() + "A,1,,,,,,8,,,,\n");
+    const Ended other = clearway({"run", "./crossings", "--policy", "corridor", "--seeds", "1", "--no-solo",
+                                  "--name", "mine", "--out", "out"});
+    EXPECT_EQ(other.code, 3) << "other parameters, another study";
+    EXPECT_THAT(other.err, HasSubstr("holds another study"));
+}
+
+TEST_F(SignalsTest, never_have_a_file_written_over) {
+    write("p.csv", "mine");
+    const Ended ended = clearway({"signals", "./crossings", "--out", "p.csv", "--svg", "map.svg"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("exists already"));
+    EXPECT_EQ(read("p.csv"), "mine");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "map.svg")) << "nothing half done";
+}
+
+TEST_F(SignalsTest, with_parameters_for_one_that_does_not_exist_are_refused_before_anything_is_written) {
+    ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
+    write("crossings/p.csv", header() + "C,1,,,,,,9,,,,\nA,,,100,,,,,,,,\n");
+    write_scenario("preemption = \"p.csv\"\n");
+    const Ended ended =
+        clearway({"run", "./crossings", "--policy", "corridor", "--seeds", "1", "--out", "out"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("p.csv:2: signal"), HasSubstr("no signal 'C'"),
+                                 HasSubstr("p.csv:3: minimum_green_s"), HasSubstr("up to 90 s")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "scenarios" / "crossings"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "manifest.json"));
+}
+
+TEST_F(SignalsTest, under_a_controller_that_sumo_does_not_know_are_refused) {
+    std::string network = read("crossings/net.net.xml");
+    network.replace(network.find("type=\"static\""), 13, "type=\"actuatd\"");
+    write("crossings/net.net.xml", network);
+    const Ended ended = clearway({"signals", "./crossings"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr(".net.xml:"), HasSubstr("type=\"actuatd\" of signal \"A\""),
+                                 HasSubstr("Did you mean 'actuated'?")));
+}
+
+}  // namespace
+}  // namespace clearway::cli
