@@ -116,16 +116,18 @@ def reset(scenario: str) -> None:
 
 def processes(scenario: str, seeds: int) -> None:
     """Steps a second of one and of two environments at a time: of one program, in step, and of two programs."""
-    rates = []
+    rates, own_us = [], []
     for count in (1, 2):
         with clearway.vector_env(scenario, count, seeds=range(count)) as envs:
             action = np.zeros(envs.action_space.shape, dtype=np.int64)
             envs.reset()
-            begin, total = time.perf_counter(), 300 * seeds
+            begin, before, total = time.perf_counter(), cpu_s(resource.RUSAGE_SELF), 300 * seeds
             for _ in range(total):
                 envs.step(action)
             rates.append(count * total / (time.perf_counter() - begin))
-    print(f"processes: {rates[0]:.0f} steps/s alone, {rates[1]:.0f} with two in step: {rates[1] / rates[0]:.2f} times")
+            own_us.append(1e6 * (cpu_s(resource.RUSAGE_SELF) - before) / total)
+    print(f"processes: {rates[0]:.0f} steps/s alone, {rates[1]:.0f} with two in step: {rates[1] / rates[0]:.2f} times; "
+          f"Python itself takes {own_us[0]:.0f} and {own_us[1]:.0f} us of a step")
     alone = sum(own_rates(scenario, [seed])[0] for seed in (0, 1)) / 2.0
     both = sum(own_rates(scenario, [0, 1]))
     print(f"processes: {alone:.0f} steps/s alone, {both:.0f} in two programs of their own: {both / alone:.2f} times")

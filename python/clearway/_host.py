@@ -8,6 +8,7 @@ import contextlib
 import importlib.util
 import inspect
 import json
+import math
 import os
 import signal
 import sys
@@ -32,9 +33,12 @@ def _value(setting: str, text: str, default: Any) -> Any:
     try:
         if kind is bool:
             return {"true": True, "false": False}[text]
-        return kind(text)
+        value = kind(text)
+        if kind is float and not math.isfinite(value):
+            raise ValueError(text)
+        return value
     except (KeyError, ValueError):
-        allowed = {bool: "true, false", int: "a whole number", float: "a number"}[kind]
+        allowed = {bool: "true, false", int: "a whole number", float: "a finite number"}[kind]
         raise SettingError(f"{setting} is {text!r} (allowed: {allowed}, as its default {default!r})") from None
 
 

@@ -109,8 +109,8 @@ class Worker:
     def receive(self) -> bytes:
         return self._hear(DECIDE, ENDED)
 
-    def copied(self, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, np.ndarray]:
-        """Arrays of the present decision, the caller's to keep: one copy of the memory that holds them, and a view for each.
+    def layout(self, shapes: Mapping[str, tuple[int, ...]]) -> tuple[list[tuple[str, tuple[int, ...], np.dtype, int]], int]:
+        """Where the arrays of a decision lie in the block of memory that holds them all (name, shape, type, offset), and its bytes.
 
         They stay in their places, because their sizes do, so these are looked up once.
         """
@@ -121,9 +121,19 @@ class Worker:
             last = max(places[name] + kinds[name].itemsize * math.prod(shape) for name, shape in shapes.items())
             self._block = slice(first, last)
             self._layout = [(name, shape, kinds[name], places[name] - first) for name, shape in shapes.items()]
+        return self._layout, self._block.stop - self._block.start
+
+    def copied(self, shapes: Mapping[str, tuple[int, ...]]) -> dict[str, np.ndarray]:
+        """Arrays of the present decision, the caller's to keep: one copy of the memory that holds them, and a view for each."""
+        layout, _ = self.layout(shapes)
         assert self._channel is not None
         block = bytearray(self._channel.incoming[self._block])
-        return {name: np.ndarray(shape, kind, block, offset) for name, shape, kind, offset in self._layout}
+        return {name: np.ndarray(shape, kind, block, offset) for name, shape, kind, offset in layout}
+
+    def copy_block(self, target: memoryview) -> None:
+        """Copies the memory of the arrays of the present decision (``layout``) into ``target``."""
+        assert self._channel is not None
+        target[:] = self._channel.incoming[self._block]
 
     def numbers(self) -> tuple[float, float, float, int, int]:
         """Time, s; delay of emergency vehicles and of others since the last decision, s; whether all emergency vehicles have

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _program, _spaces
+from . import _program, _spaces, _spec
 from ._channel import ENDED
 from ._worker import Worker
 from .running import Part, part_name, policy_names
@@ -51,7 +51,6 @@ class Env(_Base):
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 2}
-    spec = None
 
     def __init__(self, scenario: str | Path, *, seeds: Sequence[int] = range(4), study_seed: int = 1, policy: Part | Sequence[Part] = (),
                  failure: str = "perfect", predictor: Part = "none", set: Mapping[str, Any] | None = None, others_weight: float = 0.01,
@@ -65,13 +64,17 @@ class Env(_Base):
         self.render_mode, self.others_weight, self.until = render_mode, float(others_weight), until
         self._seeds = checked_seeds(seeds)
         self._arguments = _arguments(scenario, study_seed, policy, failure, predictor, set or {}, options)
+        #: Makes another environment like this one: ``env.spec.make()``.
+        self.spec: Any = _spec.spec_of({"scenario": scenario, "seeds": self._seeds, "study_seed": study_seed, "policy": policy,
+                                        "failure": failure, "predictor": predictor, "set": set, "others_weight": self.others_weight,
+                                        "until": until, "render_mode": render_mode, **options})
         self._owner = os.getpid()
         self._folder = Path(tempfile.mkdtemp(prefix="clearway-env-"))
         self._finalizer = weakref.finalize(self, _remove, str(self._folder), self._owner)
         self._workers: collections.OrderedDict[int, Worker] = collections.OrderedDict()
         self._episode, self._state = 0, "new"
         self._worker: Worker | None = None
-        self._last: dict[str, np.ndarray] | None = None
+        self._last: Mapping[str, np.ndarray] | None = None
         self._np_random: np.random.Generator | None = None
         self._np_random_seed: int | None = None
         try:
@@ -190,6 +193,15 @@ class Env(_Base):
         self._require_owner()
         if self._state != "sent":
             raise _program.ClearwayError("no action is under way: call send() before receive()")
+        numbers = self._heard()
+        if numbers is None:
+            return self._last_step(self._worker.end())
+        self._last = self._worker.copied(self._shapes)
+        _, emergency_s, others_s, _, _ = numbers
+        return self._last, self._reward(emergency_s, others_s), self._ends(numbers), False, self._info(*numbers)
+
+    def _heard(self) -> tuple[float, float, float, int, int] | None:
+        """What the worker says of a step in numbers (``Worker.numbers``); nothing at the end of the run."""
         try:
             bell = self._worker.receive()
         except _program.ClearwayError:
@@ -197,15 +209,14 @@ class Env(_Base):
             self._drop(self._seed)
             raise
         self._state = "running"
-        if bell == ENDED:
-            return self._last_step(self._worker.end())
-        numbers = self._worker.numbers()
-        _, emergency_s, others_s, all_gone, _ = numbers
-        self._last = self._worker.copied(self._shapes)
-        terminated = self.until == "emergency" and bool(all_gone)
-        if terminated:
+        return None if bell == ENDED else self._worker.numbers()
+
+    def _ends(self, numbers: tuple[float, float, float, int, int]) -> bool:
+        """Whether an episode is over, which the agent's numbers say; if so, it is."""
+        ends = self.until == "emergency" and bool(numbers[3])
+        if ends:
             self._state = "over"
-        return self._last, self._reward(emergency_s, others_s), terminated, False, self._info(*numbers)
+        return ends
 
     def _last_step(self, end: dict[str, Any]) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
         self._state = "over"
@@ -213,7 +224,8 @@ class Env(_Base):
                 "others_delay_s": end["others_delay_s"], "illegal_actions": 0, "metrics": end["metrics"],
                 "trace_hash": end["trace_hash"]}
         reward = self._reward(end["emergency_delay_s"], end["others_delay_s"])
-        return self._last, reward, not end["truncated"], end["truncated"], info
+        assert self._last is not None
+        return dict(self._last), reward, not end["truncated"], end["truncated"], info
 
     def _reward(self, emergency_s: float, others_s: float) -> float:
         return -(emergency_s + self.others_weight * others_s)
@@ -287,8 +299,27 @@ def checked_seeds(seeds: Any) -> list[int]:
     return checked
 
 
-#: Options of the program that an environment sets itself.
-_OWN_OPTIONS = ("channel", "failure", "help", "out", "policy", "predictor", "replication", "seed", "set")
+#: Overrides of ``clearway.run`` and study files, and the options of the program that say the same.
+_OVERRIDES = {"density": "density", "automated_share": "av-share", "road_limit_kmh": "road-limit", "warm_up_s": "warm-up",
+              "horizon_s": "horizon", "step_length_s": "step-length", "time_to_teleport_s": "time-to-teleport", "idm": "idm",
+              "car_following": "car-following", "driver_spread": "driver-spread", "traffic_kinds": "kinds",
+              "emergency_kinds": "emergency-kinds", "siren_compliance": "siren", "road_speed_factor": "road-speed",
+              "friction": "friction", "pedestrians_per_hour": "pedestrians"}
+_VARIANTS: dict[Any, list[str]] = {"standard": [], "dense": ["--dense"]}
+
+
+def _override(name: str, value: Any) -> list[str]:
+    """Words of the command line for an override."""
+    if name == "variant":
+        if not isinstance(value, str) or value not in _VARIANTS:
+            raise _program.InputError(f"variant is {value!r} (allowed: {', '.join(_VARIANTS)})")
+        return _VARIANTS[value]
+    if name not in _OVERRIDES:
+        raise _program.InputError(f"{name} is neither an argument of clearway.Env nor an override, as clearway.run takes them (allowed: "
+                                  f"variant, {', '.join(_OVERRIDES)})")
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (str, numbers.Real)):
+        raise _program.InputError(f"{name} is {value!r} (allowed: a number or a text)")
+    return ["--" + _OVERRIDES[name], str(value)]
 
 
 def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Part], failure: str, predictor: Part,
@@ -303,14 +334,11 @@ def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Pa
     for name, value in settings.items():
         words += ["--set", f"{name}={str(value).lower() if isinstance(value, (bool, np.bool_)) else value}"]
     for name, value in options.items():
-        if name in _OWN_OPTIONS:
-            raise _program.InputError(f"{name} is not an option of the scenario; help(clearway.Env) has the arguments")
-        if value is not False and value is not None:
-            words += ["--" + name.replace("_", "-")] + ([] if value is True else [str(value)])
+        words += _override(name, value)
     return words
 
 
 def env(scenario: str | Path, **arguments: Any) -> Env:
-    """An environment with Gymnasium's API; see ``Env`` for arguments, spaces and reward. Other keywords are options of the
-    scenario as on the command line: ``dense=True``, ``step_length=0.1``."""
+    """An environment with Gymnasium's API; see ``Env`` for arguments, spaces and reward. Other keywords are overrides, the same as
+    for ``clearway.run``: ``variant="dense"``, ``step_length_s=0.1``."""
     return Env(scenario, **arguments)

@@ -34,6 +34,8 @@ struct Arguments {
 experiment::RunJob job_of(const study::Plan& plan, const experiment::ConditionSpec& condition) {
     experiment::RunJob job = plan.units.front().unit;
     job.conditions = {condition};
+    constexpr double any_s = 1e9;
+    job.limits.wall_s = any_s;  // an episode waits for its agent as long as that takes
     return job;
 }
 

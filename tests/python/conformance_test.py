@@ -87,12 +87,22 @@ class GymnasiumTest(FolderCase):
         env = self.env
         self.assertIsInstance(env, gymnasium.Env)
         self.assertIs(env.unwrapped, env)
-        self.assertIsNone(env.spec)
         self.assertFalse(env.metadata.get("jax", False) or env.metadata.get("torch", False))
         self.check_space(env.action_space)
         self.check_space(env.observation_space)
         self.assertIn(env.action_space.sample(), env.action_space)
         self.assertIn(env.observation_space.sample(), env.observation_space)
+
+    def test_its_spec_makes_another_one_like_it(self) -> None:
+        self.assertEqual(self.env.spec.id, "clearway/Emergency-v0")
+        self.assertIsNone(self.env.spec.max_episode_steps)
+        with self.env.spec.make(render_mode=None) as other:
+            self.assertIsInstance(other.unwrapped, clearway.Env)
+            self.assertIsNone(other.render_mode)
+            self.assertIn(self.env.reset(seed=1)[0], other.observation_space)
+            self.check_equal(other.reset(seed=0)[0], self.env.reset(seed=0)[0])
+        with clearway.env("intersection", seeds=[0], variant="dense") as dense, dense.spec.make() as other:
+            self.check_equal(other.reset()[0], dense.reset()[0])
 
     def test_signature_of_reset(self) -> None:
         parameters = inspect.signature(self.env.reset).parameters
@@ -191,7 +201,6 @@ class GymnasiumTest(FolderCase):
         if is_stand_in(gymnasium):
             self.skipTest("gymnasium is not installed (it is in no Debian package)")
         from gymnasium.utils.env_checker import check_env
-        warnings.simplefilter("default")  # it warns of every environment that has no spec
         check_env(self.env, skip_render_check=False)
 
 

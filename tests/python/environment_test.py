@@ -1,5 +1,6 @@
 """Environments: the interface, seeds, equality with runs, and ends. What checkers of others assert: conformance_test."""
 import gc
+import json
 import multiprocessing
 import os
 import signal
@@ -152,9 +153,13 @@ class InterfaceTest(FolderCase):
     def test_wrong_arguments_are_told(self) -> None:
         for arguments, says in (({"until": "noon"}, "emergency, end"), ({"render_mode": "human"}, "ansi"), ({"seeds": []}, "at least one"),
                                 ({"seeds": [-1]}, "-1"), ({"others_weight": float("nan")}, "nan"), ({"failure": "B99"}, "B99"),
-                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "--sparse"),
+                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "sparse is neither"),
+                                ({"dense": True}, "dense is neither an argument of clearway.Env nor an override"),
+                                ({"variant": "thick"}, "allowed: standard, dense"), ({"variant": True}, "variant is True"),
+                                ({"step_length_s": None}, "step_length_s is None"), ({"density": True}, "density is True"),
+                                ({"horizon_s": float("nan")}, "horizon"), ({"step_length_s": 7}, "7"),
                                 ({"seeds": 4}, "seeds are 4"), ({"seeds": None}, "seeds are None"), ({"policy": 3}, "is 3"),
-                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication is not an option")):
+                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication is neither")):
             self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
         self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
         self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
@@ -179,6 +184,22 @@ class EqualRunTest(FolderCase):
                     self.assertTrue(stored == value or (value is None and np.isnan(stored)), metric)
                 env.reset()
                 self.assertEqual(finish(env)["trace_hash"], run["trace_hash"][0])
+
+
+    def test_the_words_of_a_run_are_those_of_an_environment(self) -> None:
+        words = {"variant": "dense", "step_length_s": 0.5, "automated_share": 0.5, "density": 0.5, "road_limit_kmh": 50, "horizon_s": 400,
+                 "car_following": "idm", "idm": "treiber", "driver_spread": 0.1, "siren_compliance": 0.2, "road_speed_factor": 0.9,
+                 "friction": 0.8, "time_to_teleport_s": 200, "traffic_kinds": "car=8,truck=2", "emergency_kinds": "police_car=1",
+                 "pedestrians_per_hour": 10, "warm_up_s": 60}
+        self.assertEqual(words.keys(), {"variant", *clearway.environment._OVERRIDES})
+        results = clearway.run("intersection", ["corridor"], seeds=1, out="runs", **words)
+        run = results.runs.where(condition="corridor")
+        with clearway.env("intersection", policy="corridor", seeds=[0], until="end", **words) as env:
+            env.reset()
+            self.assertEqual(finish(env)["trace_hash"], run["trace_hash"][0])
+        with clearway.env("intersection", policy="corridor", seeds=[0], until="end", variant="standard") as env:
+            env.reset()
+            self.assertNotEqual(finish(env)["trace_hash"], run["trace_hash"][0])
 
 
 class EndTest(FolderCase):
@@ -220,6 +241,11 @@ class EndTest(FolderCase):
                     env.step(no_action(env))
             self.assertIn("reset()", self.message_of(clearway.ClearwayError, lambda: env.step(no_action(env))))
             self.assertEqual(episode(), expected)
+
+    def test_an_episode_waits_for_its_agent_as_long_as_that_takes(self) -> None:
+        with clearway.env("intersection", seeds=[0]) as env:
+            (job,) = env._folder.rglob("job.json")
+            self.assertGreaterEqual(json.loads(job.read_text())["wall_limit_s"], 1e9)
 
     def test_an_interrupted_start_leaves_no_process(self) -> None:
         before = set(children(os.getpid()))
@@ -339,6 +365,38 @@ class VectorTest(FolderCase):
             observations, rewards, terminated, _, infos = both.step(np.zeros(both.action_space.shape, dtype=np.int64))
             self.assertEqual((rewards[1], terminated[1]), (0.0, False))  # a new episode has begun
             np.testing.assert_array_equal(observations["vehicles"][1], alone.reset()[0]["vehicles"])
+
+    def test_an_observation_is_the_callers_to_keep_and_change(self) -> None:
+        with clearway.vector_env("intersection", 2, seeds=[0, 1], render_mode="ansi") as both:
+            nothing = np.zeros(both.action_space.shape, dtype=np.int64)
+            kept, _ = both.reset()
+            before = {name: array.copy() for name, array in kept.items()}
+            observations, _, _, _, infos = both.step(nothing)
+            for name, array in observations.items():
+                np.testing.assert_array_equal(kept[name], before[name])
+                self.assertTrue(array.flags.writeable and array.flags.aligned, name)
+            self.assertRegex(both.envs[1].render(), f"{infos['time_s'][1]:.2f} s: EV at")
+            np.testing.assert_array_equal(np.concatenate(both.envs[1].action_masks()), observations["action_mask"][1])
+            for array in observations.values():
+                array[...] = 0
+            self.assertGreater(both.step(nothing)[0]["emergency"][1, 0], 0.0)
+
+    def test_the_end_of_a_run_is_told_as_by_each_alone(self) -> None:
+        with (clearway.vector_env("intersection", 2, seeds=[0, 1], until="end") as both,
+              clearway.env("intersection", seeds=[0], until="end") as alone):
+            nothing = np.zeros(both.action_space.shape, dtype=np.int64)
+            both.reset()
+            alone.reset()
+            ended = False
+            while not ended:
+                observations, rewards, terminated, truncated, infos = both.step(nothing)
+                expected, reward, *end, info = alone.step(no_action(alone))
+                ended = any(end)
+                self.assertEqual([rewards[0], terminated[0], truncated[0]], [reward, *end])
+                for name, array in expected.items():
+                    np.testing.assert_array_equal(observations[name][0], array)
+            self.assertEqual(infos["trace_hash"][0], info["trace_hash"])
+            self.assertEqual(infos["_metrics"].tolist(), [True, bool(terminated[1] or truncated[1])])
 
     def test_wrong_counts_are_told(self) -> None:
         self.assertIn("count is 9", self.message_of(clearway.InputError, lambda: clearway.vector_env("intersection", 9)))

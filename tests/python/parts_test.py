@@ -206,7 +206,9 @@ class SettingsTest(FolderCase):
 
     def test_what_does_not_fit_is_told_before_anything_runs(self) -> None:
         for setting, says in (("Slow.shares=1", "Slow.shares is unknown (allowed: arguments of __init__ that have a default: share=1.0"),
-                              ("Slow.other=1", "Slow.other is unknown"), ("Slow.share=fast", "Slow.share is 'fast' (allowed: a number"),
+                              ("Slow.other=1", "Slow.other is unknown"), ("Slow.share=fast", "Slow.share is 'fast' (allowed: a finite number"),
+                              ("Slow.share=nan", "Slow.share is 'nan' (allowed: a finite number"),
+                              ("Slow.within_m=-inf", "Slow.within_m is '-inf' (allowed: a finite number"),
                               ("Slow.most=1.5", "Slow.most is '1.5' (allowed: a whole number"), ("Slow.on=1", "allowed: true, false"),
                               ("Fast.share=1", ", Slow). `clearway list settings`")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "slow.py:Slow", "--set", setting,
