@@ -159,7 +159,7 @@ TEST(PreemptSignals, looks_at_no_room_where_no_loop_is_closed) {
 }
 
 TEST(PreemptSignals, holds_no_more_signals_of_a_closed_loop_than_it_may) {
-    policy::PreemptSignals both({short_square()}, {.lead_s = 60.0});
+    policy::PreemptSignals both({short_square()}, {.lead_s = 60.0, .signals_ahead = 0});
     policy::PreemptSignals next({short_square()}, {.lead_s = 60.0, .signals_ahead = 1});
     CrossingScene scene = emergency_in_the_square();
     EXPECT_EQ(act(both, scene).size(), 2U);
