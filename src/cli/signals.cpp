@@ -53,13 +53,22 @@ std::string text_of(const traffic::Preemption& set) {
     return parts.empty() ? "-" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string approach_text(const SignalSheet& sheet, const std::vector<std::string>& edges) {
+/// At most 24 characters of an id: those of joined junctions name all their nodes.
+std::string short_name(const std::string& id) {
+    constexpr std::size_t most = 24;
+    return report::printable(id.size() <= most ? id : id.substr(0, most - 3) + "...");
+}
+
+std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase& phase) {
     std::vector<std::string> names;
+    const std::vector<std::string>& edges = phase.edges;
     for (const scenario::SignalApproach& approach : sheet.approaches) {
         if (std::ranges::find(edges, approach.edge) == edges.end()) continue;
         names.push_back(approach.street.empty() ? approach.edge
                                                 : fmt::format("{} ({})", approach.edge, approach.street));
     }
+    if (phase.on_foot) names.emplace_back("people on foot");
+    if (names.empty()) names.emplace_back("no road of this network");
     return report::printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
@@ -72,21 +81,21 @@ void print_text(const std::vector<SignalSheet>& sheets) {
                "Cycle s", "Yellow s", "Red s", "Min green s", "Crossings");
     for (std::size_t row = 0; row < sheets.size(); ++row) {
         const SignalSheet& sheet = sheets[row];
-        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1,
-                   report::printable(sheet.signal), sheet.controller, sheet.cycle_s, text_of(sheet.yellow),
-                   text_of(sheet.red_clearance), text_of(sheet.least_green), sheet.crossings);
+        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1, short_name(sheet.signal),
+                   sheet.controller, sheet.cycle_s, text_of(sheet.yellow), text_of(sheet.red_clearance),
+                   text_of(sheet.least_green), sheet.crossings);
         for (const scenario::SignalPhase& phase : sheet.phases) {
             if (!phase.green) continue;
             fmt::print("{:>8}  {:>5g} s  {}\n", fmt::format("phase {}", phase.number), phase.duration_s,
-                       approach_text(sheet, phase.edges));
+                       approach_text(sheet, phase));
         }
         const std::string set = text_of(sheet.set);
         if (set != "-") fmt::print("{:>8}  {}\n", "set", set);
     }
     fmt::print(
-        "\n{} signals. Yellow, red clearance and least green as their programs show them; -: none, so "
+        "\n{} signal{}. Yellow, red clearance and least green as their programs show them; -: none, so "
         "that a\nhold takes them from a formula (actuation.clearance) or setting.\n",
-        sheets.size());
+        sheets.size(), sheets.size() == 1 ? "" : "s");
 }
 
 Json range_json(const std::optional<SecondsRange>& times) {
@@ -116,6 +125,7 @@ Json sheet_json(const SignalSheet& sheet, std::size_t number) {
                           {"duration_s", phase.duration_s},
                           {"minimum_s", phase.least_s > 0.0 ? Json(phase.least_s) : Json(nullptr)},
                           {"green", phase.green},
+                          {"on_foot", phase.on_foot},
                           {"approaches", phase.edges}});
     return {{"number", number},
             {"signal", sheet.signal},

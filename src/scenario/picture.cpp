@@ -134,9 +134,20 @@ std::string roads_of(const roads::Network& network, const Frame& frame) {
     return svg;
 }
 
-/// Names longer than this, or among more signals than that, would lie upon each other.
+/// Names that are longer, or nearer to another signal, would lie upon each other; units of the picture.
 constexpr std::size_t longest_name = 14;
-constexpr std::size_t most_names = 40;
+constexpr double room_for_name = 90.0;
+constexpr double line_of_text = 14.0;
+
+bool has_room_for_name(const std::vector<SignalSheet>& sheets, std::size_t row, const Frame& frame) {
+    if (sheets[row].signal.size() > longest_name) return false;
+    for (std::size_t other = 0; other < sheets.size(); ++other) {
+        const double right = frame.x(sheets[other].place.x_m) - frame.x(sheets[row].place.x_m);
+        const double down = frame.y(sheets[other].place.y_m) - frame.y(sheets[row].place.y_m);
+        if (other != row && std::abs(right) < room_for_name && std::abs(down) < line_of_text) return false;
+    }
+    return true;
+}
 
 void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
     auto out = std::back_inserter(svg);
@@ -147,11 +158,11 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
         const std::string name = core::escaped(sheets[row].signal);
         fmt::format_to(
             out,
-            "<g fill=\"#000\"><title>{0}: {1}</title><circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"9\" "
+            "<g fill=\"#000\"><title>{0}: {1}</title><circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"8\" "
             "fill=\"#d55e00\"/><text x=\"{2:.1f}\" y=\"{4:.1f}\" text-anchor=\"middle\" "
-            "style=\"font-size:10px;fill:#fff\">{0}</text>",
+            "style=\"font-size:9px;fill:#fff\">{0}</text>",
             row + 1, name, x, y, y + 3.5);
-        if (sheets.size() <= most_names && sheets[row].signal.size() <= longest_name)
+        if (has_room_for_name(sheets, row, frame))
             fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 12.0, y - 8.0, name);
         svg += "</g>\n";
     }

@@ -140,6 +140,20 @@ bool is_green_phase(const roads::Phase& phase) {
            std::ranges::none_of(phase.state, traffic::is_yellow);
 }
 
+/// The least green that all green phases have in common; nothing where they differ or have none, because the
+/// controller has one for all.
+std::optional<double> common_least_green_s(const roads::Signal& signal) {
+    std::optional<double> common_s;
+    for (const roads::Phase& phase : signal.program) {
+        if (!is_green_phase(phase)) continue;
+        if (phase.least_s <= 0.0 || phase.least_s != common_s.value_or(phase.least_s)) return std::nullopt;
+        common_s = phase.least_s;
+    }
+    constexpr double longest_s = 255.0;
+    if (common_s) common_s = std::min({*common_s, cycle_s(signal), longest_s});
+    return common_s;
+}
+
 /// Checks one row against its signal.
 void check(const traffic::Preemption& row, const std::string& where, const roads::Signal& signal,
            std::vector<Problem>& problems) {
@@ -219,10 +233,7 @@ std::vector<Preemption> preemption_in(const roads::Network& network) {
         const roads::Signal& signal = network.signals()[row];
         Preemption& known = signals[row];
         known.enabled = 1;
-        for (const roads::Phase& phase : signal.program) {
-            if (phase.least_s > 0.0 && is_green_phase(phase))
-                known.minimum_green_s = std::min(known.minimum_green_s.value_or(255.0), phase.least_s);
-        }
+        known.minimum_green_s = common_least_green_s(signal);
         const std::vector<roads::OwnClearance> own = roads::own_clearances(signal);
         for (std::size_t link = 0; link < own.size(); ++link) {
             if (signal.crossings[link] && own[link].red_s > 0.0)

@@ -40,9 +40,11 @@ std::vector<SignalApproach> approaches_of(const roads::Network& network, const r
 SignalPhase phase_of(const roads::Signal& signal, std::uint32_t number,
                      const std::vector<SignalApproach>& approaches) {
     const roads::Phase& phase = signal.program[number];
-    SignalPhase sheet{number, phase.name, phase.state, phase.duration_s, phase.least_s, false, {}};
+    SignalPhase sheet{number, phase.name, phase.state, phase.duration_s, phase.least_s, false, false, {}};
     sheet.green = std::ranges::any_of(phase.state, traffic::is_green) &&
                   std::ranges::none_of(phase.state, traffic::is_yellow);
+    for (std::size_t link = 0; link < phase.state.size(); ++link)
+        sheet.on_foot = sheet.on_foot || (is_crossing(signal, link) && traffic::is_green(phase.state[link]));
     for (const SignalApproach& approach : approaches) {
         const bool has_green = std::ranges::any_of(approach.links, [&](std::uint16_t link) {
             return link < phase.state.size() && traffic::is_green(phase.state[link]);

@@ -31,6 +31,7 @@ struct SignalPhase {
     double duration_s = 0.0;
     double least_s = 0.0;            ///< 0 where the program gives none.
     bool green = false;              ///< Some link is green and none is yellow.
+    bool on_foot = false;            ///< A crossing for people on foot is green.
     std::vector<std::string> edges;  ///< Approaches that have green in it.
 };
 

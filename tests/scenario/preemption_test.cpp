@@ -136,13 +136,21 @@ TEST_F(PreemptionFile, is_filled_with_what_programs_show) {
     <tlLogic id="A" type="actuated" programID="1" offset="0">
         <phase duration="40" minDur="8" maxDur="50" state="GGGgrrrrGGGgrrrr"/>
         <phase duration="4" state="yyyyrrrryyyyrrrr"/>
-        <phase duration="40" minDur="6" maxDur="50" state="rrrrGGGgrrrrGGGg"/>
+        <phase duration="40" minDur="8" maxDur="50" state="rrrrGGGgrrrrGGGg"/>
         <phase duration="4" state="rrrryyyyrrrryyyy"/>
     </tlLogic></additional>)");
     const auto known = preemption_in(
         roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {file}));
-    EXPECT_EQ(known[0], (traffic::Preemption{.enabled = 1, .minimum_green_s = 6.0}));
+    EXPECT_EQ(known[0], (traffic::Preemption{.enabled = 1, .minimum_green_s = 8.0}));
     EXPECT_EQ(known[1], (traffic::Preemption{.enabled = 1}));
+    const auto other = write("other.add.xml", R"(<additional>
+    <tlLogic id="A" type="actuated" programID="1" offset="0">
+        <phase duration="40" minDur="8" state="GGGgrrrrGGGgrrrr"/>
+        <phase duration="40" minDur="6" state="rrrrGGGgrrrrGGGg"/>
+    </tlLogic></additional>)");
+    const auto differing = preemption_in(
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {other}));
+    EXPECT_FALSE(differing[0].minimum_green_s) << "the controller has one for all phases";
     const auto walking =
         preemption_in(roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml"));
     EXPECT_EQ(walking[0], (traffic::Preemption{.enabled = 1, .pedestrian_clearance_s = 5.0}));

@@ -52,6 +52,8 @@ TEST(SignalSheet, of_a_signal_with_a_crossing_counts_it_apart) {
     const auto sheets =
         signal_sheets(roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml"), {});
     EXPECT_EQ(sheets.front().crossings, 1U);
+    EXPECT_FALSE(sheets.front().phases.at(0).on_foot);
+    EXPECT_TRUE(sheets.front().phases.at(2).on_foot);
     ASSERT_TRUE(sheets.front().yellow.has_value());
     EXPECT_DOUBLE_EQ(sheets.front().yellow->longest_s, 3.0);
 }

@@ -44,13 +44,16 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     EXPECT_THAT(findings.sites, ElementsAre(Pair("fire_station", 1), Pair("hospital", 1)));
     EXPECT_THAT(findings.demand, AllOf(HasSubstr("synthetic"), HasSubstr("on the road")));
     EXPECT_GT(findings.vehicles_per_hour, 0.0);
-    for (const char* const file : {"scenario.toml", "network.net.xml", "network.svg", "import.json"})
+    for (const char* const file :
+         {"scenario.toml", "network.net.xml", "network.svg", "import.json", "preemption.csv"})
         EXPECT_TRUE(std::filesystem::exists(out() / "town" / file)) << file;
 
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.name, "town");
     EXPECT_EQ(config.emergency_sites.at(0).name, "St. \"Anna\" <Klinik>");
     const scenario::BuiltNetwork network = scenario::build_network(config, folder() / "built");
+    ASSERT_EQ(network.preemption.size(), 1U) << "filled from the network";
+    EXPECT_EQ(network.preemption.front().enabled, 1);
     const scenario::Prepared prepared =
         scenario::prepare(config, network, core::StudySeed{1}, core::Replication{3}, folder() / "demand");
     ASSERT_EQ(prepared.emergency.size(), 6U);
