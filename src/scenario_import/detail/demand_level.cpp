@@ -161,19 +161,20 @@ DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int mos
             too_high = rung;
         }
     }
+    // Where more cars were too many, other demands of as many may jam however smoothly the first one drives.
+    const auto is_sure = [&] { return best.rung == 0 && best.has_room; };
     const auto fault_of_best = [&] {
         set_cars(config, cars_on(best.rung, most), import.request.automated_share);
-        return best.has_room ? LoadFault::none
-                             : fault_of_more(tried.network, config, import.work / "more", probe);
+        return is_sure() ? LoadFault::none
+                         : fault_of_more(tried.network, config, import.work / "more", probe);
     };
     while ((fault = fault_of_best()) != LoadFault::none) {
         if (++best.rung > lowest_rung) refuse_every_level(import, fault, cars_on(lowest_rung, most));
         probe.try_share(tried.demand, share_of(best.rung));
         best.load = probe.load();
-        best.has_room = probe.has_room();
     }
     return {cars_on(best.rung, most), best.load, probe.free_speed(), cars_on(lowest_rung, most),
-            best.has_room ? 1 : 1 + static_cast<int>(more_demands)};
+            is_sure() ? 1 : 1 + static_cast<int>(more_demands)};
 }
 
 }  // namespace clearway::scenario_import::detail
