@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "core/interruption.hpp"
 #include "core/number_range.hpp"
 #include "core/process.hpp"
+#include "core/process_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/job.hpp"
@@ -29,6 +31,10 @@
 
 namespace clearway::cli {
 namespace {
+
+/// Folders of this verb: those that a killed process left go when the next one begins.
+constexpr const char* work_prefix = "live-";
+constexpr const char* socket_prefix = "clearway-live-";
 
 struct Arguments {
     std::string scenario;
@@ -155,28 +161,30 @@ class Workers {
     std::vector<Worker> workers_;
 };
 
-void say_address(const server::LiveConfig& config, std::uint16_t port) {
-    const std::string host =
-        config.host.find(':') == std::string::npos ? config.host : "[" + config.host + "]";
-    fmt::print("http://{}:{}/{}\n", host, port, config.token.empty() ? "" : "?token=" + config.token);
+/// The surest address is the first line of the output: a program that starts this one reads it.
+void say_addresses(const server::LiveConfig& config, std::uint16_t port) {
+    const std::vector<std::string> pages = server::pages_of(config.host, port, config.token);
+    fmt::print("{}\n", pages.front());
     std::fflush(stdout);
     fmt::print(stderr, "clearway: open this address in a browser; {}\n",
                config.allow_control ? "whoever has it may pause the runs and set their speed"
                                     : "it shows and takes no orders");
+    for (const std::string& page : pages | std::views::drop(1))
+        fmt::print(stderr, "clearway: or {}\n", page);
 }
 
 /// Makes the runs while `server` shows them. Returns ok, or why they did not finish.
 core::ExitCode show(const std::vector<experiment::RunJob>& units, server::LiveServer& server,
                     const std::filesystem::path& sockets, const server::LiveConfig& config) {
     const core::InterruptionWatch interruption;
-    const core::TemporaryFolder work(units.front().output / "work" / fmt::format("live-{}", ::getpid()));
+    const core::TemporaryFolder work(core::process_folder(units.front().output / "work", work_prefix));
     Workers workers;
     std::size_t run = 0;
     for (experiment::RunJob unit : units) {
         unit.live = experiment::LiveSpec{server::socket_of(sockets, run++)};
         workers.start(unit, work.path() / unit.conditions.front().name);
     }
-    say_address(config, server.port());
+    say_addresses(config, server.port());
     server.run([&] { return interruption.signal() != 0 || workers.has_failed(); });
     const server::LiveCounts counts = server.counts();
     fmt::print(stderr, "clearway: {} viewers, {} refused; {} frames sent, {} left out for slow viewers\n",
@@ -204,7 +212,7 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
         arguments.server.title += " " + condition.name;
     }
     arguments.server.runs = units.size();
-    const core::TemporaryFolder sockets;
+    const core::TemporaryFolder sockets(core::process_folder(core::temporary_place(), socket_prefix));
     // Before the run folder: an address that cannot be served leaves none.
     server::LiveServer server(arguments.server, sockets.path());
     const results::Store store = prepare_run_folder(plan, options);
@@ -219,7 +227,8 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
 void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
     const char* const group = "The server";
     server::LiveConfig& server = arguments->server;
-    app.add_option("--host", server.host, "Address to listen at; beyond this machine a token is needed")
+    app.add_option("--host", server.host,
+                   "Address or name to listen at; beyond this machine a token is needed")
         ->option_text(fmt::format("ADDRESS [{}]", server.host))
         ->group(group);
     app.add_option("--port", server.port, "Port to listen at; 0: any that is free")
@@ -228,7 +237,7 @@ void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& argumen
         ->group(group);
     app.add_option("--token", server.token,
                    "What viewers must know beyond this machine; at this machine only if given")
-        ->option_text("TEXT [random beyond this machine]")
+        ->option_text("TEXT, 16 to 128 letters [random beyond this machine]")
         ->group(group);
     app.add_flag("--allow-control", server.allow_control, "Let viewers pause, step and set the speed [off]")
         ->group(group);

@@ -12,13 +12,26 @@
 
 namespace clearway::core {
 
-TemporaryFolder::TemporaryFolder() {
+namespace {
+
+EnvironmentError no_folder(const std::string& where) {
+    return EnvironmentError(
+        fmt::format("{}: cannot make a folder there. Set TMPDIR to a writable folder", where));
+}
+
+}  // namespace
+
+std::filesystem::path temporary_place() {
     std::error_code error;
-    const std::filesystem::path place = std::filesystem::temp_directory_path(error);
+    std::filesystem::path place = std::filesystem::temp_directory_path(error);
+    if (error) throw no_folder("TMPDIR");
+    return place;
+}
+
+TemporaryFolder::TemporaryFolder() {
+    const std::filesystem::path place = temporary_place();
     std::string pattern = (place / "clearway-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr)
-        throw EnvironmentError(fmt::format("{}: cannot make a folder there. Set TMPDIR to a writable folder",
-                                           error ? "TMPDIR" : place.string()));
+    if (::mkdtemp(pattern.data()) == nullptr) throw no_folder(place.string());
     path_ = pattern;
 }
 

@@ -4,6 +4,9 @@
 
 namespace clearway::core {
 
+/// The system's temporary folder, or TMPDIR. Throws EnvironmentError when there is none.
+std::filesystem::path temporary_place();
+
 /// A folder that is removed with its contents when this object is destroyed.
 class TemporaryFolder {
   public:

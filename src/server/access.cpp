@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 
+#include <arpa/inet.h>
+#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/address.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <fmt/format.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 
@@ -24,14 +32,59 @@ std::string in_brackets(const std::string& address) {
     return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
+/// Names are the same in small and capital letters.
+bool same_name(std::string_view one, std::string_view other) {
+    const auto small = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
+    };
+    return std::ranges::equal(one, other, {}, small, small);
+}
+
 /// Whether a `Host` header means this server. Browsers leave out port 80.
 bool is_own_name(std::string_view host, const std::string& reached, const AccessRules& rules) {
     constexpr std::uint16_t usual_port = 80;
-    const std::array names = {in_brackets(rules.host), in_brackets(reached), std::string("localhost"),
-                              std::string("127.0.0.1"), std::string("[::1]")};
+    std::vector<std::string> names = {in_brackets(rules.host), in_brackets(reached), "localhost", "127.0.0.1",
+                                      "[::1]"};
+    if (!rules.token.empty()) names.insert(names.end(), rules.names.begin(), rules.names.end());
     return std::ranges::any_of(names, [&](const std::string& name) {
-        return host == fmt::format("{}:{}", name, rules.port) || (rules.port == usual_port && host == name);
+        return same_name(host, fmt::format("{}:{}", name, rules.port)) ||
+               (rules.port == usual_port && same_name(host, name));
     });
+}
+
+bool is_wildcard(const std::string& host) {
+    boost::system::error_code error;
+    const auto parsed = boost::asio::ip::make_address(host, error);
+    return !error && parsed.is_unspecified();
+}
+
+std::string text_of(const sockaddr& address) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    const void* const bytes =
+        address.sa_family == AF_INET
+            ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in&>(address).sin_addr)
+            : static_cast<const void*>(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+    return ::inet_ntop(address.sa_family, bytes, text.data(), text.size()) == nullptr ? "" : text.data();
+}
+
+/// Addresses of the network interfaces that are up, without those that mean this machine alone and without
+/// link-local ones, which an address line cannot hold.
+std::vector<std::string> interface_addresses(int family) {
+    std::vector<std::string> found;
+    ifaddrs* all = nullptr;
+    if (::getifaddrs(&all) != 0) return found;
+    for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+        if (one->ifa_addr == nullptr || (one->ifa_flags & IFF_UP) == 0) continue;
+        const bool is_meant =
+            one->ifa_addr->sa_family == family || (family == AF_INET6 && one->ifa_addr->sa_family == AF_INET);
+        if (!is_meant) continue;
+        boost::system::error_code error;
+        const auto parsed = boost::asio::ip::make_address(text_of(*one->ifa_addr), error);
+        if (error || parsed.is_loopback() || (parsed.is_v6() && parsed.to_v6().is_link_local())) continue;
+        found.push_back(parsed.to_string());
+    }
+    ::freeifaddrs(all);
+    return found;
 }
 
 }  // namespace
@@ -62,22 +115,66 @@ std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules
 }
 
 void check_token(const std::string& token, const std::string& where) {
+    constexpr std::size_t shortest = 16;  // 64 bits even if only sixteen letters are used, as for hex digits
     constexpr std::size_t longest = 128;
     constexpr std::string_view allowed =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";  // unreserved, RFC 3986, 2.3
-    if (token.size() <= longest && token.find_first_not_of(allowed) == std::string::npos) return;
-    throw core::InputError({where, "the token cannot stand in an address as it is",
-                            fmt::format("letters, digits and - . _ ~, {} at most", longest),
+    if (token.empty()) return;
+    const bool can_stand = token.find_first_not_of(allowed) == std::string::npos && token.size() <= longest;
+    if (can_stand && token.size() >= shortest) return;
+    throw core::InputError({where,
+                            can_stand ? fmt::format("a token of {} characters can be guessed", token.size())
+                                      : "the token cannot stand in an address as it is",
+                            fmt::format("letters, digits and - . _ ~, {} to {} of them", shortest, longest),
                             "Without --token one is drawn where it is needed"});
 }
 
-bool is_loopback(const std::string& address, const std::string& where) {
+std::vector<std::string> addresses_of(const std::string& host, const std::string& where) {
     boost::system::error_code error;
-    const auto parsed = boost::asio::ip::make_address(address, error);
-    if (error)
-        throw core::InputError({where, fmt::format("`{}` is not an address", address),
-                                "an IPv4 or IPv6 address", "127.0.0.1 is this machine alone"});
-    return parsed.is_loopback();
+    boost::asio::ip::make_address(host, error);
+    if (!error) return {host};
+    boost::asio::io_context loop;
+    boost::asio::ip::tcp::resolver resolver(loop);
+    std::vector<std::string> found;
+    for (const auto& entry : resolver.resolve(host, "", error))
+        found.push_back(entry.endpoint().address().to_string());
+    if (error || found.empty())
+        throw core::InputError(
+            {where, fmt::format("`{}` is neither an address nor a name that is known", host),
+             "an IPv4 or IPv6 address, or a name of this machine", "127.0.0.1 is this machine alone"});
+    return found;
+}
+
+bool is_loopback(const std::string& host, const std::string& where) {
+    return std::ranges::all_of(addresses_of(host, where), [](const std::string& address) {
+        return boost::asio::ip::make_address(address).is_loopback();
+    });
+}
+
+std::vector<std::string> own_names() {
+    std::array<char, HOST_NAME_MAX + 1> text{};
+    if (::gethostname(text.data(), text.size() - 1) != 0) return {};
+    const std::string whole = text.data();
+    std::vector<std::string> names;
+    for (const std::string& name : {whole, whole.substr(0, whole.find('.'))}) {
+        if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
+std::vector<std::string> pages_of(const std::string& host, std::uint16_t port, const std::string& token) {
+    std::vector<std::string> places = {host};
+    if (is_wildcard(host)) {
+        places = interface_addresses(host.find(':') == std::string::npos ? AF_INET : AF_INET6);
+        for (const std::string& name : own_names())
+            places.push_back(name);
+        places.emplace_back("127.0.0.1");
+    }
+    std::vector<std::string> pages;
+    for (const std::string& place : places)
+        pages.push_back(
+            fmt::format("http://{}:{}/{}", in_brackets(place), port, token.empty() ? "" : "?token=" + token));
+    return pages;
 }
 
 }  // namespace clearway::server

@@ -47,13 +47,14 @@ std::vector<RunAcceptor> listen_for_runs(asio::io_context& loop, std::size_t run
 
 asio::ip::tcp::acceptor listen_at(asio::io_context& loop, const LiveConfig& config) {
     try {
-        const asio::ip::tcp::endpoint place(asio::ip::make_address(config.host), config.port);
+        const std::string address = addresses_of(config.host, "--host").front();
+        const asio::ip::tcp::endpoint place(asio::ip::make_address(address), config.port);
         return {loop, place, true};
     } catch (const boost::system::system_error& error) {
         const bool is_elsewhere = error.code() == boost::system::errc::address_not_available;
         throw core::EnvironmentError(fmt::format(
             "cannot serve at {} port {}: {}. {}", config.host, config.port, error.code().message(),
-            is_elsewhere ? "--host takes an address of this machine, or 0.0.0.0 for all of them"
+            is_elsewhere ? "--host takes an address or a name of this machine, or 0.0.0.0 for all of them"
                          : "Choose another with --port, or 0 for any that is free"));
     }
 }
@@ -73,7 +74,7 @@ struct LiveServer::State {
           runs(listen_for_runs(loop, config.runs, sockets)),
           feeds(config.runs),
           timer(loop),
-          rules{config.host, browsers.local_endpoint().port(), config.token},
+          rules{config.host, browsers.local_endpoint().port(), config.token, own_names()},
           host{.rules = rules,
                .page = view::live_page(config.title),
                .allow_control = config.allow_control,

@@ -160,6 +160,7 @@ TEST_F(LiveTest, one_condition_can_be_watched_alone_or_beside_another_than_the_b
 TEST_F(LiveTest, beyond_this_machine_a_token_is_printed_and_needed) {
     const core::Child program = start(slowly({"--host", "0.0.0.0"}));
     const std::string address = address_of(program);
+    EXPECT_THAT(address, Not(HasSubstr("0.0.0.0"))) << "what is printed can be opened";
     const std::uint16_t port = port_of(address);
     const std::size_t query = address.find("/?token=");
     ASSERT_NE(query, std::string::npos) << address;
@@ -200,6 +201,33 @@ TEST_F(LiveTest, a_termination_leaves_no_process_and_no_work) {
     end_by(SIGTERM, 143);
 }
 
+TEST_F(LiveTest, what_a_killed_one_leaves_goes_with_the_next) {
+    const std::filesystem::path temporary = folder() / "temporary";
+    std::filesystem::create_directory(temporary);
+    const auto things_in = [](const std::filesystem::path& place) {
+        return std::filesystem::exists(place) ? std::distance(std::filesystem::directory_iterator(place), {})
+                                              : 0;
+    };
+    const core::Child program = start(slowly(), {.environment = {{"TMPDIR", temporary.string()}}});
+    {
+        Viewer viewer(port_of(address_of(program)));
+        viewer.words("welcome");
+    }
+    const std::vector<pid_t> workers = children_of(program.pid);
+    ::kill(program.pid, SIGKILL);
+    finish(program);
+    for (int tries = 0; tries < most_tries && std::ranges::any_of(workers, is_alive); ++tries)
+        std::this_thread::sleep_for(pause);
+    EXPECT_TRUE(std::ranges::none_of(workers, is_alive)) << "no worker outlives the program";
+    EXPECT_EQ(things_in(folder() / "out/work"), 1) << "it could not remove it";
+    EXPECT_EQ(things_in(temporary), 1);
+    const Ended ended = clearway(live({"--speed", "0"}), {.environment = {{"TMPDIR", temporary.string()}}});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out/work"));
+    EXPECT_EQ(things_in(temporary), 0);
+    expect_as_run(ended);
+}
+
 TEST_F(LiveTest, a_run_that_dies_ends_the_other_and_is_told) {
     const core::Child program = start(slowly());
     Viewer viewer(port_of(address_of(program)));
@@ -235,9 +263,10 @@ TEST_F(LiveTest, what_cannot_be_served_or_watched_is_told_and_leaves_no_run_fold
         EXPECT_THAT(ended.out, IsEmpty());
         EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     };
-    refused({"--host", "my-machine"}, 3, "--host: `my-machine` is not an address");
+    refused({"--host", "my..machine"}, 3, "--host: `my..machine` is neither an address nor a name");
     refused({"--host", "192.0.2.7"}, 4, "cannot serve at 192.0.2.7 port 8150: Cannot assign");
     refused({"--host", "0.0.0.0", "--token", "a b"}, 3, "--token: the token cannot stand in an address");
+    refused({"--host", "0.0.0.0", "--token", "a"}, 3, "a token of 1 characters can be guessed");
     refused({"--port", "65536"}, 2, "--port: 65536 is out of range (allowed: 0 to 65535)");
     refused({"--port", "-1"}, 2, "(allowed: 0 to 65535)");
     refused({"--port", "http"}, 2, "(allowed: 0 to 65535)");

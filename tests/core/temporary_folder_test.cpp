@@ -3,10 +3,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/process_folder.hpp"
 
 namespace clearway::core {
 namespace {
@@ -50,6 +54,43 @@ TEST(TemporaryFolderTest, SaysWhatToDoWhereNoneCanBeMade) {
     }
     before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
     EXPECT_THAT(message, HasSubstr("/proc: cannot make a folder there. Set TMPDIR"));
+}
+
+/// A process that has ended, and that nobody has begun anew.
+pid_t ended_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+TEST(ProcessFolderTest, RemovesWhatKilledProcessesLeftAndNothingElse) {
+    const TemporaryFolder place;
+    const auto folder_of = [&](const std::string& name) {
+        std::filesystem::create_directories(place.path() / name / "below");
+        return place.path() / name;
+    };
+    const std::string gone = std::to_string(ended_process());
+    const auto left = folder_of("live-" + gone + "-a1b2c3");
+    const std::vector kept = {folder_of("live-" + std::to_string(::getppid()) + "-a1b2c3"),
+                              folder_of("mine"),
+                              folder_of("live-"),
+                              folder_of("live-0-a"),
+                              folder_of("live-x-a"),
+                              folder_of("live-" + gone),
+                              folder_of("other-" + gone + "-a")};
+    const auto mine = process_folder(place.path(), "live-");
+    EXPECT_FALSE(std::filesystem::exists(left));
+    for (const auto& folder : kept)
+        EXPECT_TRUE(std::filesystem::exists(folder / "below")) << folder;
+    EXPECT_THAT(mine.filename().string(), testing::StartsWith("live-" + std::to_string(::getpid()) + "-"));
+    EXPECT_EQ(std::filesystem::status(mine).permissions(), std::filesystem::perms::owner_all);
+    EXPECT_NE(process_folder(place.path(), "live-"), mine) << "and its own stay";
+    EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+TEST(ProcessFolderTest, APlaceWhereNothingCanBeMadeIsTold) {
+    EXPECT_THROW(process_folder("/proc/clearway", "live-"), EnvironmentError);
 }
 
 }  // namespace

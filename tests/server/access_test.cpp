@@ -87,16 +87,16 @@ TEST_F(AccessTest, what_is_no_request_or_too_long_is_refused) {
 
 TEST(Access, with_a_token_nothing_is_served_without_it) {
     LiveConfig config;
-    config.token = "secret";
+    config.token = "secret-of-sixteen";
     LiveShow show(config);
     const std::uint16_t port = show.port();
     const std::string own = origin(fmt::format("http://127.0.0.1:{}", port));
-    for (const char* const target :
-         {"/", "/?token=", "/?token=wrong", "/?token=secre", "/?token=secret2", "/?x=secret"})
+    for (const char* const target : {"/", "/?token=", "/?token=wrong", "/?token=secret-of-sixtee",
+                                     "/?token=secret-of-sixteen2", "/?x=secret-of-sixteen"})
         EXPECT_EQ(get(port, target).status, 401U) << target;
     EXPECT_EQ(get(port, "/stream", upgrade + own).status, 401U);
-    EXPECT_EQ(get(port, "/?token=secret").status, 200U);
-    EXPECT_EQ(get(port, "/stream?token=secret", upgrade + own).status, 101U);
+    EXPECT_EQ(get(port, "/?token=secret-of-sixteen").status, 200U);
+    EXPECT_EQ(get(port, "/stream?token=secret-of-sixteen", upgrade + own).status, 101U);
 }
 
 TEST(Access, beyond_this_machine_there_is_no_server_without_a_token) {
@@ -111,13 +111,14 @@ TEST(Access, beyond_this_machine_there_is_no_server_without_a_token) {
 TEST(Access, at_all_addresses_the_one_that_was_reached_is_its_name) {
     LiveConfig config;
     config.host = "0.0.0.0";
-    config.token = "secret";
+    config.token = "secret-of-sixteen";
     LiveShow show(config);
-    EXPECT_EQ(get(show.port(), "/?token=secret").status, 200U);
+    EXPECT_EQ(get(show.port(), "/?token=secret-of-sixteen").status, 200U);
     EXPECT_EQ(
-        get(show.port(), "/?token=secret", fmt::format("Host: evil.example:{}\r\n", show.port())).status,
+        get(show.port(), "/?token=secret-of-sixteen", fmt::format("Host: evil.example:{}\r\n", show.port()))
+            .status,
         403U);
-    const AccessRules rules{"0.0.0.0", 8150, "secret"};
+    const AccessRules rules{"0.0.0.0", 8150, "secret"};  // the rules take whatever they are given
     RequestWords words{.method = "GET",
                        .target = "/?token=secret",
                        .host = "192.0.2.7:8150",
@@ -137,14 +138,87 @@ TEST(Access, browsers_leave_out_port_80) {
 
 TEST(Access, a_token_can_stand_in_an_address_as_it_is) {
     check_token("", "--token");
-    check_token("aZ09-._~", "--token");
+    check_token("aZ09-._~aZ09-._~", "--token");
     check_token(std::string(128, 'x'), "--token");
     for (const std::string& token :
          {std::string("a b"), std::string("a&b"), std::string("a#b"), std::string("100%"),
           std::string("\xc3\xa4"), std::string("a\0b", 3), std::string(129, 'x')})
         EXPECT_THAT(support::message_of<core::InputError>([&] { check_token(token, "--token"); }),
-                    AllOf(HasSubstr("--token"), HasSubstr("letters, digits and - . _ ~, 128 at most")))
+                    AllOf(HasSubstr("--token"), HasSubstr("letters, digits and - . _ ~, 16 to 128 of them")))
             << token;
+}
+
+TEST(Access, a_token_that_can_be_guessed_is_refused) {
+    for (const std::size_t length : {1, 8, 15})
+        EXPECT_THAT(
+            support::message_of<core::InputError>([&] { check_token(std::string(length, 'x'), "--token"); }),
+            AllOf(HasSubstr("--token"), HasSubstr(fmt::format("a token of {} characters", length)),
+                  HasSubstr("16 to 128")));
+    support::TemporaryFolder folder;
+    LiveConfig config;
+    config.token = "a";
+    EXPECT_THROW(LiveServer(config, folder.path()), core::InputError);
+}
+
+TEST(Access, names_of_this_machine_are_taken_with_a_token_alone) {
+    AccessRules rules{"0.0.0.0", 8150, "secret", {"desk.example.org", "desk"}};
+    RequestWords words{.method = "GET", .target = "/?token=secret", .host = {}, .origin = {}};
+    const auto status_with = [&](const char* host) {
+        words.host = host;
+        const auto refusal = refusal_of(words, rules);
+        return refusal ? refusal->status : 200U;
+    };
+    for (const char* const host : {"desk:8150", "desk.example.org:8150", "DESK:8150"})
+        EXPECT_EQ(status_with(host), 200U) << host;
+    for (const char* const host : {"desk", "desk:8151", "disk:8150", "desk.evil.example:8150"})
+        EXPECT_EQ(status_with(host), 403U) << host;
+    words.target = "/";
+    EXPECT_EQ(status_with("desk:8150"), 401U) << "the token is needed all the same";
+    rules.token.clear();
+    EXPECT_EQ(status_with("desk:8150"), 403U) << "a page elsewhere could bear that name";
+}
+
+TEST(Access, a_server_answers_to_the_name_of_its_machine) {
+    const std::vector<std::string> names = own_names();
+    if (names.empty()) GTEST_SKIP() << "this machine has no name";
+    LiveConfig config;
+    config.host = "0.0.0.0";
+    config.token = "secret-of-sixteen";
+    LiveShow show(config);
+    for (const std::string& name : names) {
+        const std::string host = fmt::format("Host: {}:{}\r\n", name, show.port());
+        EXPECT_EQ(get(show.port(), "/?token=secret-of-sixteen", host).status, 200U) << name;
+        const std::string own = origin(fmt::format("http://{}:{}", name, show.port()));
+        EXPECT_EQ(get(show.port(), "/stream?token=secret-of-sixteen", host + upgrade + own).status, 101U);
+        EXPECT_EQ(get(show.port(), "/", host).status, 401U);
+    }
+    LiveShow without;
+    EXPECT_EQ(get(without.port(), "/", fmt::format("Host: {}:{}\r\n", names[0], without.port())).status,
+              403U);
+}
+
+TEST(Access, a_name_can_be_listened_at) {
+    LiveConfig config;
+    config.host = "localhost";
+    LiveShow show(config);
+    EXPECT_EQ(get(show.port(), "/").status, 200U);
+    EXPECT_EQ(pages_of("localhost", 8150, ""), std::vector<std::string>{"http://localhost:8150/"});
+}
+
+TEST(Access, what_is_printed_can_be_opened) {
+    EXPECT_EQ(pages_of("127.0.0.1", 80, ""), std::vector<std::string>{"http://127.0.0.1:80/"});
+    EXPECT_EQ(pages_of("::1", 8150, "x"), std::vector<std::string>{"http://[::1]:8150/?token=x"});
+    for (const char* const everywhere : {"0.0.0.0", "::"}) {
+        const std::vector<std::string> pages = pages_of(everywhere, 8150, "secret");
+        EXPECT_EQ(pages.back(), "http://127.0.0.1:8150/?token=secret");
+        for (const std::string& page : pages) {
+            EXPECT_THAT(page,
+                        AllOf(testing::StartsWith("http://"), testing::EndsWith(":8150/?token=secret")));
+            EXPECT_THAT(page, Not(AnyOf(HasSubstr("//0.0.0.0:"), HasSubstr("//[::]:")))) << everywhere;
+        }
+        for (const std::string& name : own_names())
+            EXPECT_THAT(pages, testing::Contains(fmt::format("http://{}:8150/?token=secret", name)));
+    }
 }
 
 TEST(Access, an_address_is_of_this_machine_alone_or_not) {
@@ -154,8 +228,10 @@ TEST(Access, an_address_is_of_this_machine_alone_or_not) {
     EXPECT_FALSE(is_loopback("0.0.0.0", "--host"));
     EXPECT_FALSE(is_loopback("::", "--host"));
     EXPECT_FALSE(is_loopback("192.0.2.7", "--host"));
-    EXPECT_THAT(support::message_of<core::InputError>([] { is_loopback("my-machine", "--host"); }),
-                AllOf(HasSubstr("--host"), HasSubstr("my-machine"), HasSubstr("127.0.0.1")));
+    EXPECT_TRUE(is_loopback("localhost", "--host"));
+    EXPECT_THAT(support::message_of<core::InputError>([] { is_loopback("my..machine", "--host"); }),
+                AllOf(HasSubstr("--host"), HasSubstr("`my..machine` is neither an address nor a name"),
+                      HasSubstr("127.0.0.1")));
 }
 
 }  // namespace

@@ -320,10 +320,10 @@ TEST(LiveServer, an_address_of_another_machine_is_told) {
     support::TemporaryFolder folder;
     LiveConfig config;
     config.host = "192.0.2.7";
-    config.token = "secret";
+    config.token = "secret-of-sixteen";
     EXPECT_THAT(support::message_of<core::EnvironmentError>([&] { LiveServer(config, folder.path()); }),
                 AllOf(HasSubstr("192.0.2.7"), HasSubstr("Cannot assign"),
-                      HasSubstr("--host takes an address of this machine")));
+                      HasSubstr("--host takes an address or a name of this machine")));
 }
 
 }  // namespace
