@@ -61,6 +61,8 @@ export class Player {
   private newest = true;
   private readonly speedChoice: HTMLSelectElement;
   private following = true;
+  /** Whether a live run has shown no emergency vehicle yet: the view comes near when one enters. */
+  private awaits = false;
   private last_ms = 0;
   private pending = 0;
   /** Pictures that were asked for, and those that were drawn: one may show what several asked for. */
@@ -102,7 +104,8 @@ export class Player {
     this.map.layOut();
     this.camera = this.map.whole();
     this.chooseFollowed();
-    if (this.followed.some((slot) => slot !== undefined)) this.camera.zoom = Math.max(this.camera.zoom, followZoom);
+    this.awaits = this.live !== undefined;
+    if (this.followed.some((slot) => slot !== undefined)) this.comeNear();
     this.refreshCurves(true);
     this.draw();
     if (this.live !== undefined) this.play(true);
@@ -121,6 +124,7 @@ export class Player {
   arrived(): void {
     if (this.live === undefined || !this.newest || this.playing) return;
     this.time_s = this.newest_s;
+    this.chooseFollowed();
     this.draw();
   }
 
@@ -152,6 +156,7 @@ export class Player {
 
   /** Shows a place; the view follows nobody any more. */
   look(camera: Camera): void {
+    this.awaits = false;
     this.setFollowing(false);
     this.camera = camera;
     this.draw();
@@ -289,12 +294,25 @@ export class Player {
     this.zoom(event.deltaY < 0 ? 0.25 : -0.25);
   }
 
+  private comeNear(): void {
+    this.awaits = false;
+    this.camera = { ...this.camera, zoom: Math.max(this.camera.zoom, followZoom) };
+  }
+
+  /** An emergency vehicle may enter after the page was opened; who has chosen a view keeps it. */
+  private comeNearWho(moments: Moment[]): void {
+    const enters = (slot: number | undefined, i: number) => slot !== undefined && (moments[i] as Moment).now.rowOf(slot) >= 0;
+    if (this.awaits && this.following && this.followed.some(enters)) this.comeNear();
+  }
+
   private zoom(by: number): void {
+    this.awaits = false;
     this.camera = { ...this.camera, zoom: Math.min(6, Math.max(-8, this.camera.zoom + by)) };
     this.draw();
   }
 
   private moveTo(camera: Camera): void {
+    this.awaits = false;
     this.setFollowing(false);
     this.camera = camera;
     this.draw();
@@ -393,6 +411,7 @@ export class Player {
   private draw(): void {
     const moments = this.tracks.map((track) => track.at(this.time_s));
     if (this.calm.matches) moments.forEach((moment) => (moment.share = 0));
+    this.comeNearWho(moments);
     this.element.dataset.asked = String(++this.asked);
     this.map.draw(moments, this.cameras(moments), this.shown);
     this.timeLine.show(this.time_s, this.begin_s, this.end_s, this.tracks);
@@ -400,6 +419,7 @@ export class Player {
     this.clock.value = `${this.time_s.toFixed(2)} s`;
     this.tracks.forEach((track, i) => this.captionOf(track, i, moments[i] as Moment));
     this.element.dataset.time = this.time_s.toFixed(3);
+    this.element.dataset.zoom = this.camera.zoom.toFixed(3);
   }
 
   private cameras(moments: Moment[]): Camera[] {

@@ -176,6 +176,28 @@ test("who may only watch stops the picture and not the runs", options, async () 
   await close();
 });
 
+test("the view comes near the emergency vehicle when it enters, but for who has chosen another", options, async () => {
+  const { address, program, ended } = await serve("runs/near", "--speed", "1", "--allow-control");
+  const [waits, chose] = [await watch(address), await watch(address)];
+  const zoomOf = async ({ page }) => Number(await page.locator(".play").getAttribute("data-zoom"));
+  const captionOf = ({ page }) => page.locator(".caption").first().textContent();
+  await chose.page.getByRole("button", { name: "Farther" }).click();
+  const whole = await zoomOf(waits);
+  const chosen = await zoomOf(chose);
+  assert.ok(whole < 2.2 && chosen < whole, `${whole}, ${chosen}`);
+  for (const one of [waits, chose]) assert.match(await captionOf(one), /: no emergency vehicle/);
+  await waits.page.getByLabel("Speed").selectOption("30");
+  for (const one of [waits, chose]) await until("one enters", async () => / km\/h; /.test(await captionOf(one)));
+  assert.equal(await zoomOf(waits), 2.2);
+  assert.equal(await zoomOf(chose), chosen);
+  program.kill("SIGINT");
+  assert.deepEqual(await ended, [130, null]);
+  for (const { faults, close } of [waits, chose]) {
+    assert.deepEqual(faults, []);
+    await close();
+  }
+});
+
 test("the page fits phones, tablets and desks, light and dark, and obeys the keyboard and the wish for less motion", options, async () => {
   const { address, program, ended } = await serve("runs/sizes", "--speed", "2", "--allow-control");
   for (const [width, colorScheme] of [[360, "dark"], [768, "light"], [1440, "dark"]]) {
