@@ -18,6 +18,7 @@
 #include "cli/detail/recorded_network.hpp"
 #include "cli/detail/replay_page.hpp"
 #include "cli/verb.hpp"
+#include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "results/run_name.hpp"
@@ -125,10 +126,6 @@ trace::RoadNames names_of(const roads::Network& network) {
 core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arguments,
                          const std::string& header,
                          const std::function<std::string(const trace::RecordedStep&)>& lines) {
-    if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s)
-        throw core::InputError({"--from",
-                                fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s),
-                                "", "Swap them"});
     fmt::print("{}", header);
     std::optional<double> begin_s;
     double end_s = 0.0;
@@ -292,7 +289,15 @@ bool is_same(const trace::ReplayResult& result) {
            result.beliefs.same == result.beliefs.compared && result.leases.same == result.leases.compared;
 }
 
+void require_order(const Arguments& arguments) {
+    if (!arguments.from_s || !arguments.to_s || *arguments.from_s <= *arguments.to_s) return;
+    throw core::InputError({"--from",
+                            fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s), "",
+                            "Swap them"});
+}
+
 core::ExitCode replay_file(Arguments arguments) {
+    require_order(arguments);
     if (arguments.is_viewed)
         return write_replay_page(
             {arguments.runs, arguments.network, arguments.page, {arguments.from_s, arguments.to_s}});
@@ -345,10 +350,13 @@ void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                                  ->group(group);
     for (CLI::Option* const other : others)
         csv->excludes(other);
+    const core::NumberRange times{0.0, 1e9};
     app.add_option("--from", arguments->from_s, "First simulation time of the table or page, s")
+        ->check(times)
         ->option_text("SECONDS [beginning]")
         ->group(group);
     app.add_option("--to", arguments->to_s, "Last simulation time of the table or page, s")
+        ->check(times)
         ->option_text("SECONDS [end]")
         ->group(group);
 }

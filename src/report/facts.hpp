@@ -273,6 +273,15 @@ struct WideEdge {
     int car_lanes = 0;
 };
 
+/// An edge outside junctions that emergency vehicles may drive.
+struct NetworkEdge {
+    std::string edge;
+    std::string street;  ///< May be empty.
+    double length_m = 0.0;
+    double limit_mps = 0.0;
+    bool signal = false;  ///< Whether it ends at a signal.
+};
+
 struct ScenarioFacts {
     std::string name;
     /// Scenario of the dissertation whose published numbers are shown; empty in other studies.
@@ -283,6 +292,7 @@ struct ScenarioFacts {
     std::string attribution;  ///< Credit that the map data requires; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
+    std::vector<NetworkEdge> network_edges;           ///< Empty if the folder does not list them.
     std::optional<std::uint64_t> signals;             ///< Of the network; nothing if the folder does not say.
     double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
     std::uint64_t replications = 0;

@@ -366,6 +366,17 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const fs::path& file) {
     }
 }
 
+std::vector<NetworkEdge> edges_of(const RoadMap& roads, const fs::path& streets_file) {
+    const auto streets = detail::streets_in(streets_file);
+    std::vector<NetworkEdge> edges;
+    for (const MapEdge& edge : roads.edges) {
+        const auto street = streets.find(edge.id);
+        edges.push_back({edge.id, street == streets.end() ? "" : street->second, edge.length_m,
+                         edge.limit_mps, edge.signal});
+    }
+    return edges;
+}
+
 /// Of a stored scenario.toml; 0 if it does not say.
 double step_length_in(const std::string& configuration) {
     return core::parse_toml(configuration, "manifest.json")["time"]["step_length_s"].value_or(0.0);
@@ -425,8 +436,10 @@ StudyFacts facts_of(const results::Results& results, const analysis::Summary& su
     for (ScenarioFacts& scenario : study.scenarios)
         scenario.journeys = detail::journeys_in(store, scenario);
     for (ScenarioFacts& scenario : study.scenarios) {
-        auto roads = detail::roads_in(store.scenario_folder(scenario.name) / "roads.json");
+        const fs::path home = store.scenario_folder(scenario.name);
+        auto roads = detail::roads_in(home / "roads.json");
         if (!roads) continue;
+        scenario.network_edges = edges_of(*roads, home / "streets.json");
         scenario.signals = roads->signals.size();
         scenario.map = detail::map_in(store, study, scenario, std::move(*roads));
     }

@@ -1,9 +1,10 @@
-// What `clearway check` thinks of a baseline run.
+// What verbs say: what `clearway check` thinks of a baseline run, cures, pages that were written.
 #include "cli/detail/fitness.hpp"
 
 #include <gmock/gmock.h>
 
 #include "cli/detail/abort_cure.hpp"
+#include "cli/detail/replay_page.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -71,6 +72,12 @@ TEST(AbortCure, goes_by_the_assertion) {
     EXPECT_THAT(cure_of_abort(error), HasSubstr("--time-to-teleport -1"));
     error.cause = results::ErrorCause::simulator;
     EXPECT_EQ(cure_of_abort(error), "");
+}
+
+TEST(ReplayPage, says_how_large_it_is_and_how_a_large_one_gets_smaller) {
+    EXPECT_EQ(written_words("a.html", 450'000), "written: a.html, 0.5 MB; open it in a browser");
+    EXPECT_THAT(written_words("a.html", 18'200'000),
+                testing::AllOf(HasSubstr("a.html, 18.2 MB"), HasSubstr("--from SECONDS --to SECONDS")));
 }
 
 }  // namespace

@@ -74,15 +74,42 @@ TEST_F(ReplayTest, a_run_or_two_side_by_side_become_one_page) {
     const Ended one = clearway({"replay", run_of_mine, "--view"});
     ASSERT_EQ(one.code, 0) << one.err;
     EXPECT_EQ(one.out, "line-mine-0.html\n");
+    EXPECT_THAT(one.err, HasSubstr("written: line-mine-0.html, 0."));
     EXPECT_THAT(read("line-mine-0.html"), testing::HasSubstr("script-src 'sha256-"));
     const Ended two =
         clearway({"replay", "out/line/baseline/0", run_of_mine, "--view", "--out", "both.html"});
     ASSERT_EQ(two.code, 0) << two.err;
     EXPECT_THAT(read("both.html"), testing::HasSubstr("line/baseline/0 and line/mine/0"));
+    EXPECT_THAT(two.err, testing::Not(testing::HasSubstr("is not the same")));
     EXPECT_GT(read("both.html").size(), read("line-mine-0.html").size());
     const Ended cut = clearway({"replay", run_of_mine, "--view", "--to", "30", "--out", "cut.html"});
     ASSERT_EQ(cut.code, 0) << cut.err;
     EXPECT_LT(read("cut.html").size(), read("line-mine-0.html").size());
+}
+
+TEST_F(ReplayTest, two_runs_with_other_traffic_go_side_by_side_with_a_word) {
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "2", "--no-solo", "--record", "--out", "out"}).code, 0);
+    const Ended two =
+        clearway({"replay", "out/line/baseline/0", "out/line/corridor/1", "--view", "--out", "both.html"});
+    ASSERT_EQ(two.code, 0) << two.err;
+    EXPECT_THAT(two.err,
+                HasSubstr("the traffic of line/baseline/0 (seed 1) and line/corridor/1 (seed 1) is not "
+                          "the same"));
+}
+
+TEST_F(ReplayTest, times_that_are_none_are_refused) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    for (const char* const time : {"nan", "inf", "-1", "soon", "1e99"}) {
+        for (const char* const option : {"--from", "--to"}) {
+            const Ended ended = clearway({"replay", run_of_mine, "--view", option, time});
+            EXPECT_EQ(ended.code, 2) << option << " " << time;
+            EXPECT_THAT(ended.err, AllOf(HasSubstr(option), HasSubstr("allowed: 0 to 1000000000")));
+        }
+    }
+    const Ended swapped = clearway({"replay", run_of_mine, "--view", "--from", "9", "--to", "8"});
+    EXPECT_EQ(swapped.code, 3);
+    EXPECT_THAT(swapped.err, HasSubstr("Swap them"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "line-mine-0.html"));
 }
 
 TEST_F(ReplayTest, bad_input_of_a_page_is_told) {

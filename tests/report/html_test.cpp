@@ -96,6 +96,26 @@ TEST(Page, escapes_every_text_that_comes_from_files) {
     EXPECT_GE(count_of(page, "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;"), 30u);
 }
 
+TEST(Page, explains_colours_of_signals_only_where_they_are) {
+    const auto trip_of = [](const StudyFacts& study) {
+        const std::string page = page_of(study);
+        const std::size_t begin = page.find("id=\"trip-merge\"");
+        return page.substr(begin, page.find("</figure>", begin) - begin);
+    };
+    StudyFacts study = tests::study({"merge"});
+    const std::string with = trip_of(study);
+    for (const char* const text : {">red</text>", ">yellow</text>", ">green</text>", "drawn twice"})
+        EXPECT_THAT(with, HasSubstr(text));
+    for (JourneyFacts& journey : study.scenarios[0].journeys)
+        std::erase_if(journey.signals, [](const SignalSpan& span) { return span.state != "green"; });
+    EXPECT_THAT(trip_of(study), AllOf(HasSubstr(">green</text>"), Not(HasSubstr(">red</text>"))));
+    for (JourneyFacts& journey : study.scenarios[0].journeys)
+        journey.signals.clear();
+    EXPECT_THAT(trip_of(study),
+                AllOf(HasSubstr("No signal stands on its route."), Not(HasSubstr(">green</text>")),
+                      Not(HasSubstr(">red</text>")), Not(HasSubstr("drawn twice"))));
+}
+
 TEST(Page, never_prints_nan_for_what_is_missing) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {

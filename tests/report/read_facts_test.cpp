@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "report/console.hpp"
+#include "report/figure_files.hpp"
 #include "report/page.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -254,6 +256,22 @@ TEST_F(RunFolder, tells_how_many_signals_the_network_has) {
     EXPECT_EQ(read_facts(study()).scenarios[0].signals, 0U);
     write("scenarios/merge/roads.json", "{}");
     EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
+}
+
+TEST_F(RunFolder, lists_the_edges_of_the_network_for_its_figure) {
+    EXPECT_TRUE(read_facts(study()).scenarios[0].network_edges.empty());
+    write("scenarios/merge/network.svg", "<svg class=\"network\" viewBox=\"0 0 1 1\"></svg>");
+    write("scenarios/merge/streets.json", R"({"a1": "Long Street"})");
+    write("scenarios/merge/wide_edges.json", R"([{"edge":"a2","street":"","car_lanes":4}])");
+    write("scenarios/merge/roads.json", R"({"edges": [
+        {"id": "a1", "to": [1], "signal": true, "length_m": 120.25, "limit_mps": 13.89, "shape_m": []},
+        {"id": "a2", "to": [], "signal": false, "length_m": 80.0, "limit_mps": 8.3333, "shape_m": []}],
+        "signals": [], "stations": []})");
+    write_figures(read_facts(study()), folder.path() / "figures");
+    EXPECT_EQ(core::read_file(folder.path() / "figures" / "network-merge.csv"),
+              "edge,street,\"length, m\",\"limit, km/h\",ends at a signal,lanes for cars\n"
+              "a1,Long Street,120.2,50,yes,1 or 2\n"
+              "a2,,80.0,30,no,4\n");
 }
 
 TEST(ReadFacts, refuses_what_is_no_run_folder) {

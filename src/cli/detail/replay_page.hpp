@@ -17,6 +17,9 @@ struct ReplayPage {
     view::Window window;
 };
 
+/// What is said of a page once it is written: where, how large, and for a large one how to make it smaller.
+std::string written_words(const std::filesystem::path& file, std::size_t bytes);
+
 /// Writes a page that plays the runs side by side, and says where it is. Throws core::InputError for runs
 /// that are not recorded, or not on one network.
 core::ExitCode write_replay_page(const ReplayPage& page);

@@ -116,7 +116,8 @@ dl.facts{display:grid;grid-template-columns:minmax(8rem,auto) 1fr;gap:.25rem 1.2
 dl.facts dt{color:var(--muted)}dl.facts dd{margin:0;overflow-wrap:anywhere}
 footer{padding-top:2rem;padding-bottom:3rem;color:var(--muted);font-size:.85rem}
 @media(max-width:560px){dl.facts{grid-template-columns:1fr}dl.facts dt{margin-top:.5rem}.tiles{grid-template-columns:1fr;gap:8px}
-.tile{padding:.5rem .8rem}tbody th{min-width:7.5rem}th,td{padding:.4rem .5rem}}
+.tile{padding:.5rem .8rem}tbody th{min-width:7.5rem}th,td{padding:.4rem .5rem}
+nav{white-space:nowrap;overflow-x:auto;margin-right:-16px;padding-bottom:.3rem}}
 @media(min-width:561px){.scroll table.paired tbody th,.scroll table.paired thead th:first-child{position:sticky;left:0;
 background:var(--paper)}}
 @media print{:root{color-scheme:light}body{font-size:10.5pt}nav,.save{display:none}h2{break-after:avoid}

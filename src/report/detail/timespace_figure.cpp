@@ -35,6 +35,16 @@ void draw_signals(Plot& plot, const JourneyFacts& journey, double below) {
     }
 }
 
+/// Colours of signals that are there, and no others.
+void add_signal_colours(const JourneyFacts& without, const JourneyFacts& with,
+                        std::vector<LegendEntry>& legend) {
+    for (const char* const state : {"red", "yellow", "green"}) {
+        const auto shows = [&](const SignalSpan& span) { return span.state == state; };
+        if (std::ranges::any_of(without.signals, shows) || std::ranges::any_of(with.signals, shows))
+            legend.push_back(stripe_entry(fmt::format("signal-{}", state).c_str(), state));
+    }
+}
+
 void draw_way(Plot& plot, const JourneyFacts& journey, std::size_t series) {
     std::vector<std::pair<double, double>> points;
     for (const JourneyPlace& place : journey.places)
@@ -75,19 +85,23 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     const auto series = static_cast<std::size_t>(&condition - scenario.conditions.data());
     draw_way(plot, *without, *condition.baseline);
     draw_way(plot, *with, series);
-    plot.legend({line_entry(*condition.baseline, baseline.label()), line_entry(series, condition.label()),
-                 stripe_entry("signal-red", "red"), stripe_entry("signal-yellow", "yellow"),
-                 stripe_entry("signal-green", "green")});
+    std::vector<LegendEntry> legend = {line_entry(*condition.baseline, baseline.label()),
+                                       line_entry(series, condition.label())};
+    add_signal_colours(*without, *with, legend);
+    plot.legend(legend);
     DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};
     add_data(*without, data);
     add_data(*with, data);
     const double saved_s = without->places.back().time_s - with->places.back().time_s;
     return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
-            fmt::format("Vehicle {}, replication {}: {} s {}. A level piece is a stop. Signals on its route "
-                        "are drawn twice: without the condition above the stop line, with it below. Of the "
-                        "trips that were kept its gain is nearest to the mean.",
+            fmt::format("Vehicle {}, replication {}: {} s {}. A level piece is a stop. {} Of the trips that "
+                        "were kept its gain is nearest to the mean.",
                         with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
-                        saved_s >= 0.0 ? "sooner" : "later"),
+                        saved_s >= 0.0 ? "sooner" : "later",
+                        without->signals.empty() && with->signals.empty()
+                            ? "No signal stands on its route."
+                            : "Signals on its route are drawn twice: without the condition above the stop "
+                              "line, with it below."),
             std::move(data)};
 }
 
