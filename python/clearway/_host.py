@@ -1,4 +1,5 @@
-"""The process of one part in Python: `python3 -m clearway._host MEMORY READ WRITE`, started by Clearway's worker, not by hand.
+"""The process of one part in Python: `python3 -m clearway._host MEMORY READ WRITE`, started by Clearway's worker, not by hand, or
+a copy of the nursery (_nursery.py).
 
 It loads the file, makes the part and answers questions until its pipe ends. Whatever user code prints goes to the worker's log.
 """
@@ -10,12 +11,15 @@ import inspect
 import json
 import math
 import os
+import random
 import signal
 import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
 from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
@@ -126,13 +130,15 @@ def end_group(*_: Any) -> None:
     os.killpg(0, signal.SIGKILL)
 
 
-def main() -> None:
+def be_part(memory: int, read: int, write: int) -> None:
+    """All that this process does from now on. Never returns."""
     os.setpgid(0, 0)
     signal.signal(signal.SIGTERM, end_group)
-    memory, read, write = (int(word) for word in sys.argv[1:4])
     for descriptor in (memory, read, write):
         os.set_inheritable(descriptor, False)  # what user code starts must not hold the pipes open
     os.dup2(2, 1)  # standard output belongs to the program that started this process
+    random.seed(0)  # who draws without a seed of their own gets the same numbers in every run, so that a run can be made again
+    np.random.seed(0)
     channel = Channel(memory, read, write)
     try:
         serve(channel)
@@ -146,4 +152,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    be_part(*map(int, sys.argv[1:4]))

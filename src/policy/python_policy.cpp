@@ -1,5 +1,7 @@
 #include "policy/python_policy.hpp"
 
+#include <fmt/format.h>
+
 #include "policy/detail/belief_sheet.hpp"
 #include "policy/detail/lease_reader.hpp"
 #include "python/part_process.hpp"
@@ -31,7 +33,11 @@ void PythonPolicy::act(const traffic::BelievedGraph& belief, std::vector<traffic
     const detail::View view(state_->network, belief);
     detail::write_belief(view, view.emergency_vehicles(), state_->process.question());
     state_->process.ask();
-    detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
+    try {
+        detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
+    } catch (const python::PartError& error) {
+        throw python::PartError(fmt::format("{}: {}", *name_, error.what()));
+    }
 }
 
 }  // namespace clearway::policy

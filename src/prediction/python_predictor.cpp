@@ -114,10 +114,13 @@ class PythonPredictor final : public detail::PairwisePredictor {
         if (scene.candidates.size() == 0) return;
         write(scene);
         process_.ask();
-        const std::span<const float> answer = process_.answer().read<float>(0);
-        if (answer.size() != probabilities.size())
-            throw python::PartError(fmt::format("{}: {} probabilities for {} candidates", name_,
-                                                answer.size(), probabilities.size()));
+        const std::span<const float> answer = process_.answer_array<float>(0);
+        const bool fits = answer.size() == probabilities.size() &&
+                          std::ranges::all_of(answer, [](float one) { return one >= 0.0F && one <= 1.0F; });
+        if (!fits)
+            throw python::PartError(
+                fmt::format("{}: {} values are not the probabilities of {} candidates, each 0 to 1", name_,
+                            answer.size(), probabilities.size()));
         std::ranges::copy(answer, probabilities.begin());
     }
     void write(const Scene& scene) {

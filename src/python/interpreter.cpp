@@ -35,7 +35,10 @@ core::Command run_module(const std::string& module, const std::vector<std::strin
     const std::string before = setting_of("PYTHONPATH", "");
     if (!before.empty()) path += ":" + before;
     core::Command command{
-        .program = interpreter(), .arguments = {"-m", module}, .environment = {{"PYTHONPATH", path}}};
+        .program = interpreter(),
+        .arguments = {"-m", module},
+        .environment = {{"PYTHONPATH", path},
+                        {"PYTHONHASHSEED", "0"}}};  // sets of words in one order in every run
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
     return command;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <string>
-
-#include <sys/types.h>
 
 #include "core/settings.hpp"
 #include "python/channel.hpp"
+#include "python/nursery.hpp"
 #include "python/part_name.hpp"
 #include "python/sheet.hpp"
 #include "roads/network.hpp"
@@ -29,22 +29,8 @@ struct Greeting {
 /// The greeting as JSON: sheets, the network's lanes, edges and signals (numbers as in sheets).
 std::string to_json(const PartName& name, const Greeting& greeting);
 
-/// A child process that ends with its owner: SIGTERM, a second of patience, SIGKILL.
-class OwnedChild {
-  public:
-    explicit OwnedChild(pid_t pid = -1) : pid_(pid) {}
-    ~OwnedChild();
-    OwnedChild(const OwnedChild&) = delete;
-    OwnedChild& operator=(const OwnedChild&) = delete;
-    /// Waits for its end and says how it ended.
-    std::string wait();
-
-  private:
-    pid_t pid_;
-};
-
-/// A Python process with one part of a condition. It is started by the process of a run, runs CLEARWAY_PYTHON
-/// (/usr/bin/python3) and ends with its owner: its pipe ends, and SIGTERM comes when the owner was killed.
+/// A Python process with one part of a condition. It is started for the process of a run, is CLEARWAY_PYTHON
+/// (/usr/bin/python3) and ends with its owner (Host).
 class PartProcess {
   public:
     /// Starts Python, loads the file and makes the part. Throws PartError with the traceback when that fails,
@@ -56,8 +42,15 @@ class PartProcess {
     /// Asks and waits for the answer. Throws PartError with the traceback of an exception, or what became of
     /// the process.
     void ask();
-    /// Valid until the next `ask`.
-    const Sheet& answer() const { return answer_; }
+    /// An array of the answer, valid until the next `ask`. Throws PartError when it lies outside the memory.
+    template <class Value>
+    std::span<const Value> answer_array(std::size_t column) const {
+        try {
+            return answer_.read<Value>(column);
+        } catch (const std::out_of_range& error) {
+            throw PartError(label_ + ": its answer: " + error.what());
+        }
+    }
     std::string answer_text() const { return channel_.read_text(); }
 
   private:
@@ -68,7 +61,7 @@ class PartProcess {
     Channel channel_;
     Sheet question_;
     Sheet answer_;
-    OwnedChild child_;
+    Host host_;
 };
 
 /// Makes a part with its settings and lets it go: what the user is told before a study begins. Throws

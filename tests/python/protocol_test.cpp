@@ -1,5 +1,7 @@
 // Names of parts, sheets in shared memory, and the channel; the other end is the Python suites' matter.
 #include <array>
+#include <cstdlib>
+#include <memory>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "python/channel.hpp"
+#include "python/nursery.hpp"
 #include "python/part_name.hpp"
 #include "python/sheet.hpp"
 #include "support/temporary_folder.hpp"
@@ -88,6 +91,63 @@ TEST(Channel, tells_when_the_other_side_is_gone) {
     ours.close_theirs();
     EXPECT_FALSE(ours.wait(bell));
     EXPECT_FALSE(ours.ring(Bell::decide));
+}
+
+/// Processes of parts, made by the nursery or, without one, each for itself.
+class HostTest : public testing::TestWithParam<bool> {
+  protected:
+    void SetUp() override {
+        ::setenv("CLEARWAY_PACKAGE", CLEARWAY_SOURCE_DIR "/python", 1);
+        if (GetParam()) nursery_ = std::make_unique<Nursery>();
+    }
+    static bool has_nursery() { return std::getenv("CLEARWAY_NURSERY") != nullptr; }
+
+    std::unique_ptr<Nursery> nursery_;
+};
+INSTANTIATE_TEST_SUITE_P(WithAndWithout, HostTest, testing::Bool());
+
+TEST_P(HostTest, answers_and_says_how_it_ended) {
+    EXPECT_EQ(has_nursery(), GetParam());
+    for (int time = 0; time < 2; ++time) {
+        Channel channel;
+        Host host(channel.theirs());
+        channel.close_theirs();
+        channel.write_text("{}");  // a greeting that lacks all
+        ASSERT_TRUE(channel.ring(Bell::hello));
+        Bell bell{};
+        ASSERT_TRUE(channel.wait(bell));
+        EXPECT_EQ(bell, Bell::failed);
+        EXPECT_NE(channel.read_text().find("KeyError: 'file'"), std::string::npos) << channel.read_text();
+        EXPECT_FALSE(channel.wait(bell));
+        EXPECT_EQ(host.wait(), "killed by signal 9 (Killed)");  // it ends what it started, and so itself
+    }
+}
+
+TEST_P(HostTest, ends_with_its_owner_although_it_waits) {
+    Channel channel;
+    auto host = std::make_unique<Host>(channel.theirs());
+    channel.close_theirs();
+    host.reset();
+    Bell bell{};
+    EXPECT_FALSE(channel.wait(bell)) << "nobody holds the other end";
+}
+
+TEST(Nursery, that_has_ended_is_not_needed) {
+    ::setenv("CLEARWAY_PACKAGE", CLEARWAY_SOURCE_DIR "/python", 1);
+    ::setenv("CLEARWAY_NURSERY", "nobody listens here", 1);
+    Channel channel;
+    Host host(channel.theirs());
+    channel.close_theirs();
+    channel.write_text("{}");
+    ASSERT_TRUE(channel.ring(Bell::hello));
+    Bell bell{};
+    EXPECT_TRUE(channel.wait(bell));
+    ::unsetenv("CLEARWAY_NURSERY");
+    {
+        const Nursery nursery;
+        EXPECT_NE(std::getenv("CLEARWAY_NURSERY"), nullptr);
+    }
+    EXPECT_EQ(std::getenv("CLEARWAY_NURSERY"), nullptr);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
@@ -16,6 +17,8 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
+#include "python/nursery.hpp"
+#include "python/part_name.hpp"
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
@@ -33,6 +36,17 @@ constexpr std::size_t named_errors = 10;
 std::uint32_t replications_in(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "manifest.json")) return 0;
     return results::Store::open(folder).manifest().replications;
+}
+
+bool is_in_python(const experiment::ConditionSpec& condition) {
+    const auto is_part = [](const std::string& name) { return python::part_name_from(name).has_value(); };
+    return is_part(condition.predictor) || std::ranges::any_of(condition.policies, is_part);
+}
+
+/// Where many runs have parts in Python, one interpreter is loaded for all of them.
+std::unique_ptr<python::Nursery> nursery_for(const study::Plan& plan) {
+    return std::ranges::any_of(plan.manifest.conditions, is_in_python) ? std::make_unique<python::Nursery>()
+                                                                       : nullptr;
 }
 
 /// The headline of a study while it runs, read again every two seconds.
@@ -158,6 +172,7 @@ study::StudyResult run_missing(const study::Plan& plan, const results::Store& st
                    "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
                    results::run_name(store.folder(), damaged.key), damaged.why, damaged.place.string());
     };
+    const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);
     study::StudyResult result = study::run(plan, store, runner, [&](const study::StudyProgress& now) {
         progress.begin_at(now.resumed);
         progress.update(now.done + now.failed, now.failed, estimate.text());

@@ -12,7 +12,8 @@ namespace clearway::policy::detail {
 const std::string& kept_text(const std::string& text);
 
 /// Appends the leases of an answer in JSON (python/clearway/parts.py writes it), issued at `now` by `policy`.
-/// Throws std::invalid_argument for an answer of another form, which is a bug of the package.
+/// Throws python::PartError, without the part's name, for an answer of another form, which the package does
+/// not write: user code can reach behind it.
 void read_leases(const std::string& answer, const std::string& policy, core::Seconds now,
                  std::vector<traffic::Lease>& leases);
 
