@@ -66,6 +66,11 @@ class Sheet:
         #: numpy type, unit and meaning of each array.
         self.columns = {name: (np.dtype(kind), unit, doc) for name, kind, unit, doc in columns}
         self._place = {name: 2 * number for number, name in enumerate(self.columns)}
+        self._views: dict[str, np.ndarray] = {}
+
+    def renew(self) -> None:
+        """To be called when the bell has rung: arrays may have other places and sizes."""
+        self._views.clear()
 
     def place(self, name: str) -> tuple[int, int]:
         """Offset and number of elements of an array."""
@@ -73,8 +78,11 @@ class Sheet:
         return self._directory[at], self._directory[at + 1]
 
     def __getitem__(self, name: str) -> np.ndarray:
-        offset, count = self.place(name)
-        return np.frombuffer(self._memory, self.columns[name][0], count, offset)
+        view = self._views.get(name)
+        if view is None:
+            offset, count = self.place(name)
+            view = self._views[name] = np.frombuffer(self._memory, self.columns[name][0], count, offset)
+        return view
 
     def write(self, name: str, values: np.ndarray) -> None:
         """Writes the one array of a sheet of answers behind its directory."""

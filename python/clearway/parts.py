@@ -154,10 +154,12 @@ class EmergencyVehicle:
     def approaches(self) -> list[Approach]:
         """Signals that it will pass within 600 m, nearest first."""
         part = self._bounds("approach_first")
-        own, served = self._sheet["own_link_first"], self._sheet["served_link_first"]
-        return [Approach(int(self._sheet["approach_signal"][at]), float(self._sheet["approach_distance_m"][at]),
-                         self._sheet["own_link"][own[at]:own[at + 1]].tolist(),
-                         self._sheet["served_link"][served[at]:served[at + 1]].tolist())
+        sheet = self._sheet
+        own, served = sheet["own_link_first"], sheet["served_link_first"]
+        signal, distance_m, own_links, links = (sheet[name] for name in ("approach_signal", "approach_distance_m", "own_link",
+                                                                        "served_link"))
+        return [Approach(int(signal[at]), float(distance_m[at]), own_links[own[at]:own[at + 1]].tolist(),
+                         links[served[at]:served[at + 1]].tolist())
                 for at in range(part.start, part.stop)]
 
 
@@ -165,6 +167,7 @@ class Belief:
     """What is believed now: all that a policy sees. Arrays are views of shared memory, valid until ``act`` returns."""
 
     def __init__(self, sheet: Sheet, network: Network) -> None:
+        sheet.renew()
         self._sheet = sheet
         self.network = network
         #: Simulation time, s.
@@ -320,6 +323,7 @@ class Observation(_Rows):
               "pair_dead_reckoned_m")
 
     def __init__(self, sheet: Sheet, network: Network, link_radius_m: float) -> None:
+        sheet.renew()
         super().__init__(sheet)
         self.network = network
         #: Vehicles nearer than this are linked, m.
