@@ -1,5 +1,6 @@
 // Draws 5,000 vehicles in headless chromium without a GPU and prints frames a second and processor time a frame.
 //   npm run frame-rate [VEHICLES]      on a machine with nothing else to do
+//   npm run frame-rate -- PAGE.html    the same of a page of `clearway replay --view`, the whole network in view
 
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -8,7 +9,8 @@ import { pathToFileURL } from "node:url";
 import { deflateSync } from "node:zlib";
 import { alike, folder, openPage, pixelsOf, startBrowser } from "./browser.mjs";
 
-const vehicles = Number(process.argv[2] ?? 5000);
+const written = process.argv[2]?.endsWith(".html") ? process.argv[2] : undefined;
+const vehicles = Number(written === undefined ? (process.argv[2] ?? 5000) : 0);
 const frames = 400;
 const measured_ms = 15_000;
 
@@ -99,7 +101,7 @@ function processorTime() {
 }
 
 const browser = await startBrowser();
-const { page, faults } = await openPage(browser, pathToFileURL(writePage()).href);
+const { page, faults } = await openPage(browser, pathToFileURL(written ?? writePage()).href);
 const drawn = async () => Number(await page.locator(".play").getAttribute("data-drawn"));
 await page.getByLabel("Speed").selectOption("1");
 await page.locator(".map").focus();
@@ -123,7 +125,7 @@ await page.waitForTimeout(measured_ms);
 const count = (await drawn()) - first;
 const passed_s = (performance.now() - begin_ms) / 1000;
 const after = processorTime();
-console.log(`${vehicles} vehicles: ${(count / passed_s).toFixed(1)} frames a second`);
+console.log(`${written ?? `${vehicles} vehicles`}: ${(count / passed_s).toFixed(1)} frames a second`);
 for (const [kind, spent_ms] of Object.entries(after))
   console.log(`  ${kind}: ${((spent_ms - (before[kind] ?? 0)) / count).toFixed(1)} ms of processor time a frame`);
 await browser.close();
