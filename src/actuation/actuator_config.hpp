@@ -21,7 +21,7 @@ struct ActuatorConfig {
     double hold_cap_s = 60.0;
     double lockout_s = 10.0;
     double least_green_s = 10.0;
-    ClearanceRule clearance = ClearanceRule::ite;
+    ClearanceRule clearance = ClearanceRule::rilsa;
     double entry_green_s = 5.0;
     double walk_s = 7.0;
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
@@ -73,7 +73,9 @@ struct ActuatorConfig {
                 "signal's own program shows, or, where it shows none, what the formulas of the ITE or of "
                 "RiLSA give for speed limit and crossing, and a link waits only for those that conflict with "
                 "it; `fixed` is `yellow_s` and `all_red_s` for all, whatever the program shows",
-                "no transition may be faster than the program allows; older figures were made with `fixed`"},
+                "no transition may be faster than the program allows, and the rule counts the whole time "
+                "between "
+                "two greens; older figures were made with `fixed`"},
             Field{
                 "entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
                 "No green ends earlier for a hold, nor before the program's own least; without effect where "

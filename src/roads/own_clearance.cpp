@@ -16,6 +16,13 @@ bool is_yellow_in(const Phase& phase, std::size_t link) {
     return link < phase.state.size() && traffic::is_yellow(phase.state[link]);
 }
 
+bool has_vehicle_green(const Signal& signal, const Phase& phase) {
+    for (std::size_t link = 0; link < signal.links.size(); ++link) {
+        if (is_green_in(phase, link) && !signal.crossings[link]) return true;
+    }
+    return false;
+}
+
 /// A program, read round and round from one of its phases.
 class Cycle {
   public:
@@ -46,7 +53,7 @@ struct AfterGreen {
     bool foe_opens = false;
 };
 
-/// What follows the green of `link` in phase `row`. A phase that lets others go is no clearance, however long
+/// What follows the green of `link` in phase `row`. A phase in which others go is no clearance, however long
 /// it keeps those waiting that conflict with the link.
 AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) {
     const Phase& green = signal.program[row];
@@ -61,8 +68,9 @@ AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) 
         const Opening now = opening(signal, link, green, cycle.phase());
         if (now == Opening::foe) return {{own.yellow_s, cleared_s}, true};
         clears = clears && now == Opening::none;
+        const bool counts = clears && !has_vehicle_green(signal, cycle.phase());
         const double lasting_s = cycle.advance();
-        if (clears) cleared_s += lasting_s;
+        if (counts) cleared_s += lasting_s;
     }
     return {own, false};
 }

@@ -31,7 +31,8 @@ char colour_of(char letter) {
 /// Plays phases one after the other.
 class Playback {
   public:
-    Playback(std::size_t links, ProgramTimes& times) : times_(times), clocks_(links) {}
+    Playback(const Signal& signal, ProgramTimes& times)
+        : signal_(signal), times_(times), clocks_(signal.links.size()) {}
 
     void show(const Phase& phase) {
         bool any_opens = false;
@@ -46,6 +47,8 @@ class Playback {
         }
         if (any_opens) end_clearances();
         now_s_ += phase.duration_s;
+        for (std::size_t link = 0; link < clocks_.size(); ++link)
+            if (clocks_[link].colour == 'g' && !signal_.crossings[link]) vehicles_went_until_s_ = now_s_;
     }
 
   private:
@@ -57,13 +60,15 @@ class Playback {
     void end_clearances() {
         for (std::size_t link = 0; link < clocks_.size(); ++link) {
             if (!std::exchange(clocks_[link].clears, false)) continue;
-            take_least(times_.red_s[link], now_s_ - clocks_[link].since_s);
+            take_least(times_.red_s[link], now_s_ - std::max(clocks_[link].since_s, vehicles_went_until_s_));
         }
     }
 
+    const Signal& signal_;
     ProgramTimes& times_;
     std::vector<Clock> clocks_;
     double now_s_ = 0.0;
+    double vehicles_went_until_s_ = 0.0;
 };
 
 bool runs_side_by_side(const Signal& signal) {
@@ -103,7 +108,7 @@ ProgramTimes program_times(const Signal& signal) {
     if (runs_side_by_side(signal)) {
         take_phases(signal, times);
     } else {
-        Playback playback(signal.links.size(), times);
+        Playback playback(signal, times);
         for (int cycle = 0; cycle < 2; ++cycle)
             for (const Phase& phase : signal.program)
                 playback.show(phase);

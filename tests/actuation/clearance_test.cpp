@@ -157,7 +157,7 @@ std::vector<double> openings_s(const actuation::ActuatorConfig& config) {
 }
 
 TEST(ConformingHold, opens_each_link_when_those_that_conflict_with_it_are_clear) {
-    const std::vector<double> opened_s = openings_s({});
+    const std::vector<double> opened_s = openings_s({.clearance = ClearanceRule::ite});
     const roads::Signal& signal = two_crossings().signal(signal_a);
     const Clearance clearance(ClearanceRule::ite, signal, two_crossings());
     for (std::size_t row = 0; row < west.size(); ++row) {

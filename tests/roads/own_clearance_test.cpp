@@ -53,6 +53,18 @@ TEST(OwnClearance, is_no_phase_that_lets_others_go_however_long_the_foes_wait) {
     EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
 }
 
+TEST(OwnClearance, of_a_link_that_ends_early_is_not_the_time_in_which_others_still_go) {
+    roads::Signal signal = two_links();
+    signal.links.resize(3);
+    signal.crossings.assign(3, false);
+    signal.foes = {{false, true, false}, {true, false, true}, {false, true, false}};
+    signal.program = {{30.0, "GrG"}, {3.0, "yrG"},  {10.0, "rrG"}, {3.0, "rry"},
+                      {1.0, "rrr"},  {36.0, "rGr"}, {4.0, "ryr"},  {1.0, "rrr"}};
+    const auto own = roads::own_clearances(signal);
+    EXPECT_DOUBLE_EQ(own[0].red_s, 4.0) << "not 14 s";
+    EXPECT_DOUBLE_EQ(own[2].red_s, 1.0);
+}
+
 TEST(OwnClearance, of_a_green_after_which_no_foe_opens_says_nothing) {
     roads::Signal signal = two_links();
     signal.program = {{30.0, "Gr"}, {3.0, "yr"}, {2.0, "rr"},  {36.0, "rG"},

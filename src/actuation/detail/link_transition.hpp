@@ -34,6 +34,8 @@ class LinkTransition {
     /// Begins a transition, or turns one that is not over to another target. `gaining`: links that must be
     /// clear of all that conflicts with them before it is over.
     void begin(const std::string& shown, const std::string& target, const Links& gaining, core::Seconds now);
+    /// Call when it is over: the next one starts from what is shown then.
+    void end() { yields_.assign(yields_.size(), false); }
     /// What to show now instead of `shown`.
     std::string next_state(const std::string& shown, const TransitionContext& around) const;
     /// Whether `shown` is the target and the gaining links are clear.

@@ -382,6 +382,7 @@ void SignalControl::clear_link_by_link(const SignalContext& around, std::vector<
     const Stage stage = std::ranges::any_of(state, traffic::is_yellow) ? Stage::yellow
                         : transition_.is_over(state, context)          ? Stage::hold
                                                                        : Stage::all_red;
+    if (stage == Stage::hold) transition_.end();
     enter(stage, state, around.now, commands);
 }
 
