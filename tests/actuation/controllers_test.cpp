@@ -236,6 +236,30 @@ INSTANTIATE_TEST_SUITE_P(
                       Controller{"NEMA", dual_ring}),
     [](const auto& controller) { return std::string(controller.param.name); });
 
+/// SUMO leaves the next switch of such a program where it was when it is led to another phase.
+TEST(SignalThatVehiclesActuate, keeps_least_greens_and_yellows_whenever_it_is_led_to_a_phase) {
+    Street street(crossings_file, {actuated}, flows);
+    street.run(900.0, [](Street& each) {
+        const double round_s = std::fmod(each.now_s(), 61.0);
+        if (round_s > 30.0 && round_s < 36.0) each.ask(traffic::HoldGreen{west});
+        each.ask(traffic::AdjustGreen{
+            std::fmod(each.now_s(), 122.0) < 61.0 ? west : std::vector<std::uint16_t>{0, 1, 2}});
+    });
+    int greens = 0;
+    for (std::size_t link = 0; link < 16; ++link) {
+        const std::vector<Colour> runs = street.runs_of(link);
+        for (std::size_t row = 1; row + 1 < runs.size(); ++row) {
+            const double lasted_s = runs[row].to_s - runs[row].from_s;
+            if (runs[row].kind == 'y')
+                EXPECT_GE(lasted_s, 3.99) << "link " << link << " at " << runs[row].from_s;
+            if (runs[row].kind != 'G') continue;
+            ++greens;
+            EXPECT_GE(lasted_s, 7.99) << "link " << link << " at " << runs[row].from_s;
+        }
+    }
+    EXPECT_GT(greens, 100);
+}
+
 /// Two junctions 40 m apart under one signal, and the plain XML of their network.
 std::filesystem::path joined_junction(const support::TemporaryFolder& folder) {
     const auto nodes = folder.write("j.nod.xml", R"(<nodes>
