@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "traffic/signal.hpp"
 
@@ -16,9 +17,14 @@ bool is_yellow_in(const Phase& phase, std::size_t link) {
     return link < phase.state.size() && traffic::is_yellow(phase.state[link]);
 }
 
-bool has_vehicle_green(const Signal& signal, const Phase& phase) {
+/// Whether vehicles go in `phase` for whom links must wait that open in `later`.
+bool keeps_waiting(const Signal& signal, const Phase& phase, const Phase& later) {
     for (std::size_t link = 0; link < signal.links.size(); ++link) {
-        if (is_green_in(phase, link) && !signal.crossings[link]) return true;
+        if (!is_green_in(phase, link) || signal.crossings[link]) continue;
+        for (std::size_t other = 0; other < signal.links.size(); ++other) {
+            const bool opens = is_green_in(later, other) && !is_green_in(phase, other);
+            if (opens && signal.foes[link][other]) return true;
+        }
     }
     return false;
 }
@@ -63,14 +69,19 @@ AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) 
     for (; left > 0 && is_yellow_in(cycle.phase(), link); --left)
         own.yellow_s += cycle.advance();
     bool clears = true;
-    double cleared_s = green.red_s;
+    std::vector<std::pair<const Phase*, double>> cleared;
     for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
         const Opening now = opening(signal, link, green, cycle.phase());
-        if (now == Opening::foe) return {{own.yellow_s, cleared_s}, true};
+        if (now == Opening::foe) {
+            for (const auto& [phase, lasting_s] : cleared)
+                own.red_s =
+                    keeps_waiting(signal, *phase, cycle.phase()) ? green.red_s : own.red_s + lasting_s;
+            return {own, true};
+        }
         clears = clears && now == Opening::none;
-        const bool counts = clears && !has_vehicle_green(signal, cycle.phase());
+        const Phase& phase = cycle.phase();
         const double lasting_s = cycle.advance();
-        if (counts) cleared_s += lasting_s;
+        if (clears) cleared.emplace_back(&phase, lasting_s);
     }
     return {own, false};
 }

@@ -9,9 +9,9 @@ namespace clearway::roads {
 /// What the program of a signal shows of one link, s; 0 where it shows none.
 struct OwnClearance {
     double yellow_s = 0.0;  ///< Longest yellow after a green.
-    /// From the end of the yellow (of the green, without one), but not while a vehicle has green, until any
-    /// link opens: the shortest in the cycle of those after which one that conflicts with it opens before it
-    /// is green again.
+    /// From the end of the yellow (of the green, without one) until any link opens, but not while other
+    /// vehicles go for whom that one waits: the shortest in the cycle of those after which a link that
+    /// conflicts opens before it is green again.
     double red_s = 0.0;
 };
 

@@ -20,8 +20,9 @@ char letter_of(const Phase& phase, std::size_t link) {
 struct Clock {
     char colour = '?';
     double since_s = 0.0;
-    bool is_whole = false;  ///< The beginning of the colour was seen.
-    bool clears = false;    ///< Red, and no link has opened since.
+    bool is_whole = false;      ///< The beginning of the colour was seen.
+    bool clears = false;        ///< Red, and no link has opened since.
+    double went_until_s = 0.0;  ///< End of its last green.
 };
 
 char colour_of(char letter) {
@@ -35,20 +36,20 @@ class Playback {
         : signal_(signal), times_(times), clocks_(signal.links.size()) {}
 
     void show(const Phase& phase) {
-        bool any_opens = false;
+        std::vector<std::size_t> opened;
         for (std::size_t link = 0; link < clocks_.size(); ++link) {
             const char colour = colour_of(letter_of(phase, link));
             Clock& clock = clocks_[link];
             if (colour == clock.colour) continue;
             if (clock.is_whole) note(link, clock);
-            any_opens = any_opens || colour == 'g';
+            if (colour == 'g') opened.push_back(link);
             const bool was_green = clock.colour == 'g' || clock.colour == 'y';
-            clock = {colour, now_s_, clock.colour != '?', colour == 'r' && was_green};
+            clock = {colour, now_s_, clock.colour != '?', colour == 'r' && was_green, clock.went_until_s};
         }
-        if (any_opens) end_clearances();
+        if (!opened.empty()) end_clearances(opened);
         now_s_ += phase.duration_s;
-        for (std::size_t link = 0; link < clocks_.size(); ++link)
-            if (clocks_[link].colour == 'g' && !signal_.crossings[link]) vehicles_went_until_s_ = now_s_;
+        for (Clock& clock : clocks_)
+            if (clock.colour == 'g') clock.went_until_s = now_s_;
     }
 
   private:
@@ -57,10 +58,22 @@ class Playback {
         if (clock.colour == 'y') take_least(times_.yellow_s[link], lasted_s);
         if (clock.colour == 'g') take_least(times_.green_s[link], lasted_s);
     }
-    void end_clearances() {
+    /// Since when those that opened waited for no other vehicles.
+    double free_since_s(const std::vector<std::size_t>& opened, std::size_t leaving) const {
+        double since_s = 0.0;
+        for (std::size_t link = 0; link < clocks_.size(); ++link) {
+            const bool was_waited_for =
+                std::ranges::any_of(opened, [&](std::size_t other) { return signal_.foes[link][other]; });
+            if (link != leaving && was_waited_for && !signal_.crossings[link])
+                since_s = std::max(since_s, clocks_[link].went_until_s);
+        }
+        return since_s;
+    }
+    void end_clearances(const std::vector<std::size_t>& opened) {
         for (std::size_t link = 0; link < clocks_.size(); ++link) {
             if (!std::exchange(clocks_[link].clears, false)) continue;
-            take_least(times_.red_s[link], now_s_ - std::max(clocks_[link].since_s, vehicles_went_until_s_));
+            take_least(times_.red_s[link],
+                       now_s_ - std::max(clocks_[link].since_s, free_since_s(opened, link)));
         }
     }
 
@@ -68,7 +81,6 @@ class Playback {
     ProgramTimes& times_;
     std::vector<Clock> clocks_;
     double now_s_ = 0.0;
-    double vehicles_went_until_s_ = 0.0;
 };
 
 bool runs_side_by_side(const Signal& signal) {
