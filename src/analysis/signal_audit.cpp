@@ -81,6 +81,14 @@ class Auditor {
             }
         }
     }
+    /// Links that get green at one time owe each other no clearance: where two conflict, one yields. Call
+    /// before the events of that time are read.
+    void open_together(const SignalEvent& event) {
+        const auto found = lights_.find(event.signal);
+        if (found == lights_.end()) return;
+        for (const std::uint16_t link : links_of(event, found->second.size()))
+            found->second[link].red_s.reset();
+    }
     /// While no call is on, a line about the program being back interrupts the log of the signal.
     void follow(const SignalEvent& event) {
         const auto code = static_cast<SignalCode>(event.event);
@@ -141,6 +149,8 @@ SignalAudit audit_signals(std::span<const SignalEvent> events,
         auto last = first;
         while (last != events.end() && last->time_s == first->time_s && last->signal == first->signal)
             ++last;
+        for (auto event = first; event != last; ++event)
+            if (opens(*event)) auditor.open_together(*event);
         for (const bool opening : {false, true})
             for (auto event = first; event != last; ++event)
                 if (opens(*event) == opening) auditor.read(*event);

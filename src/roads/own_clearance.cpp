@@ -59,8 +59,9 @@ struct AfterGreen {
     bool foe_opens = false;
 };
 
-/// What follows the green of `link` in phase `row`. A phase in which others go is no clearance, however long
-/// it keeps those waiting that conflict with the link.
+/// What follows the green of `link` in phase `row`. People on foot clear while vehicles beside them still go.
+/// A phase in which others go is no clearance, however long it keeps those waiting that conflict with the
+/// link.
 AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) {
     const Phase& green = signal.program[row];
     Cycle cycle(signal.program, row + 1);
@@ -69,19 +70,20 @@ AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) 
     for (; left > 0 && is_yellow_in(cycle.phase(), link); --left)
         own.yellow_s += cycle.advance();
     bool clears = true;
-    std::vector<std::pair<const Phase*, double>> cleared;
+    double cleared_s = green.red_s;
+    std::vector<std::pair<const Phase*, double>> since;
     for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
-        const Opening now = opening(signal, link, green, cycle.phase());
-        if (now == Opening::foe) {
-            for (const auto& [phase, lasting_s] : cleared)
-                own.red_s =
-                    keeps_waiting(signal, *phase, cycle.phase()) ? green.red_s : own.red_s + lasting_s;
-            return {own, true};
-        }
-        clears = clears && now == Opening::none;
         const Phase& phase = cycle.phase();
-        const double lasting_s = cycle.advance();
-        if (clears) cleared.emplace_back(&phase, lasting_s);
+        const Opening now = opening(signal, link, green, phase);
+        if (now != Opening::none && clears) {
+            for (const auto& [earlier, lasting_s] : since) {
+                const bool waits = !signal.crossings[link] && keeps_waiting(signal, *earlier, phase);
+                cleared_s = waits ? green.red_s : cleared_s + lasting_s;
+            }
+        }
+        if (now == Opening::foe) return {{own.yellow_s, cleared_s}, true};
+        clears = clears && now == Opening::none;
+        since.emplace_back(&phase, cycle.advance());
     }
     return {own, false};
 }

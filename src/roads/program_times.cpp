@@ -23,6 +23,8 @@ struct Clock {
     bool is_whole = false;      ///< The beginning of the colour was seen.
     bool clears = false;        ///< Red, and no link has opened since.
     double went_until_s = 0.0;  ///< End of its last green.
+    std::optional<double> red_s =
+        std::nullopt;  ///< Red clearance, until it is known whether it was for a foe.
 };
 
 char colour_of(char letter) {
@@ -44,7 +46,8 @@ class Playback {
             if (clock.is_whole) note(link, clock);
             if (colour == 'g') opened.push_back(link);
             const bool was_green = clock.colour == 'g' || clock.colour == 'y';
-            clock = {colour, now_s_, clock.colour != '?', colour == 'r' && was_green, clock.went_until_s};
+            clock = {colour,      now_s_, clock.colour != '?', colour == 'r' && was_green, clock.went_until_s,
+                     std::nullopt};
         }
         if (!opened.empty()) end_clearances(opened);
         now_s_ += phase.duration_s;
@@ -61,6 +64,7 @@ class Playback {
     /// Since when those that opened waited for no other vehicles.
     double free_since_s(const std::vector<std::size_t>& opened, std::size_t leaving) const {
         double since_s = 0.0;
+        if (signal_.crossings[leaving]) return since_s;  // people on foot clear while vehicles still go
         for (std::size_t link = 0; link < clocks_.size(); ++link) {
             const bool was_waited_for =
                 std::ranges::any_of(opened, [&](std::size_t other) { return signal_.foes[link][other]; });
@@ -71,9 +75,14 @@ class Playback {
     }
     void end_clearances(const std::vector<std::size_t>& opened) {
         for (std::size_t link = 0; link < clocks_.size(); ++link) {
-            if (!std::exchange(clocks_[link].clears, false)) continue;
-            take_least(times_.red_s[link],
-                       now_s_ - std::max(clocks_[link].since_s, free_since_s(opened, link)));
+            Clock& clock = clocks_[link];
+            if (std::exchange(clock.clears, false))
+                clock.red_s = now_s_ - std::max(clock.since_s, free_since_s(opened, link));
+            const bool foe_opens =
+                std::ranges::any_of(opened, [&](std::size_t other) { return signal_.foes[link][other]; });
+            if (!clock.red_s || !foe_opens) continue;
+            take_least(times_.red_s[link], *clock.red_s);
+            clock.red_s.reset();
         }
     }
 

@@ -56,6 +56,14 @@ TEST(SignalAudit, TellsWhatWasTooShortWhereAndWhen) {
     EXPECT_EQ(green[0].what, Shortfall::green);
 }
 
+TEST(SignalAudit, OwesNoClearanceBetweenLinksThatGetGreenTogether) {
+    std::vector<SignalEvent> events = change(10.0, 4.0, 1.0);
+    events.back().links = "0 1";
+    const SignalAudit audit = audited(events);
+    EXPECT_THAT(audit.findings, IsEmpty()) << "one of them yields";
+    EXPECT_EQ(audit.reds, 0U);
+}
+
 TEST(SignalAudit, ComparesWholeStepsOfTheSimulation) {
     EXPECT_THAT(audited(change(10.0, 4.0, 2.0), 1.0).findings, IsEmpty());
     const auto of_three = [](double step_s) {
