@@ -61,6 +61,8 @@ constexpr std::array all_verbs = {
          "clearway import monaco.osm.pbf --name monaco", configure_import},
     Verb{"signals", "List a scenario's signals, draw them, write their preemption parameters",
          "clearway signals city --svg signals.svg --out preemption.csv", configure_signals},
+    Verb{"equip", "Find out which signals to equip first for EVs, and what that is worth",
+         "clearway equip city --budget 5 --out runs/equip-city", configure_equip},
     Verb{"check", "Run a scenario briefly and check whether it is fit for a study", "clearway check ./monaco",
          configure_check},
     Verb{"attach", "Take over a SUMO that was started elsewhere, with a policy of Clearway",

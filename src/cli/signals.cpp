@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
+#include "report/signal_name.hpp"
 #include "report/text.hpp"
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
@@ -53,12 +54,6 @@ std::string text_of(const traffic::Preemption& set) {
     return parts.empty() ? "-" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// At most 24 characters of an id: those of joined junctions name all their nodes.
-std::string short_name(const std::string& id) {
-    constexpr std::size_t most = 24;
-    return report::printable(id.size() <= most ? id : id.substr(0, most - 3) + "...");
-}
-
 std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase& phase) {
     std::vector<std::string> names;
     const std::vector<std::string>& edges = phase.edges;
@@ -81,9 +76,10 @@ void print_text(const std::vector<SignalSheet>& sheets) {
                "Cycle s", "Yellow s", "Red s", "Min green s", "Crossings");
     for (std::size_t row = 0; row < sheets.size(); ++row) {
         const SignalSheet& sheet = sheets[row];
-        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1, short_name(sheet.signal),
-                   sheet.controller, sheet.cycle_s, text_of(sheet.yellow), text_of(sheet.red_clearance),
-                   text_of(sheet.least_green), sheet.crossings);
+        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1,
+                   report::short_signal_name(sheet.signal), sheet.controller, sheet.cycle_s,
+                   text_of(sheet.yellow), text_of(sheet.red_clearance), text_of(sheet.least_green),
+                   sheet.crossings);
         for (const scenario::SignalPhase& phase : sheet.phases) {
             if (!phase.green) continue;
             fmt::print("{:>8}  {:>5g} s  {}\n", fmt::format("phase {}", phase.number), phase.duration_s,

@@ -12,6 +12,7 @@
 #include "core/folder_name.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/equipped_signals.hpp"
 #include "policy/ask.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
@@ -30,6 +31,35 @@ constexpr const char* privilege_name = "privilege";
 /// Maximum length of a described name; longer ones are cut and end in digits of their hash.
 constexpr std::size_t longest_name = 80;
 
+/// The part of `equipped_setting` behind its component.
+constexpr const char* equipped_field = "equipped";
+
+/// The numbers of actuation, and the text that says which signals take part.
+core::SettingsTable actuation_table() {
+    core::SettingsTable table = core::settings_table<actuation::ActuatorConfig>();
+    table.rows.push_back({equipped_field,
+                          "",
+                          0.0,
+                          0.0,
+                          {},
+                          all_equipped,
+                          "Signals that take part in policies: their ids separated by commas, `all` or "
+                          "`none`. The others hear "
+                          "no request and keep their programs",
+                          "all: as all figures were measured that do not name it"});
+    table.check = [](const core::Settings& settings, const std::string& where) {
+        core::Settings numbers = settings;
+        std::vector<core::Problem> problems;
+        if (const auto equipped = numbers.extract(equipped_field))
+            problems = check_equipped(equipped.mapped(), where + equipped_field);
+        actuation::ActuatorConfig config;
+        for (core::Problem& problem : core::apply_settings(numbers, where, config))
+            problems.push_back(std::move(problem));
+        return problems;
+    };
+    return table;
+}
+
 std::vector<Component> make_components() {
     std::vector<Component> all = {
         {loop_name, "The closed loop", core::settings_table<LoopConfig>()},
@@ -42,7 +72,7 @@ std::vector<Component> make_components() {
         if (!entry.table.rows.empty()) all.push_back({entry.name, "Policy: " + entry.summary, entry.table});
     }
     all.push_back({actuation_name, "How leases are carried out: signal transitions and their limits",
-                   core::settings_table<actuation::ActuatorConfig>()});
+                   actuation_table()});
     all.push_back({siren_name, "Human drivers who hear a siren: override what the scenario says",
                    core::settings_table<drivers::SirenConfig, drivers::ReactionConfig>()});
     all.push_back({requests_name, "Human drivers who do what a policy asks",
@@ -422,8 +452,9 @@ LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual) 
 }
 
 actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual) {
-    core::set_all(core::settings_of(condition.settings, actuation_name),
-                  fmt::format("condition {}: actuation.", condition.name), usual);
+    core::Settings numbers = core::settings_of(condition.settings, actuation_name);
+    numbers.erase(equipped_field);  // see equipped_signals
+    core::set_all(numbers, fmt::format("condition {}: actuation.", condition.name), usual);
     return usual;
 }
 

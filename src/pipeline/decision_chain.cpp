@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/oracle.hpp"
 #include "sensing/failure_config.hpp"
@@ -36,7 +37,8 @@ sensing::FailureConfig observed_failure(const experiment::ConditionSpec& conditi
 }
 
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
-    : period_s_(context.policy_period_s) {
+    : equipped_(experiment::equipped_signals(condition, context.network)),
+      period_s_(context.policy_period_s) {
     const sensing::FailureConfig failure = observed_failure(condition);
     if (failure.signals_known == sensing::SignalsKnown::no) shown_.emplace();
     sensor_ =
@@ -81,6 +83,10 @@ void DecisionChain::decide() {
     for (const auto& policy : policies_) {
         policy->act(belief_, leases_);
     }
+    std::erase_if(leases_, [&](const traffic::Lease& lease) {
+        const auto* const signal = std::get_if<core::SignalIndex>(&lease.target);
+        return signal != nullptr && !is_equipped(*signal);
+    });
 }
 
 void DecisionChain::exchange_messages() {
@@ -88,6 +94,8 @@ void DecisionChain::exchange_messages() {
     wanted_.clear();
     for (const policy::SignalMessages* const talker : talkers_)
         talker->ask(belief_, wanted_);
+    std::erase_if(wanted_,
+                  [&](const traffic::PriorityRequest& request) { return !is_equipped(request.signal); });
     radio_->exchange(wanted_, *snapshot_);
     if (radio_->is_perfect()) return;
     for (policy::SignalMessages* const talker : talkers_)

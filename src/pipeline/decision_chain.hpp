@@ -72,6 +72,10 @@ class DecisionChain {
 
   private:
     void exchange_messages();
+    /// Whether a signal takes part in policies (`actuation.equipped`).
+    bool is_equipped(core::SignalIndex signal) const { return equipped_.empty() || equipped_[signal.value]; }
+
+    std::vector<bool> equipped_;  ///< By signal; empty: all are.
 
     std::unique_ptr<sensing::SensorModel> sensor_;
     std::unique_ptr<prediction::Predictor> predictor_;

@@ -149,10 +149,19 @@ bool has_room_for_name(const std::vector<SignalSheet>& sheets, std::size_t row, 
     return true;
 }
 
-void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
+/// `labels` are by signal; one without is a small grey dot.
+void draw_labels(const roads::Network& network, const Frame& frame, const std::vector<std::string>& labels,
+                 std::string& svg) {
     auto out = std::back_inserter(svg);
     const std::vector<SignalSheet> sheets = signal_sheets(network, {});
     for (std::size_t row = 0; row < sheets.size(); ++row) {
+        if (labels[row].empty()) {
+            fmt::format_to(
+                out, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"#999\"><title>{}</title></circle>\n",
+                frame.x(sheets[row].place.x_m), frame.y(sheets[row].place.y_m),
+                core::escaped(sheets[row].signal));
+            continue;
+        }
         const double x = frame.x(sheets[row].place.x_m);
         const double y = frame.y(sheets[row].place.y_m);
         const std::string name = core::escaped(sheets[row].signal);
@@ -161,11 +170,22 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
             "<g fill=\"#000\"><title>{0}: {1}</title><circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"8\" "
             "fill=\"#d55e00\"/><text x=\"{2:.1f}\" y=\"{4:.1f}\" text-anchor=\"middle\" "
             "style=\"font-size:9px;fill:#fff\">{0}</text>",
-            row + 1, name, x, y, y + 3.5);
+            labels[row], name, x, y, y + 3.5);
         if (has_room_for_name(sheets, row, frame))
             fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 12.0, y - 8.0, name);
         svg += "</g>\n";
     }
+}
+
+std::string labelled_picture(const roads::Network& network, const std::string& title,
+                             const std::vector<std::string>& labels) {
+    const Frame frame = frame_of(network);
+    std::string svg = opened(frame, title);
+    svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
+                       picture_width, frame.height);
+    svg += roads_of(network, frame) + "</g>\n";
+    draw_labels(network, frame, labels, svg);
+    return svg + "</svg>\n";
 }
 
 }  // namespace
@@ -176,13 +196,18 @@ std::string network_picture(const roads::Network& network, const std::string& ti
 }
 
 std::string signals_picture(const roads::Network& network, const std::string& title) {
-    const Frame frame = frame_of(network);
-    std::string svg = opened(frame, title);
-    svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
-                       picture_width, frame.height);
-    svg += roads_of(network, frame) + "</g>\n";
-    draw_labels(network, frame, svg);
-    return svg + "</svg>\n";
+    std::vector<std::string> numbers(network.signals().size());
+    for (std::size_t row = 0; row < numbers.size(); ++row)
+        numbers[row] = std::to_string(row + 1);
+    return labelled_picture(network, title, numbers);
+}
+
+std::string ranked_signals_picture(const roads::Network& network, const std::string& title,
+                                   std::span<const core::SignalIndex> ranked) {
+    std::vector<std::string> ranks(network.signals().size());
+    for (std::size_t rank = 0; rank < ranked.size(); ++rank)
+        ranks.at(ranked[rank].value) = std::to_string(rank + 1);
+    return labelled_picture(network, title, ranks);
 }
 
 }  // namespace clearway::scenario

@@ -10,10 +10,10 @@
 namespace clearway::cli {
 namespace {
 
-const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit", "merge",
-                                             "report",    "compare", "results", "replay", "live",   "verify",
-                                             "dataset",   "train",   "list",    "init",   "doctor", "links",
-                                             "import",    "check",   "attach",  "python", "signals"};
+const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit",  "merge",
+                                             "report",    "compare", "results", "replay", "live",    "verify",
+                                             "dataset",   "train",   "list",    "init",   "doctor",  "links",
+                                             "import",    "check",   "attach",  "python", "signals", "equip"};
 
 class HelpTest : public UserTest {};
 

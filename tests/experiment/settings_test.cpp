@@ -45,7 +45,8 @@ TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
             EXPECT_THAT(check_setting(name, row.preset, ""), IsEmpty()) << name;
             EXPECT_FALSE(row.doc.empty()) << name;
             EXPECT_FALSE(row.source.empty()) << name << " has no reason";
-            if (!row.words.empty()) continue;
+            const bool is_text = name == "actuation.equipped";
+            if (is_text || !row.words.empty()) continue;
             EXPECT_LT(row.minimum, row.maximum) << name;
             EXPECT_THAT(check_setting(name, fmt::format("{}", 2.0 * row.maximum + 1.0), ""),
                         testing::SizeIs(1))
@@ -195,6 +196,18 @@ TEST(Settings, ReachTheConfigurations) {
     EXPECT_DOUBLE_EQ(sirens.reaction.memory_s, 9.0);
     set(condition, "loop.policy_period_s", "99");
     EXPECT_THROW(loop_config(condition), core::InputError);
+}
+
+TEST(Settings, TakeTheSignalsThatAreEquippedAsIdsSeparatedByCommas) {
+    EXPECT_THAT(problems_of("actuation.equipped", "A,B"), IsEmpty());
+    EXPECT_THAT(problems_of("actuation.equipped", "none"), IsEmpty());
+    EXPECT_THAT(problems_of("actuation.equipped", "A,,B"), HasSubstr("\"A,,B\" has an empty id"));
+    EXPECT_THAT(problems_of("actuation.equipped", ""), HasSubstr("has an empty id"));
+    EXPECT_THAT(problems_of("actuation.equipped", "A,B,A"), HasSubstr("names signal \"A\" twice"));
+    ConditionSpec condition = corridor();
+    set(condition, "actuation.equipped", "A");
+    set(condition, "actuation.hold_cap_s", "30");
+    EXPECT_DOUBLE_EQ(actuator_config(condition, {}).hold_cap_s, 30.0) << "beside the numbers";
 }
 
 TEST(Settings, OfLinksMustFitTheModelOfTheirPredictor) {

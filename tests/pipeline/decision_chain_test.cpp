@@ -1,11 +1,14 @@
 #include "pipeline/decision_chain.hpp"
 
+#include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "core/error.hpp"
 #include "prediction/predictor.hpp"
 #include "support/ascii_scene.hpp"
 
@@ -71,6 +74,58 @@ TEST(RedPrivilege, SeesItsSignalThoughReportsDoNotTell) {
     EXPECT_FALSE(decided(condition, red).empty());
     support::Scene green(before_green);
     EXPECT_TRUE(decided(condition, green).empty());
+}
+
+class EquippedSignals : public ::testing::TestWithParam<const char*> {
+  protected:
+    /// Targets of leases to signals, and the number of messages to signals.
+    static std::pair<std::set<std::uint32_t>, std::uint64_t> asked(const std::string& equipped) {
+        experiment::ConditionSpec condition;
+        condition.policies = {GetParam()};
+        if (!equipped.empty()) condition.settings["actuation.equipped"] = equipped;
+        support::Scene scene(before_red);
+        DecisionChain chain(condition, {.network = scene.network()});
+        std::set<std::uint32_t> signals;
+        for (int step = 0; step < 6; ++step) {
+            chain.observe(scene.snapshot(), scene.roster());
+            if (chain.decision_is_due()) chain.decide();
+            for (const traffic::Lease& lease : chain.leases()) {
+                if (const auto* const signal = std::get_if<core::SignalIndex>(&lease.target))
+                    signals.insert(signal->value);
+            }
+            scene.pass(core::Seconds(0.5));
+        }
+        return {signals, chain.signal_requests().sent};
+    }
+};
+
+TEST_P(EquippedSignals, AloneTakePartInPolicies) {
+    const support::Scene scene(before_red);
+    const std::string id = scene.network().signals().front().id;
+    EXPECT_FALSE(asked("").first.empty()) << "the scene has something to ask for";
+    EXPECT_EQ(asked(id), asked(""));
+    EXPECT_EQ(asked("all"), asked(""));
+    EXPECT_TRUE(asked("none").first.empty());
+    EXPECT_EQ(asked("none").second, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Policies, EquippedSignals,
+                         ::testing::Values("recover_signals", "preempt_signals", "green_wave", "corridor"));
+
+TEST(EquippedSignalsOfACondition, MustBeInTheNetwork) {
+    experiment::ConditionSpec condition;
+    condition.name = "mine";
+    condition.policies = {"corridor"};
+    const support::Scene scene(before_red);
+    condition.settings["actuation.equipped"] = scene.network().signals().front().id + "x";
+    try {
+        DecisionChain(condition, {.network = scene.network()});
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("condition mine: actuation.equipped"),
+                                   testing::HasSubstr("has no signal"), testing::HasSubstr("Did you mean")));
+    }
 }
 
 class UnknownParts : public ::testing::TestWithParam<const char*> {};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/temporary_folder.hpp"
+#include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
 #include "roads/network.hpp"
 #include "roads/shoulder.hpp"
@@ -89,6 +90,18 @@ void check_gap(const ConditionSpec& condition, const scenario::ScenarioConfig& s
          "privilege.between_lanes=0"});
 }
 
+void check_equipped(const ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
+                    const roads::Network& network, std::vector<core::Problem>& problems) {
+    try {
+        experiment::equipped_signals(condition, network);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("scenario {}, {}", scenario.name, problem.where);
+            problems.push_back(std::move(problem));
+        }
+    }
+}
+
 }  // namespace
 
 void check_traffic_model(const ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
@@ -119,6 +132,8 @@ void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::S
                  "has a policy that needs a shoulder, and no road of the network has one",
                  "an outermost lane of 2 m or more that is closed to cars, EVs and pedestrians",
                  "Add shoulders, or choose another policy, such as pull_aside"});
+        if (condition.settings.contains(experiment::equipped_setting))
+            check_equipped(condition, scenario, built(), problems);
         if (const auto margin_m = margin_between_lanes(condition, scenario))
             check_gap(condition, scenario, built(), *margin_m, problems);
     }

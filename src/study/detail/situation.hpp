@@ -13,8 +13,9 @@ namespace clearway::study::detail {
 void check_traffic_model(const experiment::ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
                          std::vector<core::Problem>& problems);
 
-/// What the conditions need of the scenario's roads and do not find there: a shoulder, or a gap between two
-/// lanes in which an emergency vehicle fits. Builds the network if one of them needs something.
+/// What the conditions need of the scenario's roads and do not find there: a shoulder, a gap between two
+/// lanes in which an emergency vehicle fits, or the signals that are equipped. Builds the network if one of
+/// them needs something.
 void check_roads(const std::vector<experiment::ConditionSpec>& conditions,
                  const scenario::ScenarioConfig& scenario, std::vector<core::Problem>& problems);
 
