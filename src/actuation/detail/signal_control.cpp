@@ -245,7 +245,7 @@ void SignalControl::run_background_plan(const SignalContext& around, Ledger& led
         return;
     if (waits_for_gap(signal_.program[*next].state, around)) return;
     if (!knows_program(around)) return LeaseQueue::refuse(*adjustment, "unknown_program", ledger);
-    commands.push_back(traffic::RestoreProgram{index_, next, first_duration(*next)});
+    commands.push_back(traffic::RestoreProgram{index_, next, first_duration(*next, around.timing)});
     LeaseQueue::act(*adjustment, ledger);
     own_.disturb(around.now);
 }
@@ -405,15 +405,17 @@ void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Co
 /// For how long a phase lasts that the program is led to, before vehicles may prolong it. SUMO keeps the next
 /// switch of a program that vehicles actuate where it was, however soon that is; a fixed one starts the phase
 /// anew.
-std::optional<core::Seconds> SignalControl::first_duration(std::uint32_t phase) const {
+std::optional<core::Seconds> SignalControl::first_duration(std::uint32_t phase,
+                                                           const SignalTiming& timing) const {
     if (signal_.fixed_time) return std::nullopt;
     const roads::Phase& led_to = signal_.program[phase];
-    return core::Seconds(led_to.least_s > 0.0 ? led_to.least_s : led_to.duration_s);
+    if (led_to.least_s <= 0.0) return core::Seconds(led_to.duration_s);
+    return core::Seconds(std::max(led_to.least_s, std::min(led_to.duration_s, timing.least_green_s)));
 }
 
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
-    const auto lasting = way_.return_phase ? first_duration(*way_.return_phase) : std::nullopt;
+    const auto lasting = way_.return_phase ? first_duration(*way_.return_phase, timing) : std::nullopt;
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase, lasting});
     if (way_.return_phase) own_.disturb(now);
     stage_ = Stage::background_plan;

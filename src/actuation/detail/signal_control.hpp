@@ -109,7 +109,7 @@ class SignalControl {
     bool knows_program(const SignalContext& around) const;
     void enter(Stage stage, const std::string& state, core::Seconds now,
                std::vector<traffic::Command>& commands);
-    std::optional<core::Seconds> first_duration(std::uint32_t phase) const;
+    std::optional<core::Seconds> first_duration(std::uint32_t phase, const SignalTiming& timing) const;
     void return_to_program(core::Seconds now, const SignalTiming& timing,
                            std::vector<traffic::Command>& commands);
 
