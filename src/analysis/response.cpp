@@ -115,7 +115,7 @@ std::optional<std::vector<double>> response_times_s(const results::RunRecord& ru
     // The restricted mean counts each lost vehicle with the horizon, which a record does not state itself.
     const auto& restricted_s = run.metrics.emergency_restricted_travel_time_s;
     if (!restricted_s) return std::nullopt;
-    const double all = static_cast<double>(times.size() + lost);
+    const auto all = static_cast<double>(times.size() + lost);
     const double horizon_s = (*restricted_s * all - sum_s) / static_cast<double>(lost);
     times.insert(times.end(), lost, horizon_s);
     return times;

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -169,8 +168,8 @@ void say_addresses(const server::LiveConfig& config, std::uint16_t port) {
     fmt::print(stderr, "clearway: open this address in a browser; {}\n",
                config.allow_control ? "whoever has it may pause the runs and set their speed"
                                     : "it shows and takes no orders");
-    for (const std::string& page : pages | std::views::drop(1))
-        fmt::print(stderr, "clearway: or {}\n", page);
+    for (std::size_t row = 1; row < pages.size(); ++row)
+        fmt::print(stderr, "clearway: or {}\n", pages[row]);
 }
 
 /// Makes the runs while `server` shows them. Returns ok, or why they did not finish.

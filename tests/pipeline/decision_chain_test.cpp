@@ -102,7 +102,7 @@ class EquippedSignals : public ::testing::TestWithParam<const char*> {
 TEST_P(EquippedSignals, AloneTakePartInPolicies) {
     const support::Scene scene(before_red);
     const std::string id = scene.network().signals().front().id;
-    EXPECT_FALSE(asked("").first.empty()) << "the scene has something to ask for";
+    EXPECT_TRUE(!asked("").first.empty() || asked("").second > 0) << "the scene has something to ask for";
     EXPECT_EQ(asked(id), asked(""));
     EXPECT_EQ(asked("all"), asked(""));
     EXPECT_TRUE(asked("none").first.empty());

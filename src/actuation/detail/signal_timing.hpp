@@ -12,16 +12,16 @@ namespace clearway::actuation::detail {
 
 /// Times of a signal's transitions, s.
 struct SignalTiming {
-    double yellow_s;
-    double all_red_s;
-    double clearing_s;
-    double walking_s;
-    double gap_wait_s;
-    double hold_cap_s;
-    double lockout_s;
-    double least_green_s;
-    double entry_green_s;
-    double walk_s;
+    double yellow_s = 0.0;
+    double all_red_s = 0.0;
+    double clearing_s = 0.0;
+    double walking_s = 0.0;
+    double gap_wait_s = 0.0;
+    double hold_cap_s = 0.0;
+    double lockout_s = 0.0;
+    double least_green_s = 0.0;
+    double entry_green_s = 0.0;
+    double walk_s = 0.0;
     bool enabled = true;
     int least_priority = 0;
     double delay_s = 0.0;
