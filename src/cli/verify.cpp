@@ -316,15 +316,17 @@ bool is_interrupted(core::ExitCode code) {
 }
 
 core::ExitCode audit(const Arguments& arguments) {
-    const auto [stored, keys] = chosen_runs(arguments);
+    const auto chosen = chosen_runs(arguments);
+    const results::Store& stored = chosen.store;
     require_elsewhere(stored, arguments.out);
     const Workshop workshop(arguments.out);
     core::ExitCode ended = core::ExitCode::ok;
-    const AuditReport report = audit_runs(stored, keys, [&](const std::vector<experiment::RunKey>& unlogged) {
-        auto [again, code] = repeat(stored, unlogged, workshop.folder(), arguments.jobs);
-        if (is_interrupted(code)) ended = code;
-        return std::move(again);
-    });
+    const AuditReport report =
+        audit_runs(stored, chosen.keys, [&](const std::vector<experiment::RunKey>& unlogged) {
+            auto [again, code] = repeat(stored, unlogged, workshop.folder(), arguments.jobs);
+            if (is_interrupted(code)) ended = code;
+            return std::move(again);
+        });
     if (is_interrupted(ended)) return ended;
     print_audit(report, arguments.printing);
     return code_of(report);

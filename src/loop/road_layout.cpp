@@ -59,8 +59,8 @@ void add_signal_heads(const roads::Network& network, metrics::RoadLayout& layout
         std::vector<metrics::SignalHead>& heads = layout.signal_heads.emplace_back();
         for (std::size_t link = 0; link < signal.links.size(); ++link) {
             heads.push_back({numbers.phase[link], numbers.approach[link], signal.crossings[link], {}});
-            for (std::uint16_t other = 0; other < signal.links.size(); ++other)
-                if (signal.foes[link][other]) heads.back().foes.push_back(other);
+            for (std::size_t other = 0; other < signal.links.size(); ++other)
+                if (signal.foes[link][other]) heads.back().foes.push_back(static_cast<std::uint16_t>(other));
         }
     }
 }

@@ -37,9 +37,9 @@ to = ")" + to + R"("
 share = 1.0
 )");
     }
-    Ended equip(std::vector<std::string> more) const {
+    Ended equip(std::vector<std::string> more, const std::string& folder = "out") const {
         std::vector<std::string> words = {"equip",   "./crossings", "--budget", "2",
-                                          "--seeds", "5",           "--out",    "out"};
+                                          "--seeds", "5",           "--out",    folder};
         words.insert(words.end(), more.begin(), more.end());
         return clearway(words);
     }
@@ -86,7 +86,7 @@ TEST_F(EquipTest, leaves_out_signals_that_no_emergency_vehicle_passes_or_that_ar
     const std::string text = read("p.csv");
     write("crossings/p.csv", text.substr(0, text.find('\n') + 1) + "A,0,,,,,,,,,,\n");
     write_scenario("A_north_a", "preemption = \"p.csv\"\n");
-    const Ended none = equip({"--json", "--out", "off"});
+    const Ended none = equip({"--json"}, "off");
     ASSERT_EQ(none.code, 0) << none.err;
     const auto json = nlohmann::json::parse(none.out);
     EXPECT_EQ(json.at("switched_off"), 1);
