@@ -1,6 +1,8 @@
 #include "results/detail/log_tables.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -51,9 +53,9 @@ core::Json json_of(const std::string& cell) {
 
 /// Texts among the columns; others hold numbers.
 bool is_text(std::string_view column) {
-    for (const char* const text : {"scenario", "condition", "signal", "links", "vehicle", "name"})
-        if (column == text) return true;
-    return false;
+    constexpr std::array<std::string_view, 6> texts = {"scenario", "condition", "signal",
+                                                       "links",    "vehicle",   "name"};
+    return std::ranges::find(texts, column) != texts.end();
 }
 
 }  // namespace
