@@ -40,7 +40,7 @@ Action configure_results(CLI::App& app) {
     app.add_option("folder", arguments->folder, "Run folder, complete or not")
         ->required()
         ->option_text("DIR (required)");
-    app.add_option("table", arguments->table, "Table to print; --list names them")
+    app.add_option("table,--table", arguments->table, "Table to print; --list names them")
         ->option_text(fmt::format("TABLE [{}]", arguments->table));
     auto* const csv = app.add_flag_callback(
         "--csv", [arguments] { arguments->format = results::TableFormat::csv; },

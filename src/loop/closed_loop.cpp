@@ -54,6 +54,7 @@ void ClosedLoop::step() {
     std::span<const traffic::Lease> leases;
     if (controller_) leases = controller_->chain->leases();
     recorder_.step(snapshot, session_.roster(), session_.events(), leases);
+    if (controller_ && controller_->chain->has_policy()) recorder_.signals(snapshot, signals_);
     if (listener_ != nullptr) tell_listener(snapshot, decided);
 
     ++timing_.steps;
@@ -84,9 +85,9 @@ void ClosedLoop::act(const truth::Snapshot& snapshot, bool decided) {
     controller_->actuator->refuse(requests.lost(), "unheard");
     controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
-    const std::vector<traffic::SignalStatus> signals = controller_->actuator->signals();
-    controller_->greens->step(signals, snapshot, session_.roster());
-    if (decided) chain.answer(signals);
+    signals_ = controller_->actuator->signals();
+    controller_->greens->step(signals_, snapshot, session_.roster());
+    if (decided) chain.answer(signals_);
 }
 
 void ClosedLoop::score(const truth::Snapshot& snapshot) {

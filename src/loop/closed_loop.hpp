@@ -81,6 +81,7 @@ class ClosedLoop {
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;
+    std::vector<traffic::SignalStatus> signals_;  ///< After the actuator's last step.
     LoopTiming timing_;
 };
 

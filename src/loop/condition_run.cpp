@@ -51,7 +51,8 @@ results::RunRecord record_of(const experiment::RunKey& key, const experiment::Co
             .metrics = summary.metrics,
             .vehicles = std::move(summary.vehicles),
             .traffic = std::move(summary.traffic),
-            .leases = std::move(summary.leases)};
+            .leases = std::move(summary.leases),
+            .signal_events = std::move(summary.signal_events)};
 }
 
 }  // namespace clearway::loop

@@ -5,6 +5,7 @@
 
 #include "core/ids.hpp"
 #include "roads/route.hpp"
+#include "roads/signal_numbers.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -52,6 +53,33 @@ void add_signal_ways(const roads::Network& network, metrics::RoadLayout& layout)
     std::ranges::stable_sort(layout.signal_ways, {}, &metrics::SignalWay::to);
 }
 
+void add_signal_heads(const roads::Network& network, metrics::RoadLayout& layout) {
+    for (const roads::Signal& signal : network.signals()) {
+        const roads::SignalNumbers numbers = roads::signal_numbers(network, signal);
+        std::vector<metrics::SignalHead>& heads = layout.signal_heads.emplace_back();
+        for (std::size_t link = 0; link < signal.links.size(); ++link) {
+            heads.push_back({numbers.phase[link], numbers.approach[link], signal.crossings[link], {}});
+            for (std::uint16_t other = 0; other < signal.links.size(); ++other)
+                if (signal.foes[link][other]) heads.back().foes.push_back(other);
+        }
+    }
+}
+
+/// To the end of the edge of lane `last`, at the speed limits.
+double least_time_s(const roads::Network& network, const std::vector<core::EdgeIndex>& route,
+                    core::LaneIndex last) {
+    double time_s = 0.0;
+    for (const core::EdgeIndex edge : route) {
+        double limit_mps = 0.1;
+        for (std::uint32_t number = 0; number < network.edge(edge).lane_count; ++number)
+            limit_mps =
+                std::max<double>(limit_mps, network.lane(network.lane_of(edge, number)).speed_limit_mps);
+        time_s += network.edge(edge).length_m / limit_mps;
+        if (edge == network.lane(last).edge) break;
+    }
+    return time_s;
+}
+
 metrics::WatchedRoute watched_route(const roads::Network& network, const metrics::RoadLayout& layout,
                                     const traffic::EmergencyDeparture& departure) {
     metrics::WatchedRoute watched{core::vehicle_key(departure.id), departure.id, {}, {}, {}, {}, {}};
@@ -70,9 +98,13 @@ metrics::WatchedRoute watched_route(const roads::Network& network, const metrics
     traffic::MotionState start;
     start.lane = network.lane_of(route.front(), 0);
     constexpr core::Metres to_the_end{1e9};
-    for (const roads::StopLine& line : roads::signals_ahead(network, route, start, to_the_end))
-        watched.signals.push_back(
-            {line.signal, network.signal(line.signal).id, line.links, line.distance.value});
+    for (const roads::StopLine& line : roads::signals_ahead(network, route, start, to_the_end)) {
+        const roads::Signal& signal = network.signal(line.signal);
+        const core::LaneIndex from = signal.links[line.links.front()].front().from;
+        watched.signals.push_back({line.signal, signal.id, line.links, line.distance.value,
+                                   departure.depart.value + least_time_s(network, route, from),
+                                   layout.approach_of_lane[from.value]});
+    }
     return watched;
 }
 
@@ -84,6 +116,7 @@ metrics::RoadLayout road_layout(const roads::Network& network,
     metrics::RoadLayout layout;
     add_approaches(network, counts, layout);
     add_signal_ways(network, layout);
+    add_signal_heads(network, layout);
     for (const roads::Signal& signal : network.signals())
         layout.signals.push_back(signal.id);
     for (const roads::Lane& lane : network.lanes()) {

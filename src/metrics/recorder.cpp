@@ -10,13 +10,16 @@
 #include "core/error.hpp"
 #include "core/match_rows.hpp"
 #include "metrics/detail/conflict_watch.hpp"
+#include "metrics/detail/cross_watch.hpp"
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
 #include "metrics/detail/hold_watch.hpp"
+#include "metrics/detail/signal_log.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
 #include "metrics/link_comparison.hpp"
 #include "metrics/restricted_time.hpp"
+#include "metrics/signal_measures.hpp"
 
 namespace clearway::metrics {
 namespace {
@@ -223,6 +226,18 @@ void describe_conflicts(const detail::ConflictWatch& conflicts, RunMetrics& metr
     metrics.emergency_greatest_drac_mps2 = conflicts.greatest_drac_mps2();
 }
 
+/// `measures` end with those of all signals together.
+void describe_signals(const std::vector<SignalMeasures>& measures, RunMetrics& metrics) {
+    if (measures.empty()) return;
+    const SignalMeasures& all = measures.back();
+    metrics.signal_calls = all.calls;
+    metrics.signal_calls_granted = all.granted;
+    metrics.signal_entry_delay_s = all.entry_delay_s;
+    metrics.signal_time_to_service_s = all.time_to_service_s;
+    metrics.signal_dwell_s = all.dwell_s;
+    metrics.signal_recovery_s = all.recovery_s;
+}
+
 void describe_requests(const traffic::RequestCounts& counts, RunMetrics& metrics) {
     metrics.requests_sent = counts.sent;
     metrics.requests_heard = counts.heard;
@@ -304,6 +319,8 @@ struct Recorder::State {
     std::optional<detail::FlowWatch> flow;
     std::optional<detail::HoldWatch> holds;
     std::optional<detail::ConflictWatch> conflicts;
+    std::optional<detail::CrossWatch> cross_streets;
+    std::optional<detail::SignalLog> signal_log;
 };
 
 Recorder::Recorder(RecorderConfig config) : state_(std::make_unique<State>()) {
@@ -323,6 +340,7 @@ void Recorder::watch(RoadLayout layout) {
     state_->flow.emplace(state_->layout);
     state_->holds.emplace(state_->layout);
     state_->conflicts.emplace();
+    state_->cross_streets.emplace(state_->layout);
 }
 
 void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -336,6 +354,7 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         state_->flow->step(snapshot, state_->row_before);
         state_->holds->step(snapshot, leases);
         state_->conflicts->step(snapshot, roster);
+        state_->cross_streets->step(snapshot);
     }
     RunMetrics& counted = state_->counted;
     counted.vehicle_steps += snapshot.size();
@@ -345,6 +364,12 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         count_collision(collision, roster, counted);
     for (const core::VehicleKey vehicle : events.teleported)
         ++state_->teleports[vehicle];
+}
+
+void Recorder::signals(const truth::Snapshot& snapshot, std::span<const traffic::SignalStatus> asked) {
+    if (!state_->traffic) return;
+    if (!state_->signal_log) state_->signal_log.emplace(state_->layout);
+    state_->signal_log->step(snapshot, asked);
 }
 
 void Recorder::links(const truth::Snapshot& snapshot, const TrueLinks& truth,
@@ -368,6 +393,11 @@ RunSummary Recorder::finish(const RunEnd& end) const {
         summary.traffic.holds = state_->holds->rows();
         describe_flow(*state_->flow, metrics);
         describe_conflicts(*state_->conflicts, metrics);
+        metrics.cross_street_delay_s = state_->cross_streets->delay_s();
+        if (state_->signal_log) {
+            summary.signal_events = state_->signal_log->events();
+            describe_signals(signal_measures(*summary.signal_events), metrics);
+        }
         metrics.worst_approach_delay_s = worst_delay_s(summary.traffic.approaches);
     }
     table.walks().describe(metrics);

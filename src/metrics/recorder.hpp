@@ -13,6 +13,7 @@
 #include "traffic/belief.hpp"
 #include "traffic/departure.hpp"
 #include "traffic/lease.hpp"
+#include "traffic/signal_status.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/events.hpp"
 #include "truth/snapshot.hpp"
@@ -82,6 +83,9 @@ class Recorder {
     /// of the snapshot.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster, const truth::Events& events,
               std::span<const traffic::Lease> leases);
+    /// What signals are doing about requests at the end of the step, by index. Call it in every step of a
+    /// condition that could ask for greens, after `step`.
+    void signals(const truth::Snapshot& snapshot, std::span<const traffic::SignalStatus> asked);
     /// Compares the believed links with the true ones; `truth` is that of the snapshot. A link counts as
     /// believed when the belief lists it.
     void links(const truth::Snapshot& snapshot, const TrueLinks& truth, const traffic::BelievedGraph& belief);

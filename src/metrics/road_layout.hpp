@@ -21,6 +21,9 @@ struct RouteSignal {
     std::string id;
     std::vector<std::uint16_t> links;  ///< The vehicle may pass when any of them is green.
     double distance_m = 0.0;           ///< From the start of the route.
+    /// When the vehicle could be there, at the speed limits from its planned departure on.
+    double earliest_s = 0.0;
+    std::int32_t approach = -1;  ///< Index of its own approach; -1 for none.
 };
 
 /// The route of an emergency vehicle, as distances.
@@ -42,6 +45,14 @@ struct SignalWay {
     std::uint16_t link = 0;
 };
 
+/// A link of a signal, as the event log names it (roads/signal_numbers.hpp).
+struct SignalHead {
+    std::uint32_t phase = 0;     ///< Signal group; 0 for a link that controls nothing.
+    std::uint32_t approach = 0;  ///< Number of the pre-empt; 0 for crossings.
+    bool on_foot = false;
+    std::vector<std::uint16_t> foes;  ///< Links that conflict with it.
+};
+
 /// What a recorder has to know of the map to say where time was lost: plain numbers, so that it needs no map.
 struct RoadLayout {
     static constexpr std::int32_t no_approach = -1;
@@ -51,8 +62,9 @@ struct RoadLayout {
     std::vector<std::uint8_t> internal_lane;     ///< By core::LaneIndex; 1 inside junctions.
     std::vector<float> limit_of_lane_mps;        ///< By core::LaneIndex.
     std::vector<WatchedRoute> routes;
-    std::vector<std::string> signals;    ///< Ids, by core::SignalIndex.
-    std::vector<SignalWay> signal_ways;  ///< Ordered by `to`.
+    std::vector<std::string> signals;                   ///< Ids, by core::SignalIndex.
+    std::vector<SignalWay> signal_ways;                 ///< Ordered by `to`.
+    std::vector<std::vector<SignalHead>> signal_heads;  ///< By core::SignalIndex, then link.
     /// Vehicles of the demand depart until this time; flows are measured until then.
     double demand_until_s = 0.0;
     /// Whether to keep the emergency vehicles' journeys, which take as much space as everything else

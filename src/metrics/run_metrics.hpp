@@ -8,6 +8,7 @@
 
 #include "core/fields.hpp"
 #include "metrics/lease_row.hpp"
+#include "metrics/signal_event.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
 #include "traffic/request_counts.hpp"
@@ -90,7 +91,16 @@ struct RunMetrics {
     std::optional<double> signal_queue_vehicles;
     std::optional<double> signal_longest_queue_vehicles;
     std::optional<double> worst_approach_delay_s;
+    std::optional<double> cross_street_delay_s;
     double vehicle_km = 0.0;  ///< Of the whole run.
+
+    // From the event logs of the signals.
+    std::uint64_t signal_calls = 0;
+    std::uint64_t signal_calls_granted = 0;
+    std::optional<double> signal_entry_delay_s;
+    std::optional<double> signal_time_to_service_s;
+    std::optional<double> signal_dwell_s;
+    std::optional<double> signal_recovery_s;
 
     std::uint64_t leases_issued = 0;
     std::uint64_t leases_renewed = 0;
@@ -222,6 +232,29 @@ struct RunMetrics {
             Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
                   "tripinfo routeLength"});
     }
+    static constexpr auto signal_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        return std::make_tuple(
+            Field{"cross_street_delay_s", "s", &M::cross_street_delay_s, 0.0, 1e12,
+                  "Time lost on the cross streets of a signal on an EV's route, in the 15 minutes from when "
+                  "the EV could be there, summed over vehicles, mean of the signals on all routes",
+                  "approaches"},
+            Field{"signal_calls", "1", &M::signal_calls, 0.0, 1e9, "Requests of EVs that reached a signal",
+                  "event log"},
+            Field{"signal_calls_granted", "1", &M::signal_calls_granted, 0.0, 1e9,
+                  "Of them: a hold was shown", "event log"},
+            Field{"signal_entry_delay_s", "s", &M::signal_entry_delay_s, 0.0, 1e9,
+                  "From a request to the start of the transition, mean", "event log"},
+            Field{"signal_time_to_service_s", "s", &M::signal_time_to_service_s, 0.0, 1e9,
+                  "From a request to green for the EV, mean of those granted", "event log"},
+            Field{"signal_dwell_s", "s", &M::signal_dwell_s, 0.0, 1e9, "How long a hold was shown, mean",
+                  "event log"},
+            Field{"signal_recovery_s", "s", &M::signal_recovery_s, 0.0, 1e9,
+                  "From the end of a hold until the program runs again, in step where it is coordinated, "
+                  "mean",
+                  "event log"});
+    }
     static constexpr auto pedestrian_fields() {
         using M = RunMetrics;
         using core::Field;
@@ -341,8 +374,8 @@ struct RunMetrics {
 
   public:
     static constexpr auto fields() {
-        return std::tuple_cat(travel_fields(), safety_fields(), pedestrian_fields(), decision_fields(),
-                              request_fields(), answer_fields(), link_fields());
+        return std::tuple_cat(travel_fields(), safety_fields(), signal_fields(), pedestrian_fields(),
+                              decision_fields(), request_fields(), answer_fields(), link_fields());
     }
 };
 
@@ -353,6 +386,8 @@ struct RunSummary {
     std::string trace_hash;            ///< 32 hex digits over every snapshot and every lease, in order.
     TrafficTables traffic;             ///< Empty unless Recorder::watch was called.
     std::vector<LeaseRow> leases;      ///< By policy, then action; only those that were used.
+    /// By time, then signal. Nothing unless Recorder::signals was called.
+    std::optional<std::vector<SignalEvent>> signal_events = {};
 };
 
 }  // namespace clearway::metrics

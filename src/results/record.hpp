@@ -34,6 +34,9 @@ struct RunRecord {
     metrics::TrafficTables traffic;
     /// By policy, then action. Nothing in a record of a version which kept only totals.
     std::optional<std::vector<metrics::LeaseRow>> leases = {};
+    /// Written but not read back; see Store::read_signal_events. Nothing where no policy could ask for
+    /// greens, and in records of older versions.
+    std::optional<std::vector<metrics::SignalEvent>> signal_events = {};
 
     bool operator==(const RunRecord&) const = default;
 };

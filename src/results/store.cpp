@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "results/detail/record_files.hpp"
+#include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
 #include "trace/recording.hpp"
 
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* part_suffix = ".part";
+constexpr const char* signal_events_name = "signal_events.csv";
 
 /// Writes without flushing: for data that may be lost in a power failure.
 void write_unflushed(const fs::path& file, const std::string& content) {
@@ -174,6 +176,9 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
     core::make_folder(target.parent_path());
     PartFolder part(target);
     core::write_atomically(part.path() / "vehicles.csv", vehicles);
+    if (record.signal_events)
+        core::write_atomically(part.path() / signal_events_name,
+                               detail::signal_events_to_csv(*record.signal_events));
     write_unflushed(part.path() / "timing.json", detail::timing_to_json(timing));
     core::write_atomically(part.path() / "run.json", run);
     const bool first = part.put_in_place();
@@ -311,6 +316,7 @@ void Store::check(const experiment::RunKey& key) const {
     const fs::path folder = run_folder(key);
     if (fs::exists(folder)) {
         read_checked(key, vehicles);
+        read_signal_events(key);
         read_timing(key);
     }
     read_error(key);
@@ -337,6 +343,22 @@ metrics::TrafficTables Store::read_traffic(const experiment::RunKey& key) const 
     if (!complete(key)) return {};
     const std::string file = (run_folder(key) / "run.json").string();
     return detail::all_traffic_from_json(core::parse_object(core::read_file(file), file), file);
+}
+
+std::optional<std::vector<metrics::SignalEvent>> Store::read_signal_events(
+    const experiment::RunKey& key) const {
+    if (!complete(key)) return std::nullopt;
+    const std::string record = (run_folder(key) / "run.json").string();
+    const core::Json run = core::parse_object(core::read_file(record), record);
+    if (!run.contains(detail::signal_events_hash_key)) return std::nullopt;
+    const std::string file = (run_folder(key) / signal_events_name).string();
+    const std::string text = core::read_file(file);
+    std::vector<metrics::SignalEvent> events = detail::signal_events_from_csv(text, file);
+    if (run[detail::signal_events_hash_key] != core::content_hash(text))
+        throw core::InputError({file, "does not fit its hash in run.json", "",
+                                "Repeat the command that made the study (command.txt): it sets the run "
+                                "aside and makes it again"});
+    return events;
 }
 
 std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const {

@@ -26,6 +26,7 @@ struct SetAside {
 ///     scenarios/SCENARIO/                                effective configuration and network
 ///     runs/SCENARIO/CONDITION/REPLICATION/run.json       a completed run; never changes
 ///                                         /vehicles.csv
+///                                         /signal_events.csv where a policy could ask for greens
 ///                                         /timing.json   differs from machine to machine
 ///     errors/SCENARIO/CONDITION/REPLICATION.json         a run without a record
 ///     recordings/SCENARIO/CONDITION/REPLICATION.h5       every step of a run, if requested
@@ -84,6 +85,9 @@ class Store {
     /// leaves out; empty for runs that are not complete or did not keep them. Throws core::InputError for a
     /// damaged record.
     metrics::TrafficTables read_traffic(const experiment::RunKey& key) const;
+    /// The event log of the signals; nothing for runs that are not complete or kept none. Throws
+    /// core::InputError, naming file and line, for a log that is damaged or missing.
+    std::optional<std::vector<metrics::SignalEvent>> read_signal_events(const experiment::RunKey& key) const;
     std::optional<RunTiming> read_timing(const experiment::RunKey& key) const;
     std::optional<RunError> read_error(const experiment::RunKey& key) const;
     /// Forgets an error so that the run can be tried again.

@@ -9,12 +9,15 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "results/detail/log_tables.hpp"
 #include "results/detail/sqlite.hpp"
 
 namespace clearway::results {
 namespace {
 
 using detail::Database;
+using detail::log_tables;
+using detail::LogTable;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw core::InputError({file.string(), what, "a database that this version wrote",
@@ -143,12 +146,18 @@ bool tables_are_current(const Store& store) {
 }
 
 std::vector<std::string> table_names(const Store& store) {
-    return names_in(open_database(store));
+    std::vector<std::string> names = names_in(open_database(store));
+    for (const LogTable& table : log_tables())
+        names.emplace_back(table.name);
+    std::ranges::sort(names);
+    return names;
 }
 
 void print_table(const Store& store, const std::string& table, TableFormat format, std::ostream& out) {
+    for (const LogTable& log : log_tables())
+        if (table == log.name) return print_log_table(store, log, format, out);
     const Database database = open_database(store);
-    const std::vector<std::string> known = names_in(database);
+    const std::vector<std::string> known = table_names(store);
     if (std::ranges::find(known, table) == known.end()) {
         throw core::InputError({"table",
                                 fmt::format("there is no `{}` in {}", table, store.folder().string()),

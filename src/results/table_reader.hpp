@@ -19,8 +19,8 @@ enum class TableFormat : std::uint8_t {
 /// Throws core::InputError for a database of another version and for a file that is not a database.
 bool tables_are_current(const Store& store);
 
-/// Names of the tables of a run folder's `results.sqlite`, in alphabetical order. Throws core::InputError as
-/// above.
+/// Names of the tables of a run folder's `results.sqlite` and of those that are read from the runs' event
+/// logs each time (`signal_events`), in alphabetical order. Throws core::InputError as above.
 std::vector<std::string> table_names(const Store& store);
 
 /// Writes a table, row by row. Throws core::InputError as above, and for an unknown table, naming the known

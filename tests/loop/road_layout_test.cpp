@@ -47,6 +47,26 @@ TEST_F(RoadLayout, MeasuresTheRouteOfAnEmergencyVehicle) {
     EXPECT_EQ(route.signals[0].id, "J");
     EXPECT_THAT(route.signals[0].links, ElementsAre(3));
     EXPECT_EQ(route.signals[0].distance_m, 50.0);
+    EXPECT_EQ(route.signals[0].approach, 1);
+}
+
+TEST_F(RoadLayout, SaysWhenAnEmergencyVehicleCouldBeAtASignal) {
+    std::vector departures = {departure({"south", "north"})};
+    departures[0].depart = core::Seconds(100.0);
+    const metrics::RoadLayout layout = road_layout(network_, departures);
+    const double limit_mps = network_.lane(*network_.find_lane("south_0")).speed_limit_mps;
+    EXPECT_DOUBLE_EQ(layout.routes.at(0).signals.at(0).earliest_s, 100.0 + 50.0 / limit_mps);
+}
+
+TEST_F(RoadLayout, NumbersTheLinksOfASignalForItsEventLog) {
+    const metrics::RoadLayout layout = road_layout(network_, {});
+    ASSERT_EQ(layout.signal_heads.size(), 1U);
+    const roads::Signal& signal = network_.signal(core::SignalIndex{0});
+    ASSERT_EQ(layout.signal_heads[0].size(), signal.links.size());
+    const metrics::SignalHead& south = layout.signal_heads[0][3];
+    EXPECT_EQ(south.approach, 2U) << "the west comes first";
+    for (std::uint16_t other = 0; other < signal.links.size(); ++other)
+        EXPECT_EQ(std::ranges::count(south.foes, other), signal.foes[3][other] ? 1 : 0);
 }
 
 TEST_F(RoadLayout, KnowsTheWaysOfASignalByTheirInnerLanesAndBothEnds) {

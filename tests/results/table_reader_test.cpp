@@ -8,6 +8,7 @@
 #include <sqlite3.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "results/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -91,12 +92,68 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
 }
 
 TEST_F(TableReader, RefusesOtherVersionsOtherFilesAndUnknownTables) {
-    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("errors, leases, runs, study, vehicles"));
+    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("errors, leases, runs, signal_events, signals, study, vehicles"));
     execute("UPDATE study SET value = '99' WHERE key = 'format'");
     EXPECT_THAT(error_of("runs"), HasSubstr("another version: format \"99\""));
     EXPECT_THROW(tables_are_current(store), core::InputError);
     std::ofstream(folder.path() / "results.sqlite") << "no database at all, but long enough to look at";
     EXPECT_THAT(error_of("runs"), HasSubstr("results.sqlite"));
+}
+
+/// A run with an event log.
+class EventLogs : public TableReader {
+  protected:
+    EventLogs() {
+        RunRecord run = synthetic::record({"alpha", "treated", 1});
+        run.signal_events = {{10.5, "J", 102, 3, "4 5", "e,1"}, {12.0, "J", 8, 1, "0", ""}};
+        store.write(run, {});
+    }
+    std::filesystem::path log() const {
+        return store.run_folder({"alpha", "treated", 1}) / "signal_events.csv";
+    }
+    void replace(const std::string& what, const std::string& by) const {
+        std::string text = core::read_file(log());
+        text.replace(text.find(what), what.size(), by);
+        std::ofstream(log()) << text;
+    }
+};
+
+TEST_F(EventLogs, AreATable) {
+    EXPECT_THAT(table_names(store), testing::Contains("signal_events"));
+    EXPECT_EQ(printed("signal_events", TableFormat::csv),
+              "scenario,condition,replication,time_s,signal,event,parameter,links,vehicle,name\n"
+              "alpha,treated,1,10.5,J,102,3,4 5,\"e,1\",Preempt (Call) Input On\n"
+              "alpha,treated,1,12,J,8,1,0,,Phase Begin Yellow Clearance\n");
+    const auto rows = nlohmann::json::parse(printed("signal_events", TableFormat::json));
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0]["event"], 102);
+    EXPECT_EQ(rows[1]["links"], "0") << "a list of one";
+    EXPECT_EQ(rows[0]["vehicle"], "e,1");
+}
+
+TEST_F(EventLogs, ThatAreDamagedAreToldWithTheirLine) {
+    replace("12,J,8", "12,J,x");
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("signal_events.csv:3"));
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("makes it again"));
+    EXPECT_THROW(store.read_signal_events({"alpha", "treated", 1}), core::InputError);
+    EXPECT_EQ(store.set_damaged_aside({{"alpha", "treated", 1}}).size(), 1U);
+}
+
+TEST_F(EventLogs, ThatFitNoHashAreTold) {
+    replace("10.5", "10.0");
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("does not fit its hash"));
+}
+
+TEST_F(EventLogs, WithOtherWordsOrOutOfOrderAreTold) {
+    replace("10.5,J,102", "10.5,J,104");
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("event 104 is not \"Preempt (Call) Input On\""));
+    replace("10.5,J,104", "13,J,102");
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("before that of the line above"));
+}
+
+TEST_F(TableReader, TellsWhereNoRunKeptAnEventLog) {
+    EXPECT_THAT(error_of("signal_events"), HasSubstr("holds no event logs"));
+    EXPECT_EQ(store.read_signal_events({"alpha", "baseline", 0}), std::nullopt);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "metrics/lease_row.hpp"
 #include "metrics/run_metrics.hpp"
+#include "metrics/signal_event.hpp"
+#include "metrics/signal_measures.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
 #include "scenario/config.hpp"
@@ -37,7 +39,14 @@ ReferencePage columns() {
                                            "Where an EV was, in `run.json` of the first three "
                                            "replications"),
              table_of<metrics::EdgeTimeRow>("Edge times", "How EVs drove their routes, in `run.json`"),
-             table_of<metrics::SignalHoldRow>("Signal holds", "Signals that policies held, in `run.json`")}};
+             table_of<metrics::SignalHoldRow>("Signal holds", "Signals that policies held, in `run.json`"),
+             table_of<metrics::SignalEvent>("Signal events",
+                                            "Event logs of signals while they are asked for, in "
+                                            "`signal_events.csv` of each run, behind them the event in "
+                                            "words; `clearway results DIR signal_events`"),
+             table_of<metrics::SignalMeasures>("Signals",
+                                               "How each signal served EVs, from its event log; "
+                                               "`clearway results DIR signals`")}};
 }
 
 ReferencePage scenario_keys() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/match_rows.hpp"
+#include "metrics/detail/signal_ways.hpp"
 #include "metrics/detail/standing.hpp"
 
 namespace clearway::metrics::detail {
@@ -43,23 +44,12 @@ void FlowWatch::compare(const truth::Snapshot& snapshot, core::VehicleIndex row,
 }
 
 void FlowWatch::pass(const truth::Snapshot& snapshot, core::VehicleIndex row, core::LaneIndex from) {
-    const SignalWay* const taken = way(from, snapshot.lane[row]);
+    const SignalWay* const taken = signal_way(layout_, from, snapshot.lane[row]);
     if (taken == nullptr) return;
     if (snapshot.time.value <= layout_.demand_until_s) ++passages_of_demand_;
     if (!was_red(snapshot, *taken)) return;
     const bool is_emergency = snapshot.vehicle_class[row] == traffic::VehicleClass::emergency;
     ++(is_emergency ? emergency_red_passages_ : others_red_passages_);
-}
-
-/// A path across a junction is identified by its first internal lane, or by the lanes before and after it
-/// when the vehicle crossed it within one step.
-const SignalWay* FlowWatch::way(core::LaneIndex from, core::LaneIndex to) const {
-    const std::vector<SignalWay>& ways = layout_.signal_ways;
-    for (auto one = std::ranges::lower_bound(ways, to, {}, &SignalWay::to);
-         one != ways.end() && one->to == to; ++one) {
-        if (!one->from.exists() || one->from == from) return &*one;
-    }
-    return nullptr;
 }
 
 /// Red before and after the step: a vehicle that crosses while the signal changes gets the benefit of the

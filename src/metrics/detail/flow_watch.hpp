@@ -44,7 +44,6 @@ class FlowWatch {
                  double elapsed_s);
     void pass(const truth::Snapshot& snapshot, core::VehicleIndex row, core::LaneIndex from);
     void count_queues(const truth::Snapshot& snapshot, double elapsed_s);
-    const SignalWay* way(core::LaneIndex from, core::LaneIndex to) const;
     bool was_red(const truth::Snapshot& snapshot, const SignalWay& way) const;
 
     const RoadLayout& layout_;

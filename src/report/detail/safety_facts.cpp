@@ -28,6 +28,19 @@ constexpr std::array rows = {
     Row{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
     Row{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
     Row{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
+    Row{"cross_street_delay_s",
+        "Time lost on cross streets in the 15 min after an EV, vehicle-s per passage"},
+};
+
+/// Shown only if signals were asked for green.
+constexpr std::array signal_rows = {
+    Row{"signal_calls", "Requests that reached a signal"},
+    Row{"signal_calls_granted", "Requests granted"},
+    Row{"held_greens_useless", "Greens held whose EV did not pass in them"},
+    Row{"signal_entry_delay_s", "From request to transition, s"},
+    Row{"signal_time_to_service_s", "From request to green, s"},
+    Row{"signal_dwell_s", "Hold, s"},
+    Row{"signal_recovery_s", "From the end of a hold until back in program and step, s"},
 };
 
 /// Shown only if there are pedestrians.
@@ -63,6 +76,8 @@ std::vector<SafetyFacts> safety_of(const analysis::ConditionSummary& summary) {
     const double driven_km = total(summary.metric("vehicle_km").values);
     const bool has_pedestrians = total(summary.metric("pedestrian_count").values) > 0.0;
     std::vector<Row> shown(rows.begin(), rows.end());
+    if (total(summary.metric("signal_calls").values) > 0.0)
+        shown.insert(shown.end(), signal_rows.begin(), signal_rows.end());
     if (has_pedestrians) shown.insert(shown.end(), pedestrian_rows.begin(), pedestrian_rows.end());
     for (const Row& row : shown) {
         const analysis::MetricSummary& metric = summary.metric(row.metric);

@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 #include "metrics/restricted_time.hpp"
+#include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
 
 namespace clearway::results::detail {
@@ -76,11 +77,17 @@ std::optional<double> restricted_time_of_old(const std::string& vehicles_csv, co
     return metrics::emergency_restricted_mean_s(vehicles, 0.0);
 }
 
+/// Whether records of older versions may lack a metric.
+bool is_newer(std::string_view metric) {
+    return metric == restricted_key || metric == "cross_street_delay_s" || metric.starts_with("signal_") ||
+           metric.starts_with("held_greens");
+}
+
 void read_metrics(const core::Json& object, const std::string& where, std::vector<core::Problem>& problems,
                   metrics::RunMetrics& metrics) {
     core::ObjectReader reader(object, where, problems);
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
-        if (std::string_view(field.name) == restricted_key)
+        if (is_newer(field.name))
             reader.read_if_there(field.name, metrics.*field.member);
         else
             reader.read(field.name, metrics.*field.member);
@@ -127,6 +134,8 @@ std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv
     core::write_fields(object["metrics"], record.metrics);
     if (record.leases) object["leases"] = leases_to_json(*record.leases);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
+    if (record.signal_events)
+        object[signal_events_hash_key] = core::content_hash(signal_events_to_csv(*record.signal_events));
     if (core::Json traffic = traffic_to_json(record.traffic); !traffic.is_null())
         object["traffic"] = std::move(traffic);
     object[hash_key] = core::content_hash(core::to_text(object));

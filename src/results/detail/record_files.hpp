@@ -7,6 +7,9 @@
 
 namespace clearway::results::detail {
 
+/// Key of `run.json`: hash of `signal_events.csv`; missing where there is no such file.
+inline constexpr const char* signal_events_hash_key = "signal_events_hash";
+
 // The files of one run, to and from text. The readers throw core::InputError, naming `where`.
 
 /// `run.json`: everything but the vehicles, with the hash of vehicles.csv and a hash of itself.
