@@ -13,6 +13,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/names.hpp"
 #include "cli/detail/programs.hpp"
+#include "cli/detail/signal_audit.hpp"
 #include "cli/detail/stored_job.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
@@ -33,6 +34,7 @@ constexpr std::size_t shown_cells = 3;
 struct Arguments {
     std::string what;  ///< A run, or with `all` and `sample` a run folder.
     bool all = false;
+    bool signals = false;  ///< Audit signals instead of comparing numbers.
     std::size_t sample = 0;
     std::string out;
     unsigned jobs = 0;
@@ -103,7 +105,7 @@ std::vector<experiment::RunKey> complete_runs(const results::Store& store, const
         throw core::Error(
             core::ExitCode::incomplete,
             fmt::format("{}: no run is complete; there is nothing to compare with", store.folder().string()));
-    if (arguments.all || arguments.sample >= complete.size()) return complete;
+    if (arguments.sample == 0 || arguments.sample >= complete.size()) return complete;
     std::vector<experiment::RunKey> sample;
     for (std::size_t i = 0; i < arguments.sample; ++i)
         sample.push_back(complete[i * complete.size() / arguments.sample]);
@@ -112,7 +114,7 @@ std::vector<experiment::RunKey> complete_runs(const results::Store& store, const
 
 Chosen chosen_runs(const Arguments& arguments) {
     const bool is_folder = std::filesystem::exists(std::filesystem::path(arguments.what) / "manifest.json");
-    const bool wants_many = arguments.all || arguments.sample > 0;
+    const bool wants_many = arguments.all || arguments.sample > 0 || (arguments.signals && is_folder);
     if (is_folder && !wants_many)
         throw core::InputError({"RUN", fmt::format("{} is a whole run folder", arguments.what),
                                 results::run_name_form, "Name one of its runs, or add --all or --sample N"});
@@ -270,28 +272,71 @@ void print_all(const std::vector<Verification>& verifications, Printing printing
                    counts[Verdict::failed]);
 }
 
-core::ExitCode verify_runs(const Arguments& arguments) {
-    const auto [stored, keys] = chosen_runs(arguments);
+/// Where runs are repeated.
+class Workshop {
+  public:
+    explicit Workshop(const std::string& out) {
+        if (out.empty()) temporary_.emplace();
+        folder_ = temporary_ ? temporary_->path() : std::filesystem::path(out);
+    }
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    std::optional<core::TemporaryFolder> temporary_;
+    std::filesystem::path folder_;
+};
+
+void require_elsewhere(const results::Store& stored, const std::string& out) {
     std::error_code none;
-    if (std::filesystem::equivalent(stored.folder(), arguments.out, none))
-        throw core::InputError({"--out", fmt::format("{} is the folder to verify", arguments.out),
+    if (std::filesystem::equivalent(stored.folder(), out, none))
+        throw core::InputError({"--out", fmt::format("{} is the folder to verify", out),
                                 "a new or empty folder",
                                 "The runs must be repeated elsewhere to be compared"});
+}
+
+/// Makes runs again in `out`. The exit code tells an interruption.
+std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
+                                                 const std::vector<experiment::RunKey>& keys,
+                                                 const std::filesystem::path& out, unsigned jobs) {
     require_same_versions(stored.manifest());
-    std::optional<core::TemporaryFolder> temporary;
-    if (arguments.out.empty()) temporary.emplace();
-    const std::filesystem::path out = temporary ? temporary->path() : std::filesystem::path(arguments.out);
     const study::Plan plan = plan_of(stored, keys, out);
-    const results::Store again = results::Store::create(out, plan.manifest);
+    results::Store again = results::Store::create(out, plan.manifest);
     core::Progress progress("runs", keys.size(), core::Progress::style_for_stderr());
     study::RunnerOptions options;
-    options.workers = arguments.jobs;
+    options.workers = jobs;
     const study::StudyResult result = study::run(plan, again, options, [&](const study::StudyProgress& now) {
         progress.update(now.done + now.failed, now.failed);
     });
     progress.finish();
-    if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated)
-        return result.exit_code;
+    return {std::move(again), result.exit_code};
+}
+
+bool is_interrupted(core::ExitCode code) {
+    return code == core::ExitCode::interrupted || code == core::ExitCode::terminated;
+}
+
+core::ExitCode audit(const Arguments& arguments) {
+    const auto [stored, keys] = chosen_runs(arguments);
+    require_elsewhere(stored, arguments.out);
+    const Workshop workshop(arguments.out);
+    core::ExitCode ended = core::ExitCode::ok;
+    const AuditReport report = audit_runs(stored, keys, [&](const std::vector<experiment::RunKey>& unlogged) {
+        auto [again, code] = repeat(stored, unlogged, workshop.folder(), arguments.jobs);
+        if (is_interrupted(code)) ended = code;
+        return std::move(again);
+    });
+    if (is_interrupted(ended)) return ended;
+    print_audit(report, arguments.printing);
+    return code_of(report);
+}
+
+core::ExitCode verify_runs(const Arguments& arguments) {
+    if (arguments.signals) return audit(arguments);
+    const auto [stored, keys] = chosen_runs(arguments);
+    require_elsewhere(stored, arguments.out);
+    const Workshop workshop(arguments.out);
+    const auto [again, code] = repeat(stored, keys, workshop.folder(), arguments.jobs);
+    if (is_interrupted(code)) return code;
     std::vector<Verification> verifications;
     for (const experiment::RunKey& key : keys)
         verifications.push_back(verify(stored, again, key));
@@ -304,7 +349,8 @@ core::ExitCode verify_runs(const Arguments& arguments) {
 Action configure_verify(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("run", arguments->what,
-                   fmt::format("Run to repeat: {}; with --all or --sample a folder", results::run_name_form))
+                   fmt::format("Run to repeat: {}; with --all, --sample or --signals a folder",
+                               results::run_name_form))
         ->required()
         ->option_text("RUN|DIR (required)");
     CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
@@ -313,6 +359,9 @@ Action configure_verify(CLI::App& app) {
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
         ->option_text("N, 1 or more [off]")
         ->excludes(all);
+    app.add_flag("--signals", arguments->signals,
+                 "Audit signals instead: no yellow, red clearance or green below the "
+                 "signal's own program in any event log [off]");
     app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
         ->option_text("DIR [a temporary one, removed at the end]");
     add_jobs_option(app, arguments->jobs);
@@ -323,7 +372,8 @@ Action configure_verify(CLI::App& app) {
         "The runs are repeated elsewhere, from the configurations and networks in the folder, and every\n"
         "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
         "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
-        "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.");
+        "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.\n\n"
+        "With --signals nothing is repeated that kept an event log, and exit code 1 tells findings.");
     return [arguments](const Invocation&) { return verify_runs(*arguments); };
 }
 
