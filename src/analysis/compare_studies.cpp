@@ -47,7 +47,8 @@ void add_only_in(const results::Manifest& one, const results::Manifest& other, c
 
 }  // namespace
 
-Summary compare_studies(const results::Results& first, const results::Results& second, double level) {
+Summary compare_studies(const results::Results& first, const results::Results& second, double level,
+                        std::optional<double> response_threshold_s) {
     Summary summary;
     summary.manifest = second.manifest;
     summary.level = level;
@@ -73,6 +74,8 @@ Summary compare_studies(const results::Results& first, const results::Results& s
         if (same->configuration_hash != entry.configuration_hash)
             refuse_pair("configuration of scenario " + entry.name, first, second);
         ScenarioSummary scenario{entry.name, entry.title, {}};
+        const double threshold_s =
+            detail::threshold_of(second_index, entry.name, second.manifest.conditions, response_threshold_s);
         for (const ConditionSpec& condition : second.manifest.conditions) {
             if (!has_condition(first.manifest, condition.name)) continue;
             const ConditionSummary before =
@@ -80,9 +83,10 @@ Summary compare_studies(const results::Results& first, const results::Results& s
             ConditionSummary& after = scenario.conditions.emplace_back(
                 detail::describe_condition(second_index, entry.name, condition, resamples));
             after.baseline = condition.name;
-            detail::compare_conditions(second_index.runs(entry.name, condition.name),
-                                       first_index.runs(entry.name, condition.name), before, resamples,
-                                       after);
+            const detail::Runs runs = second_index.runs(entry.name, condition.name);
+            const detail::Runs baseline_runs = first_index.runs(entry.name, condition.name);
+            detail::compare_conditions(runs, baseline_runs, before, resamples, after);
+            after.response = response_of(runs, baseline_runs, threshold_s, level);
             detail::add_unfinished(entry.name, before, " in the first folder", summary.unpaired);
             detail::add_unfinished(entry.name, after, " in the second folder", summary.unpaired);
         }

@@ -318,6 +318,17 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     return summary;
 }
 
+double threshold_of(const Index& index, const std::string& scenario,
+                    const std::vector<ConditionSpec>& conditions, std::optional<double> given_s) {
+    if (given_s) return *given_s;
+    Runs all;
+    for (const ConditionSpec& condition : conditions) {
+        const Runs runs = index.runs(scenario, condition.name);
+        all.insert(all.end(), runs.begin(), runs.end());
+    }
+    return usual_response_threshold_s(all).value_or(0.0);
+}
+
 void add_unfinished(const std::string& scenario, const ConditionSummary& condition, const char* folder,
                     std::vector<Unpaired>& unpaired) {
     const std::size_t lost = condition.failed_runs + condition.missing_runs;
@@ -332,17 +343,21 @@ void add_unfinished(const std::string& scenario, const ConditionSummary& conditi
 namespace {
 
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
-                                   const std::vector<ConditionSpec>& conditions, ResampleCache& resamples) {
+                                   const results::Manifest& manifest, ResampleCache& resamples,
+                                   std::optional<double> response_threshold_s) {
+    const std::vector<ConditionSpec>& conditions = manifest.conditions;
+    const double threshold_s = detail::threshold_of(index, entry.name, conditions, response_threshold_s);
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
         const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
+        const Runs runs = index.runs(entry.name, summary.condition.name);
+        const Runs baseline_runs = baseline == nullptr ? Runs{} : index.runs(entry.name, baseline->name);
+        summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
-        const Runs runs = index.runs(entry.name, summary.condition.name);
-        const Runs baseline_runs = index.runs(entry.name, baseline->name);
         detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
@@ -385,14 +400,15 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     return found == conditions.end() ? nullptr : &*found;
 }
 
-Summary summarise(const results::Results& results, double level) {
+Summary summarise(const results::Results& results, double level, std::optional<double> response_threshold_s) {
     Summary summary;
     summary.manifest = results.manifest;
     summary.level = level;
     const Index index(results);
     ResampleCache resamples(level);
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
-        summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples));
+        summary.scenarios.push_back(
+            summarise_scenario(index, entry, results.manifest, resamples, response_threshold_s));
         for (const ConditionSummary& condition : summary.scenarios.back().conditions)
             detail::add_unfinished(entry.name, condition, "", summary.unpaired);
     }

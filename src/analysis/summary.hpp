@@ -9,6 +9,7 @@
 #include "analysis/condition_difference.hpp"
 #include "analysis/estimate.hpp"
 #include "analysis/objections.hpp"
+#include "analysis/response.hpp"
 #include "analysis/traffic.hpp"
 #include "results/store.hpp"
 
@@ -108,6 +109,7 @@ struct ConditionSummary {
     std::optional<std::vector<metrics::LeaseRow>> leases;
     std::vector<IdlePart> idle_parts;  ///< In the order of the policies; empty if records lack leases.
     TravelTimeTail travel_time;
+    ResponseTime response;                 ///< Compared with the baseline where there is one.
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
     std::optional<Recovery> recovery;      ///< Likewise.
@@ -150,10 +152,12 @@ struct Summary {
 /// study has, which are listed in `unpaired`; `baseline` is the condition's own name. Throws core::InputError
 /// when seeds or scenario configurations differ, or when the studies share no scenario and condition.
 Summary compare_studies(const results::Results& first, const results::Results& second,
-                        double level = usual_level);
+                        double level = usual_level, std::optional<double> response_threshold_s = {});
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times
-/// are those of the first free-flow condition. Deterministic.
-Summary summarise(const results::Results& results, double level = usual_level);
+/// are those of the first free-flow condition. Without `response_threshold_s`, each scenario has its own (see
+/// usual_response_threshold_s). Deterministic.
+Summary summarise(const results::Results& results, double level = usual_level,
+                  std::optional<double> response_threshold_s = {});
 
 }  // namespace clearway::analysis

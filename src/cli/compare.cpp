@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Arguments {
     std::string second;
     std::vector<std::string> metrics;  ///< Empty: `usual_metrics`.
     std::vector<std::string> tolerances;
+    std::optional<double> response_threshold_s;
     Printing printing = Printing::text;
 };
 
@@ -89,9 +91,12 @@ analysis::Summary summary_of(const Arguments& arguments) {
     const results::Results first =
         results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
     if (!arguments.second.empty())
-        return analysis::compare_studies(first, results::read_results(results::Store::open(arguments.second),
-                                                                      results::VehicleRows::emergency));
-    analysis::Summary summary = analysis::summarise(first);
+        return analysis::compare_studies(
+            first,
+            results::read_results(results::Store::open(arguments.second), results::VehicleRows::emergency),
+            analysis::usual_level, arguments.response_threshold_s);
+    analysis::Summary summary =
+        analysis::summarise(first, analysis::usual_level, arguments.response_threshold_s);
     const bool compared = std::ranges::any_of(summary.scenarios, [](const auto& scenario) {
         return std::ranges::any_of(scenario.conditions,
                                    [](const auto& condition) { return !condition.baseline.empty(); });
@@ -137,6 +142,7 @@ Action configure_compare(CLI::App& app) {
                    "Exit with 6 if it may be worse by more than this (95 %), or if more EVs are lost")
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER ... [none]");
+    add_response_option(app, arguments->response_threshold_s);
     add_json_option(app, arguments->printing, "the comparison");
     return [arguments](const Invocation&) { return compare(*arguments); };
 }

@@ -213,7 +213,7 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
     std::filesystem::remove(store.folder() / "work", ignored);  // if it is empty
     if (code != core::ExitCode::ok) return code;
     const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, {options.printing, options.tables});
+    return was_interrupted(result) ? result.exit_code : publish(store, how_to_publish(options));
 }
 
 void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {

@@ -23,6 +23,7 @@ Action configure_report(CLI::App& app) {
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
         ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
+    add_response_option(app, arguments->how.response_threshold_s);
     app.add_flag_callback(
         "--replays", [arguments] { arguments->how.replays = MakeReplays::yes; },
         "Show the median, best and worst trip of each scenario in the report: makes up to six runs of each "

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ struct Arguments {
     experiment::RunLimits limits;
     Printing printing = Printing::text;
     report::Tables tables = report::Tables::essential;
+    std::optional<double> response_threshold_s;
     scenario::Options options;
     bool is_shown = false;
     double delay_ms = 50.0;  ///< With steps of 0.25 s: five times real time.
@@ -84,8 +86,9 @@ study::StudyConfig study_of(const Arguments& arguments, std::vector<experiment::
 }
 
 core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{arguments.folder,   arguments.jobs,      arguments.limits, arguments.printing,
-                           invocation.command, arguments.recording, arguments.tables};
+    RunPlanOptions options{
+        arguments.folder,   arguments.jobs,      arguments.limits, arguments.printing,
+        invocation.command, arguments.recording, arguments.tables, arguments.response_threshold_s};
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
     if (!arguments.is_shown) return run_and_print(plan_for(study_of(arguments, chosen), options), options);
     const experiment::ConditionSpec shown = shown_condition(chosen, "--gui");
@@ -134,6 +137,7 @@ Action configure_run(CLI::App& app) {
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "the tables");
     add_tables_option(app, arguments->tables);
+    add_response_option(app, arguments->response_threshold_s);
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);
     add_window_options(app, arguments);

@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Arguments {
     experiment::RunLimits limits;
     Printing printing = Printing::text;
     report::Tables tables = report::Tables::essential;
+    std::optional<double> response_threshold_s;
 };
 
 void print_shard(const study::Shard& shard, const study::StudyProgress& progress, const std::string& folder,
@@ -87,7 +89,8 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
                            arguments.printing,
                            invocation.command,
                            arguments.recording,
-                           arguments.tables};
+                           arguments.tables,
+                           arguments.response_threshold_s};
     if (arguments.mode == Mode::dry_run) return print_plan(config, shard, options);
     if (!shard.whole()) return run_shard(config, shard, options);
     study::claim(folder, shard);
@@ -124,6 +127,7 @@ Action configure_study(CLI::App& app) {
     add_limit_options(app, arguments->limits);
     add_json_option(app, arguments->printing, "tables or plan");
     add_tables_option(app, arguments->tables);
+    add_response_option(app, arguments->response_threshold_s);
     return [arguments](const Invocation& invocation) { return run_study(*arguments, invocation); };
 }
 

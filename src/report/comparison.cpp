@@ -165,9 +165,15 @@ Json to_json(const Comparison& comparison) {
 }  // namespace
 
 bool more_is_better(const std::string& metric) {
-    constexpr std::array better = {
-        "emergency_arrived", "arrived",       "links_true_positive",        "dark_links_true_positive",
-        "links_f1",          "dark_links_f1", "signal_throughput_per_hour", "emergency_least_ttc_s"};
+    constexpr std::array better = {"emergency_arrived",
+                                   "arrived",
+                                   "links_true_positive",
+                                   "dark_links_true_positive",
+                                   "links_f1",
+                                   "dark_links_f1",
+                                   "signal_throughput_per_hour",
+                                   "emergency_least_ttc_s",
+                                   "signal_calls_granted"};
     return std::ranges::find(better, metric) != better.end();
 }
 
@@ -182,6 +188,56 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
                                      {"other vehicles", analysis::other_objections(objections)}}) {
         if (!why.empty()) found.push_back({scenario.scenario, condition.condition.name, whose, why});
     }
+}
+
+std::string trips_cell(const std::optional<analysis::TripStatistic>& trips, double factor, Sign sign) {
+    if (!trips) return missing(Script::plain);
+    const NumberStyle style{.decimals = 1};
+    std::string text = number(factor * trips->value, {.decimals = 1, .sign = sign});
+    if (trips->interval)
+        text += fmt::format(" [{}, {}]", number(factor * trips->interval->low, style),
+                            number(factor * trips->interval->high, style));
+    return text;
+}
+
+/// Response times of the conditions that are compared; nothing where no EV arrived.
+std::string response_text(const ScenarioSummary& scenario, const LabelColumns& labels) {
+    constexpr const char* format = "{:>8}  {:<19}  {:>8}  {:<19}\n";
+    std::string rows;
+    double threshold_s = 0.0;
+    for (const ConditionSummary& condition : scenario.conditions) {
+        const analysis::ResponseTime& response = condition.response;
+        if (condition.baseline.empty() || response.threshold_s <= 0.0) continue;
+        threshold_s = response.threshold_s;
+        const auto cell = [](const std::optional<analysis::TripStatistic>& trips, double factor) {
+            return trips ? number(factor * trips->value, {.decimals = 1}) : missing(Script::plain);
+        };
+        rows += labels.of(condition) +
+                fmt::format(fmt::runtime(format), cell(response.percentile_90_s, 1.0),
+                            trips_cell(response.percentile_90_difference_s, 1.0, Sign::always),
+                            cell(response.in_time, 100.0),
+                            trips_cell(response.in_time_difference, 100.0, Sign::always));
+    }
+    if (rows.empty()) return rows;
+    return fmt::format(
+        "{}: EV response time, 90th percentile, s, and trips within {:g} s, %\n{}{}{:-<{}}\n{}\n",
+        printable(scenario.scenario), threshold_s, labels.header(),
+        fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]"), "",
+        page_width, rows);
+}
+
+Json to_json(const std::optional<analysis::TripStatistic>& trips) {
+    if (!trips) return nullptr;
+    return {{"value", trips->value}, {"bca_95", bounds_of(trips->interval)}};
+}
+
+Json to_json(const analysis::ResponseTime& response) {
+    return {{"threshold_s", response.threshold_s},
+            {"percentile_90_s", to_json(response.percentile_90_s)},
+            {"percentile_90_difference_s", to_json(response.percentile_90_difference_s)},
+            {"in_time_1", to_json(response.in_time)},
+            {"in_time_difference_1", to_json(response.in_time_difference)},
+            {"complete_pairs", response.pairs}};
 }
 
 std::string unpaired_line(const analysis::Unpaired& lost) {
@@ -278,6 +334,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                            "p Holm", "Wilcoxon");
             fmt::format_to(out, "{:-<{}}\n{}\n", "", page_width, rows);
         }
+        text += response_text(scenario, labels);
     }
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
@@ -303,7 +360,8 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                                {"safety_checks", experiment::name(condition.condition.safety_checks)},
                                {"objections", analysis::emergency_objections(condition.objections)},
                                {"objections_of_others", analysis::other_objections(condition.objections)},
-                               {"metrics", std::move(values)}});
+                               {"metrics", std::move(values)},
+                               {"response", to_json(condition.response)}});
         if (!factors.empty()) comparisons.back()["factors"] = detail::factors_json(factors);
     });
     Json gates = Json::array();

@@ -1,6 +1,7 @@
 #include "report/console.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -122,6 +123,12 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
     return "others lost";
 }
 
+std::string response_word(const Estimate& difference, Better better) {
+    if (!difference.has_interval()) return "";
+    if (*difference.low <= 0.0 && *difference.high >= 0.0) return "none shown";
+    return (*difference.low > 0.0) == (better == Better::higher) ? "better" : "worse";
+}
+
 void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {
     auto out = std::back_inserter(text);
     fmt::format_to(out, "\n{}, {}\n", measure.title, measure.unit);
@@ -184,6 +191,60 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
                        split_cell(condition.travel_time_percentile_95, {}, 1.0),
                    text);
     }
+}
+
+void append_trips(const ScenarioFacts& scenario, const Outcome ConditionFacts::*member, double factor,
+                  std::string& text) {
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Outcome& outcome = condition.*member;
+        std::string line = row_start(condition) + split_cell(outcome.value, {}, factor);
+        if (condition.is_compared())
+            line += split_cell(outcome.difference, {.sign = Sign::always}, factor) +
+                    response_word(outcome.difference, factor > 1.0 ? Better::higher : Better::lower);
+        append_row(std::move(line), text);
+    }
+}
+
+/// How many EVs are in time, and how late the slow ones are.
+void append_response(const ScenarioFacts& scenario, std::string& text) {
+    if (scenario.response_threshold_s <= 0.0) return;
+    constexpr double percent = 100.0;
+    text += "\nEV response time, 90th percentile, s\n";
+    append_trips(scenario, &ConditionFacts::response_percentile_90, 1.0, text);
+    fmt::format_to(std::back_inserter(text), "\nEV trips within {:g} s, %\n", scenario.response_threshold_s);
+    append_trips(scenario, &ConditionFacts::response_in_time, percent, text);
+}
+
+/// How signals served EVs, a line for each condition that asked them.
+void append_signals(const ScenarioFacts& scenario, std::string& text) {
+    constexpr std::array columns = {std::pair{"signal_calls", "calls"},
+                                    std::pair{"signal_calls_granted", "granted"},
+                                    std::pair{"held_greens_useless", "useless"},
+                                    std::pair{"signal_entry_delay_s", "entry, s"},
+                                    std::pair{"signal_time_to_service_s", "green, s"},
+                                    std::pair{"signal_dwell_s", "hold, s"},
+                                    std::pair{"signal_recovery_s", "back, s"}};
+    constexpr int width = 9;
+    std::string rows;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        std::string line = row_start(condition);
+        bool is_asked = false;
+        for (const auto& [metric, title] : columns) {
+            const std::string_view name = metric;
+            const auto fact = std::ranges::find_if(
+                condition.safety, [&](const SafetyFacts& one) { return one.metric == name; });
+            const bool is_known = fact != condition.safety.end() && fact->value.mean;
+            is_asked = is_asked || is_known;
+            line += fmt::format("{:>{}}", is_known ? number(*fact->value.mean, {}) : missing(Script::plain),
+                                width);
+        }
+        if (is_asked) append_row(std::move(line), rows);
+    }
+    if (rows.empty()) return;
+    text += fmt::format("\n{:<{}}", "Signals, mean of runs", label_width);
+    for (const auto& [metric, title] : columns)
+        text += fmt::format("{:>{}}", title, width);
+    text += fmt::format("\n{:-<{}}\n{}", "", page_width, rows);
 }
 
 /// Pairs and vehicles that the differences of EV travel time leave out.
@@ -271,7 +332,9 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
         if (wanted && (has_emergency || !is_about_emergency(measure)))
             append_measure(scenario, measure, text);
     }
+    if (has_emergency) append_response(scenario, text);
     if (tables == Tables::all && has_emergency) append_tails(scenario, text);
+    if (tables == Tables::all) append_signals(scenario, text);
 }
 
 void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {

@@ -248,6 +248,9 @@ struct ConditionFacts {
     Distribution travel_time;
     Estimate travel_time_median;         ///< Over all EVs; without a value if fewer than half arrived.
     Estimate travel_time_percentile_95;  ///< Likewise.
+    /// Over all EVs; one that did not arrive counts with the horizon. See analysis::ResponseTime.
+    Outcome response_percentile_90;
+    Outcome response_in_time;  ///< Share of trips within ScenarioFacts::response_threshold_s.
     std::vector<TravelTimePair> travel_time_pairs;  ///< Complete ones, in the order of the replications.
     std::optional<Precision> precision;             ///< Nothing below two pairs.
     Events events;
@@ -287,6 +290,7 @@ struct ScenarioFacts {
     double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
+    double response_threshold_s = 0.0;       ///< Of an EV trip that is in time; 0 if no EV arrived.
     std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.
     std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
     std::optional<ScenarioMap> map;          ///< Nothing where the files of the runs do not hold it.

@@ -124,10 +124,17 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         {"emergency_travel_time_median_s", to_json(condition.travel_time_median, "replications")},
         {"emergency_travel_time_percentile_95_s",
          to_json(condition.travel_time_percentile_95, "replications")},
+        {"response_percentile_90_s", to_json(condition.response_percentile_90.value, "replications")},
+        {"response_in_time_1", to_json(condition.response_in_time.value, "replications")},
         {"events", to_json(condition.events)},
         {"safety", to_json(condition.safety)},
         {"emergency_outcomes", to_json(condition.emergency)},
         {"other_outcomes", to_json(condition.others)}};
+    if (condition.is_compared()) {
+        result["response_percentile_90_s"]["difference"] =
+            to_json(condition.response_percentile_90.difference, "pairs");
+        result["response_in_time_1"]["difference"] = to_json(condition.response_in_time.difference, "pairs");
+    }
     if (condition.leases) result["leases"] = to_json(*condition.leases);
     if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {
@@ -238,6 +245,7 @@ std::string json_tables(const StudyFacts& study) {
         scenarios.push_back({{"name", scenario.name},
                              {"replications", scenario.replications},
                              {"least_relevant_s", scenario.least_relevant_s},
+                             {"response_threshold_s", scenario.response_threshold_s},
                              {"conditions", std::move(conditions)}});
         if (scenario.wide_edges) scenarios.back()["wide_edges"] = to_json(*scenario.wide_edges);
     }

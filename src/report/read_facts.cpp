@@ -202,6 +202,18 @@ Estimate estimate_from(const analysis::PooledQuantile& quantile, std::uint64_t r
     return estimate_with(quantile.value, quantile.interval, replications);
 }
 
+Estimate estimate_from(const std::optional<analysis::TripStatistic>& trips, std::uint64_t replications) {
+    return trips ? estimate_with(trips->value, trips->interval, replications) : Estimate{};
+}
+
+void fill_response(const analysis::ResponseTime& response, ConditionFacts& facts) {
+    facts.response_percentile_90.value = estimate_from(response.percentile_90_s, response.replications);
+    facts.response_percentile_90.difference =
+        estimate_from(response.percentile_90_difference_s, response.pairs);
+    facts.response_in_time.value = estimate_from(response.in_time, response.replications);
+    facts.response_in_time.difference = estimate_from(response.in_time_difference, response.pairs);
+}
+
 ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const results::Manifest& manifest,
                              double level, double least_relevant_s) {
     ScenarioFacts facts;
@@ -240,6 +252,8 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const res
         }
         condition.travel_time_median = estimate_from(one.travel_time.median, one.complete_runs);
         condition.travel_time_percentile_95 = estimate_from(one.travel_time.percentile_95, one.complete_runs);
+        fill_response(one.response, condition);
+        facts.response_threshold_s = one.response.threshold_s;
         condition.events = events_of(one);
         condition.safety = detail::safety_of(one);
         fill_pairs(one, level, least_relevant_s, condition);

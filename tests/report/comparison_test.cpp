@@ -156,5 +156,38 @@ TEST(ComparisonJson, HoldsComparisonsAndShortfalls) {
     EXPECT_EQ(json["short_of_tolerance"][0]["metric"], "arrived");
 }
 
+analysis::Summary summary_with_response() {
+    analysis::Summary summary = summary_with(-5.0);
+    analysis::ResponseTime& response = summary.scenarios[0].conditions[1].response;
+    response.threshold_s = 85.0;
+    response.percentile_90_s = analysis::TripStatistic{92.0, analysis::Interval{88.0, 99.0}};
+    response.percentile_90_difference_s = analysis::TripStatistic{-21.5, analysis::Interval{-30.0, -14.0}};
+    response.in_time = analysis::TripStatistic{0.75, std::nullopt};
+    response.in_time_difference = analysis::TripStatistic{0.25, analysis::Interval{0.125, 0.375}};
+    response.pairs = 18;
+    return summary;
+}
+
+TEST(ComparisonText, HasResponseTimesAndTheShareInTime) {
+    const std::string text = comparison_text(summary_with_response(), {"collisions"});
+    EXPECT_THAT(text, HasSubstr("city: EV response time, 90th percentile, s, and trips within 85 s, %\n"));
+    EXPECT_THAT(text, HasSubstr("92.0  -21.5 [-30.0, -14.0]"));
+    EXPECT_THAT(text, HasSubstr("75.0  +25.0 [12.5, 37.5]"));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 100U) << line;
+    EXPECT_THAT(comparison_text(summary_with(-5.0), {"collisions"}), Not(HasSubstr("response")))
+        << "no emergency vehicle arrived";
+}
+
+TEST(ComparisonJson, HasResponseTimes) {
+    const auto json = nlohmann::json::parse(comparison_json(summary_with_response(), {}, {}));
+    const auto& response = json["comparisons"][0]["response"];
+    EXPECT_EQ(response["threshold_s"], 85.0);
+    EXPECT_EQ(response["percentile_90_difference_s"]["value"], -21.5);
+    EXPECT_EQ(response["in_time_1"]["bca_95"], nullptr);
+    EXPECT_EQ(response["in_time_difference_1"]["bca_95"][1], 0.375);
+}
+
 }  // namespace
 }  // namespace clearway::report

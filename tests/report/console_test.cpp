@@ -210,5 +210,52 @@ TEST(JsonTables, survive_names_that_are_not_utf_8) {
     EXPECT_EQ(json["scenarios"].size(), 1u);
 }
 
+StudyFacts study_with_response() {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioFacts& scenario = study.scenarios[0];
+    scenario.response_threshold_s = 85.0;
+    for (ConditionFacts& condition : scenario.conditions) {
+        condition.response_percentile_90.value = {92.0, 88.0, 99.0, 20};
+        condition.response_percentile_90.difference = {-21.5, -30.0, -14.0, 20};
+        condition.response_in_time.value = {0.75, 0.6, 0.9, 20};
+        condition.response_in_time.difference = {0.25, -0.125, 0.375, 20};
+    }
+    return study;
+}
+
+TEST(ConsoleTables, show_response_times_and_the_share_in_time) {
+    const std::string text = console_tables(study_with_response());
+    EXPECT_THAT(text, HasSubstr("\nEV response time, 90th percentile, s\n"));
+    EXPECT_THAT(text, HasSubstr("92.0  [88.0, 99.0]"));
+    EXPECT_THAT(text, HasSubstr("-21.5  [-30.0, -14.0] better\n"));
+    EXPECT_THAT(text, HasSubstr("\nEV trips within 85 s, %\n"));
+    EXPECT_THAT(text, HasSubstr("+25.0  [-12.5, 37.5]  none shown\n"));
+    for (const std::string& line : lines_of(text))
+        EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_THAT(console_tables(tests::study({"merge"})), Not(HasSubstr("EV response time")));
+}
+
+TEST(ConsoleTables, show_how_signals_served_emergency_vehicles) {
+    StudyFacts study = tests::study({"merge"});
+    ConditionFacts& condition = study.scenarios[0].conditions[1];
+    condition.safety = {{"signal_calls", "", {4.5, 4.0, 5.0, 20}, {}, std::nullopt},
+                        {"signal_calls_granted", "", {3.5, 3.0, 4.0, 20}, {}, std::nullopt},
+                        {"signal_recovery_s", "", {42.0, 40.0, 44.0, 20}, {}, std::nullopt}};
+    const std::string text = console_tables(study, Tables::all);
+    EXPECT_THAT(text, HasSubstr("calls  granted  useless entry, s green, s  hold, s  back, s\n"));
+    EXPECT_THAT(text, HasSubstr("4.5      3.5        -        -        -        -     42.0\n"));
+    EXPECT_THAT(console_tables(study, Tables::essential), Not(HasSubstr("Signals, mean of runs")));
+    condition.safety.clear();
+    EXPECT_THAT(console_tables(study, Tables::all), Not(HasSubstr("Signals, mean of runs")));
+}
+
+TEST(JsonTables, hold_response_times) {
+    const auto json = nlohmann::json::parse(json_tables(study_with_response()));
+    const auto& condition = json["scenarios"][0]["conditions"][1];
+    EXPECT_EQ(json["scenarios"][0]["response_threshold_s"], 85.0);
+    EXPECT_EQ(condition["response_percentile_90_s"]["mean"], 92.0);
+    EXPECT_EQ(condition["response_in_time_1"]["difference"]["mean"], 0.25);
+}
+
 }  // namespace
 }  // namespace clearway::report

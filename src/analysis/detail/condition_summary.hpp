@@ -63,6 +63,10 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
 void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
                         ResampleCache& resamples, ConditionSummary& summary);
 
+/// The threshold of a scenario unless the user gives one; 0 if no emergency vehicle arrived in any condition.
+double threshold_of(const Index& index, const std::string& scenario,
+                    const std::vector<experiment::ConditionSpec>& conditions, std::optional<double> given_s);
+
 /// Adjusts each metric's p values over the conditions of a scenario.
 void adjust(ScenarioSummary& scenario);
 

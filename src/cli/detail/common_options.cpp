@@ -19,6 +19,14 @@ void add_tables_option(CLI::App& app, report::Tables& tables) {
         "Print the tables of all measures [verdicts and the two main measures]");
 }
 
+void add_response_option(CLI::App& app, std::optional<double>& threshold_s) {
+    constexpr double longest_s = 86400.0;
+    app.add_option("--response-threshold", threshold_s,
+                   "An EV trip is in time if it takes no longer; one that does not arrive is late")
+        ->check(core::NumberRange{0.1, longest_s})
+        ->option_text("SECONDS, 0.1 to 86400 [100 s per km of the mean EV route]");
+}
+
 void add_record_option(CLI::App& app, experiment::StepRecording& recording) {
     app.add_flag_callback(
         "--record", [&recording] { recording = experiment::StepRecording::on; },

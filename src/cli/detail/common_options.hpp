@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ inline constexpr std::uint32_t most_replications = 100000;
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
 /// Declares `--tables`: every measure is printed.
 void add_tables_option(CLI::App& app, report::Tables& tables);
+/// Declares `--response-threshold`.
+void add_response_option(CLI::App& app, std::optional<double>& threshold_s);
 /// Declares `--record`: every step of every run is kept in a file.
 void add_record_option(CLI::App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at a time, 0 for one per core.

@@ -66,7 +66,7 @@ core::ExitCode run_in_rounds(study::StudyConfig config, RunPlanOptions options) 
         if (was_interrupted(result)) return result.exit_code;
         const Round round = judge(store, *config.precision);
         say(round);
-        if (round.outcome != Outcome::more) return publish(store, {options.printing, options.tables});
+        if (round.outcome != Outcome::more) return publish(store, how_to_publish(options));
         // At least one more, so that failing runs cannot keep a study from reaching its cap.
         config.replications =
             std::min(std::max(round.next, config.replications + 1), config.precision->at_most);

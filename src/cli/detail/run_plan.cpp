@@ -174,14 +174,17 @@ bool was_interrupted(const study::StudyResult& result) {
 core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
     const results::Store store = prepare_run_folder(plan, options);
     const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, {options.printing, options.tables});
+    if (was_interrupted(result)) return result.exit_code;
+    return publish(store, how_to_publish(options));
 }
 
 core::ExitCode publish(const results::Store& store, const PublishOptions& options) {
     if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
+    const analysis::Summary summary =
+        analysis::summarise(results, analysis::usual_level, options.response_threshold_s);
     const report::StudyFacts facts =
-        report::facts_of(results, analysis::summarise(results), store.folder(), options.least_relevant_s);
+        report::facts_of(results, summary, store.folder(), options.least_relevant_s);
     write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));

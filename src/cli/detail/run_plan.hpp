@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "cli/detail/common_options.hpp"
@@ -23,6 +24,7 @@ struct RunPlanOptions {
     std::string command;  ///< What the user typed, for the report and for resuming.
     experiment::StepRecording recording = experiment::StepRecording::off;
     report::Tables tables = report::Tables::essential;
+    std::optional<double> response_threshold_s = {};  ///< Nothing: that of each scenario.
 };
 
 /// How the results of a run folder are printed.
@@ -31,7 +33,15 @@ struct PublishOptions {
     report::Tables tables = report::Tables::essential;
     double least_relevant_s = report::usual_least_relevant_s;  ///< Smaller EV time differences do not count.
     MakeReplays replays = MakeReplays::no;
+    std::optional<double> response_threshold_s = {};  ///< As above.
 };
+
+/// How the results of a plan's folder are printed.
+inline PublishOptions how_to_publish(const RunPlanOptions& options) {
+    return {.printing = options.printing,
+            .tables = options.tables,
+            .response_threshold_s = options.response_threshold_s};
+}
 
 /// Checks names and makes the plan with the installed versions. An empty `options.folder` becomes
 /// `runs/NAME-xxxxxx` with a hash of the study, so that the same command finds its folder again and another

@@ -70,7 +70,7 @@ core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& opt
         return code;
     }
     const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, {options.printing, options.tables});
+    return was_interrupted(result) ? result.exit_code : publish(store, how_to_publish(options));
 }
 
 }  // namespace clearway::cli

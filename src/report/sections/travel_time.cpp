@@ -175,12 +175,47 @@ Figure slopes_figure(const ScenarioFacts& scenario) {
     return {"pairs-" + scenario.name, scenario.name, plot.finish(), note, slopes_data(scenario)};
 }
 
+DataTable response_data(const ScenarioFacts& scenario) {
+    DataTable table{{"Condition", "90th percentile, s [95 %]", "against the baseline, s [95 %]",
+                     fmt::format("within {:g} s, % [95 %]", scenario.response_threshold_s),
+                     "against the baseline, points [95 %]"},
+                    {}};
+    constexpr double percent = 100.0;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const auto difference = [&](const Outcome& outcome, double factor) {
+            return condition.is_compared() ? estimate(outcome.difference, typeset(1, Sign::always), factor)
+                                           : std::string();
+        };
+        table.rows.push_back({condition.label(), estimate(condition.response_percentile_90.value, typeset(1)),
+                              difference(condition.response_percentile_90, 1.0),
+                              estimate(condition.response_in_time.value, typeset(1), percent),
+                              difference(condition.response_in_time, percent)});
+    }
+    return table;
+}
+
+void response_tables(const StudyFacts& study, Writer& writer) {
+    const auto has_trips = [](const ScenarioFacts& scenario) { return scenario.response_threshold_s > 0.0; };
+    if (std::none_of(study.scenarios.begin(), study.scenarios.end(), has_trips)) return;
+    writer.heading("Response time");
+    writer.markup(
+        "<p>As dispatchers count: the time that nine in ten EVs do not exceed, and the share of EVs that "
+        "are in time. An EV that did not arrive counts with the horizon and is late. Unless a threshold was "
+        "given, it is 100 s per km of the mean EV route, the pace of the 240 s of NFPA 1710 over 1.5 miles. "
+        "Intervals come from resampling whole replications; differences are paired.</p>\n");
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        if (has_trips(scenario))
+            writer.table({"response-" + scenario.name, scenario.name, response_data(scenario)});
+    }
+}
+
 }  // namespace
 
 void travel_time_section(const StudyFacts& study, Writer& writer) {
     writer.figures(figures_of(study, distribution_figure));
     writer.heading("Pair by pair");
     writer.figures(figures_of(study, slopes_figure));
+    response_tables(study, writer);
 }
 
 }  // namespace clearway::report::detail

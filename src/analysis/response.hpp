@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/bootstrap.hpp"
+#include "analysis/estimate.hpp"
+#include "results/record.hpp"
+
+namespace clearway::analysis {
+
+/// Pace from which the threshold of a scenario follows unless the user gives one, s/km: NFPA 1710 allows the
+/// first unit 240 s, and a company is to stand within 1.5 road miles (2.4 km) of what it protects (ISO, Fire
+/// Suppression Rating Schedule).
+inline constexpr double response_pace_s_per_km = 100.0;
+
+/// A statistic of all trips with its interval, from resampling whole replications.
+struct TripStatistic {
+    double value = 0.0;
+    std::optional<Interval> interval;  ///< BCa; nothing below `fewest_for_interval` replications.
+};
+
+/// How many emergency vehicles come in time, and how late the slow ones are.
+struct ResponseTime {
+    double threshold_s = 0.0;
+    std::size_t trips = 0;
+    std::size_t replications = 0;
+    /// Nothing without trips. A vehicle that did not arrive counts with the horizon, and as too late.
+    std::optional<TripStatistic> percentile_90_s;
+    std::optional<TripStatistic> in_time;  ///< Share of trips that took no longer than the threshold.
+    /// Against the baseline, over the replications that are complete in both.
+    std::size_t pairs = 0;
+    std::optional<TripStatistic> percentile_90_difference_s;
+    std::optional<TripStatistic> in_time_difference;
+};
+
+/// Travel times of the emergency vehicles of a run, s, those that did not arrive with the horizon. Nothing
+/// for a record that does not tell the horizon of one that did not arrive (older versions).
+std::optional<std::vector<double>> response_times_s(const results::RunRecord& run);
+
+/// `response_pace_s_per_km` times the mean route of the emergency vehicles that arrived, rounded to 5 s, at
+/// least 5 s. Every trip of the runs counts once, however many conditions it was driven in. Nothing if none
+/// arrived.
+std::optional<double> usual_response_threshold_s(std::span<const results::RunRecord* const> runs);
+
+/// Of a condition's runs by replication (null where there is none), compared with `baseline`, which may be
+/// empty.
+ResponseTime response_of(std::span<const results::RunRecord* const> runs,
+                         std::span<const results::RunRecord* const> baseline, double threshold_s,
+                         double level = usual_level);
+
+}  // namespace clearway::analysis

@@ -1,0 +1,110 @@
+#include "analysis/response.hpp"
+
+#include <deque>
+
+#include <gmock/gmock.h>
+
+#include "results/synthetic.hpp"
+
+namespace clearway::analysis {
+namespace {
+
+using results::RunRecord;
+using testing::ElementsAre;
+using testing::Optional;
+
+/// A run whose emergency vehicles took these times; those of 600 s did not arrive and had 600 s.
+RunRecord run_with(std::uint32_t replication, const std::vector<double>& times_s) {
+    RunRecord run;
+    run.key = {"alpha", "treated", replication};
+    double sum_s = 0.0;
+    for (const double time_s : times_s) {
+        run.vehicles.push_back(results::synthetic::vehicle("e" + std::to_string(run.vehicles.size()),
+                                                           traffic::VehicleClass::emergency, time_s));
+        if (time_s >= 600.0) {
+            run.vehicles.back().outcome = metrics::VehicleOutcome::teleported;
+            run.vehicles.back().travel_time_s = 7.0;  // of what it drove
+        }
+        sum_s += time_s;
+    }
+    run.metrics.emergency_restricted_travel_time_s = sum_s / static_cast<double>(times_s.size());
+    run.vehicles.push_back(results::synthetic::vehicle("h", traffic::VehicleClass::human, 1.0));
+    return run;
+}
+
+/// Runs and the pointers that analysis takes.
+struct Study {
+    std::deque<RunRecord> runs;
+    std::vector<const RunRecord*> rows;
+    void add(const std::vector<double>& times_s) {
+        runs.push_back(run_with(static_cast<std::uint32_t>(runs.size()), times_s));
+        rows.push_back(&runs.back());
+    }
+};
+
+TEST(ResponseTimes, CountWhoDidNotArriveWithTheHorizon) {
+    EXPECT_THAT(*response_times_s(run_with(0, {50.0, 600.0, 70.0})),
+                ElementsAre(50.0, 70.0, testing::DoubleNear(600.0, 1e-9)));
+    RunRecord old = run_with(0, {50.0, 600.0});
+    old.metrics.emergency_restricted_travel_time_s.reset();
+    EXPECT_EQ(response_times_s(old), std::nullopt) << "nobody knows its horizon";
+}
+
+TEST(ResponseTime, IsNinetyPercentAndTheShareWithinTheThreshold) {
+    Study study;
+    study.add({10.0, 20.0, 30.0, 40.0, 50.0});
+    study.add({60.0, 70.0, 80.0, 90.0, 600.0});
+    const ResponseTime response = response_of(study.rows, {}, 70.0);
+    EXPECT_EQ(response.trips, 10U);
+    EXPECT_DOUBLE_EQ(response.percentile_90_s->value, 90.0) << "nine of ten took no longer";
+    EXPECT_DOUBLE_EQ(response.in_time->value, 0.7) << "one at the threshold is in time, the lost one is not";
+    EXPECT_EQ(response.in_time->interval, std::nullopt) << "two replications give no interval";
+    EXPECT_EQ(response.in_time_difference, std::nullopt);
+}
+
+TEST(ResponseTime, IsPairedByReplicationAndResamplesWholeReplications) {
+    Study before;
+    Study after;
+    for (const double time_s : {80.0, 90.0, 100.0, 110.0, 120.0, 130.0}) {
+        before.add({time_s, time_s + 5.0});
+        after.add({time_s - 30.0, time_s - 25.0});
+    }
+    before.rows[5] = nullptr;
+    const ResponseTime response = response_of(after.rows, before.rows, 95.0);
+    EXPECT_EQ(response.pairs, 5U);
+    EXPECT_EQ(response.replications, 6U);
+    EXPECT_DOUBLE_EQ(response.percentile_90_difference_s->value, -30.0);
+    EXPECT_EQ(response.percentile_90_difference_s->interval, std::nullopt)
+        << "the same in every resample: there is nothing to estimate an interval from";
+    // In time before: 80, 85, 90 and 95 of ten; after: all ten.
+    EXPECT_NEAR(response.in_time_difference->value, 1.0 - 0.4, 1e-12);
+    ASSERT_TRUE(response.in_time_difference->interval);
+    EXPECT_TRUE(response.in_time_difference->interval->contains(0.6));
+    EXPECT_LE(response.in_time_difference->interval->high, 1.0) << "it is a share";
+}
+
+TEST(ResponseTime, IsNothingWithoutTrips) {
+    Study study;
+    study.add({});
+    const ResponseTime response = response_of(study.rows, {}, 100.0);
+    EXPECT_EQ(response.trips, 0U);
+    EXPECT_EQ(response.percentile_90_s, std::nullopt);
+    EXPECT_EQ(usual_response_threshold_s(study.rows), std::nullopt);
+}
+
+TEST(ResponseThreshold, FollowsFromTheMeanRouteWhereEveryTripCountsOnce) {
+    Study study;
+    study.add({50.0, 600.0});
+    study.runs[0].vehicles[0].route_length_m = 1000.0;
+    study.runs[0].vehicles[1].route_length_m = 10.0;  // it did not arrive
+    RunRecord again = study.runs[0];
+    again.key.condition = "other";
+    again.vehicles[1].outcome = metrics::VehicleOutcome::arrived;
+    again.vehicles[1].route_length_m = 1520.0;
+    study.rows.push_back(&again);
+    EXPECT_THAT(usual_response_threshold_s(study.rows), Optional(125.0))
+        << "1.26 km at 100 s/km, in steps of 5 s";
+}
+
+}  // namespace
+}  // namespace clearway::analysis
