@@ -92,7 +92,8 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
 }
 
 TEST_F(TableReader, RefusesOtherVersionsOtherFilesAndUnknownTables) {
-    EXPECT_THAT(error_of("nobody; DROP TABLE runs"), HasSubstr("errors, leases, runs, signal_events, signals, study, vehicles"));
+    EXPECT_THAT(error_of("nobody; DROP TABLE runs"),
+                HasSubstr("errors, leases, runs, signal_events, signals, study, vehicles"));
     execute("UPDATE study SET value = '99' WHERE key = 'format'");
     EXPECT_THAT(error_of("runs"), HasSubstr("another version: format \"99\""));
     EXPECT_THROW(tables_are_current(store), core::InputError);
