@@ -177,8 +177,13 @@ class CrossingWatch : public trace::StepListener {
             ++greens;
             for (std::size_t crossing = 0; crossing < now.size(); ++crossing) {
                 if (!signal.crossings[crossing] || !signal.foes[link][crossing]) continue;
-                // Where people have green too, as in a phase of the program, whoever turns yields to them.
-                if (now[link] == 'g' && traffic::is_green(now[crossing])) continue;
+                // Where a phase of the program gives green to both, whoever turns yields to people.
+                const bool yields =
+                    now[link] == 'g' && traffic::is_green(now[crossing]) &&
+                    std::ranges::any_of(signal.program, [&](const roads::Phase& phase) {
+                        return phase.state[link] == 'g' && traffic::is_green(phase.state[crossing]);
+                    });
+                if (yields) continue;
                 if (session_.has_pedestrian(signal.links[crossing].front().to)) ++greens_with_pedestrians;
             }
         }
