@@ -2,41 +2,15 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
-#include "user.hpp"
+#include "crossings.hpp"
 
 namespace clearway::cli {
 namespace {
 
 /// Two crossings in a row, A and B, each with a signal; one emergency vehicle from west to east. It turns off
 /// at A where `to` is a street there.
-class EquipTest : public UserTest {
+class EquipTest : public CrossingsTest {
   protected:
-    void SetUp() override {
-        UserTest::SetUp();
-        write("crossings/net.net.xml",
-              core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml"));
-        write_scenario("B_east");
-    }
-    void write_scenario(const std::string& to, const std::string& key = "") const {
-        write("crossings/scenario.toml", R"(name = "crossings"
-version = "v1"
-title = "Two crossings"
-[network]
-file = "net.net.xml"
-)" + key + R"([time]
-warm_up_s = 20.0
-window_s = 60.0
-horizon_s = 400.0
-[demand]
-human = 5
-automated = 3
-emergency = 1
-[[flow]]
-from = "west_A"
-to = ")" + to + R"("
-share = 1.0
-)");
-    }
     Ended equip(std::vector<std::string> more, const std::string& folder = "out") const {
         std::vector<std::string> words = {"equip",   "./crossings", "--budget", "2",
                                           "--seeds", "5",           "--out",    folder};

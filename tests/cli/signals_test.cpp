@@ -2,39 +2,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
-#include "user.hpp"
+#include "crossings.hpp"
 
 namespace clearway::cli {
 namespace {
 
-class SignalsTest : public UserTest {
+class SignalsTest : public CrossingsTest {
   protected:
-    void SetUp() override {
-        UserTest::SetUp();
-        write("crossings/net.net.xml",
-              core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml"));
-        write_scenario("");
-    }
-    void write_scenario(const std::string& key) const {
-        write("crossings/scenario.toml", R"(name = "crossings"
-version = "v1"
-title = "Two crossings"
-[network]
-file = "net.net.xml"
-)" + key + R"([time]
-warm_up_s = 20.0
-window_s = 60.0
-horizon_s = 400.0
-[demand]
-human = 5
-automated = 3
-emergency = 1
-[[flow]]
-from = "west_A"
-to = "B_east"
-share = 1.0
-)");
-    }
     std::string header() const {
         const std::string text = read("p.csv");
         return text.substr(0, text.find('\n') + 1);
@@ -63,7 +37,7 @@ TEST_F(SignalsTest, are_drawn_with_their_numbers) {
 TEST_F(SignalsTest, have_their_parameters_in_a_file_to_edit_that_the_scenario_then_names) {
     ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
     write("crossings/p.csv", header() + "A,1,,,,,,9,,,,\n");
-    write_scenario("preemption = \"p.csv\"\n");
+    write_scenario("B_east", "preemption = \"p.csv\"\n");
     const Ended set = clearway({"signals", "./crossings", "--out", "again.csv"});
     EXPECT_THAT(set.out, HasSubstr("set  enabled=1, dwell_s=9"));
     EXPECT_EQ(read("again.csv"), header() + "A,1,,,,,,9,,,,\nB,1,,,,,,,,,,\n");
@@ -90,7 +64,7 @@ TEST_F(SignalsTest, never_have_a_file_written_over) {
 TEST_F(SignalsTest, with_parameters_for_one_that_does_not_exist_are_refused_before_anything_is_written) {
     ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
     write("crossings/p.csv", header() + "C,1,,,,,,9,,,,\nA,,,100,,,,,,,,\n");
-    write_scenario("preemption = \"p.csv\"\n");
+    write_scenario("B_east", "preemption = \"p.csv\"\n");
     const Ended ended =
         clearway({"run", "./crossings", "--policy", "corridor", "--seeds", "1", "--out", "out"});
     EXPECT_EQ(ended.code, 3);
