@@ -22,6 +22,7 @@ struct Clock {
     double since_s = 0.0;
     bool is_whole = false;      ///< The beginning of the colour was seen.
     bool clears = false;        ///< Red, and no link has opened since.
+    bool is_joined = false;     ///< Yellow, and a link that conflicts has opened since.
     double went_until_s = 0.0;  ///< End of its last green.
     std::optional<double> red_s =
         std::nullopt;  ///< Red clearance, until it is known whether it was for a foe.
@@ -46,7 +47,14 @@ class Playback {
             if (clock.is_whole) note(link, clock);
             if (colour == 'g') opened.push_back(link);
             const bool was_green = clock.colour == 'g' || clock.colour == 'y';
-            clock = {colour,      now_s_, clock.colour != '?', colour == 'r' && was_green, clock.went_until_s,
+            const bool clears = colour == 'r' && was_green;
+            if (clears && clock.is_joined) take_least(times_.red_s[link], 0.0);
+            clock = {colour,
+                     now_s_,
+                     clock.colour != '?',
+                     clears && !clock.is_joined,
+                     false,
+                     clock.went_until_s,
                      std::nullopt};
         }
         if (!opened.empty()) end_clearances(opened);
@@ -80,6 +88,7 @@ class Playback {
                 clock.red_s = now_s_ - std::max(clock.since_s, free_since_s(opened, link));
             const bool foe_opens =
                 std::ranges::any_of(opened, [&](std::size_t other) { return signal_.foes[link][other]; });
+            clock.is_joined = clock.is_joined || (clock.colour == 'y' && foe_opens);
             if (!clock.red_s || !foe_opens) continue;
             take_least(times_.red_s[link], *clock.red_s);
             clock.red_s.reset();

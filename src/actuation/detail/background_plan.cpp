@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "actuation/detail/lease_queue.hpp"
 #include "actuation/detail/signal_states.hpp"
+#include "traffic/signal.hpp"
 
 namespace clearway::actuation::detail {
 namespace {
@@ -18,6 +20,31 @@ constexpr double in_step_s = 1.0;
 
 /// Signals farther apart than this are not coordinated, m.
 constexpr double neighbour_m = 800.0;
+
+bool is_green_in(const roads::Phase& phase, std::uint16_t link) {
+    return link < phase.state.size() && traffic::is_green(phase.state[link]);
+}
+
+/// From the start of a phase in which a link is green until it loses green, s; at most one cycle.
+double green_from_s(const roads::Signal& signal, std::uint16_t link, std::uint32_t phase) {
+    double green_s = 0.0;
+    const std::size_t rows = signal.program.size();
+    for (std::size_t row = phase; row < phase + rows && is_green_in(signal.program[row % rows], link); ++row)
+        green_s += signal.program[row % rows].duration_s;
+    return green_s;
+}
+
+/// The whole green of a link to which a phase belongs, s; at most one cycle.
+double whole_green_s(const roads::Signal& signal, std::uint16_t link, std::uint32_t phase) {
+    const auto rows = static_cast<std::uint32_t>(signal.program.size());
+    std::uint32_t first = phase;
+    for (std::uint32_t back = 1; back < rows; ++back) {
+        const std::uint32_t row = (phase + rows - back) % rows;
+        if (!is_green_in(signal.program[row], link)) break;
+        first = row;
+    }
+    return green_from_s(signal, link, first);
+}
 
 /// Where the first lane that a signal controls ends.
 std::optional<roads::Point> place_of(const roads::Signal& signal, const roads::Network& network) {
@@ -41,6 +68,10 @@ BackgroundPlan::BackgroundPlan(const roads::Signal& signal, bool keeps_step)
     : signal_(signal), keeps_step_(keeps_step) {
     for (const roads::Phase& phase : signal.program)
         cycle_s_ += phase.duration_s;
+}
+
+void BackgroundPlan::leave() {
+    left_ = std::exchange(state_, {});
 }
 
 void BackgroundPlan::watch(const std::string& state, core::Seconds now) {
@@ -77,6 +108,47 @@ std::optional<PhaseChange> BackgroundPlan::step_back(core::Seconds least_green, 
     const double lasting_s = std::clamp(own_s + lag_s, std::min(own_s, least_s(*phase, least_green)),
                                         own_s * (1.0 + most_stretch));
     return PhaseChange{*phase, core::Seconds(lasting_s)};
+}
+
+bool BackgroundPlan::pays_greens(std::uint32_t phase, double since_s, const OwedGreen& owed_s) const {
+    const std::string& state = signal_.program[phase].state;
+    if (std::ranges::any_of(state, traffic::is_yellow) || std::ranges::none_of(state, traffic::is_green))
+        return false;
+    for (const std::uint16_t link : green_links(state)) {
+        if (link >= signal_.links.size()) continue;
+        const double least_s = std::min(owed_s(link, phase), whole_green_s(signal_, link, phase));
+        if (green_from_s(signal_, link, phase) - since_s < least_s - time_tolerance_s) return false;
+    }
+    return true;
+}
+
+std::optional<std::uint32_t> BackgroundPlan::resume(const OwedGreen& owed_s, core::Seconds now) const {
+    const auto rows = static_cast<std::uint32_t>(signal_.program.size());
+    if (cycle_s_ <= 0.0) return std::nullopt;
+    std::uint32_t phase = 0;
+    double since_s = 0.0;
+    if (signal_.fixed_time) {
+        since_s = std::fmod(std::fmod(now.value - signal_.offset_s, cycle_s_) + cycle_s_, cycle_s_);
+        while (phase + 1 < rows && since_s >= signal_.program[phase].duration_s)
+            since_s -= signal_.program[phase++].duration_s;
+    } else {
+        const auto left = std::ranges::find(signal_.program, left_, &roads::Phase::state);
+        if (left == signal_.program.end()) return std::nullopt;
+        phase = static_cast<std::uint32_t>(left - signal_.program.begin() + 1) % rows;
+    }
+    for (std::uint32_t tried = 0; tried <= rows; ++tried, since_s = 0.0) {
+        const std::uint32_t row = (phase + tried) % rows;
+        if (pays_greens(row, since_s, owed_s)) return row;
+    }
+    return std::nullopt;
+}
+
+double BackgroundPlan::resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds now) const {
+    const double own_s = signal_.program[phase].duration_s;
+    const double lag_s = this->lag_s(phase, now);
+    const double left_s = own_s + lag_s;
+    if (left_s <= 0.0 || !pays_greens(phase, std::max(0.0, -lag_s), owed_s)) return own_s;
+    return std::min(left_s, own_s * (1.0 + most_stretch));
 }
 
 double BackgroundPlan::least_s(std::uint32_t phase, core::Seconds least_green) const {

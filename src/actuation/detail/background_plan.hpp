@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,9 @@ struct PhaseChange {
     std::uint32_t phase = 0;
     core::Seconds lasting;
 };
+
+/// By link and phase: the shortest green that may be given, s.
+using OwedGreen = std::function<double(std::uint16_t, std::uint32_t)>;
 
 /// Whether other signals depend on a signal's timing: its program is not actuated by vehicles, and another
 /// signal is within 800 m, the usual limit of coordination (MUTCD 2009, section 4D.17: half a mile).
@@ -31,7 +35,7 @@ class BackgroundPlan {
     /// Notes that it was restarted at a phase out of turn.
     void disturb(core::Seconds now);
     /// Notes that it no longer runs.
-    void leave() { state_.clear(); }
+    void leave();
 
     /// Whether its neighbours depend on its timing.
     bool keeps_step() const { return keeps_step_; }
@@ -45,8 +49,18 @@ class BackgroundPlan {
     /// At the start of a green that is out of step: the green's new length, which leads back into step the
     /// shorter way. At least `least_green` and at most half as long again as usual.
     std::optional<PhaseChange> step_back(core::Seconds least_green, core::Seconds now);
+    /// Where the program goes on after a hold: a fixed one where it would be without the hold, another one
+    /// after the phase that was left; in both cases at the first phase from there on in which each green
+    /// lasts as long as `owed_s` of its link and phase says, or as the program itself gives it. Nothing where
+    /// no phase does, or where it is unknown which phase was left.
+    std::optional<std::uint32_t> resume(const OwedGreen& owed_s, core::Seconds now) const;
+    /// For how long that phase of a fixed program lasts, s: until it would end in step, if that is enough for
+    /// its greens, and at most half as long again as usual.
+    double resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds now) const;
 
   private:
+    /// Whether each green of a phase that began `since_s` ago lasts long enough from now on.
+    bool pays_greens(std::uint32_t phase, double since_s, const OwedGreen& owed_s) const;
     double least_s(std::uint32_t phase, core::Seconds least_green) const;
     /// How much later the phase would end if it were in step, s; within half a cycle either way.
     double lag_s(std::uint32_t phase, core::Seconds now) const;
@@ -55,6 +69,7 @@ class BackgroundPlan {
     bool keeps_step_ = false;
     double cycle_s_ = 0.0;
     std::string state_;  ///< Empty while the background plan does not run.
+    std::string left_;   ///< What it showed when it was left.
     core::Seconds since_;
     bool in_step_ = true;
     core::Seconds disturbed_;

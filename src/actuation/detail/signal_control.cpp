@@ -180,7 +180,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
         program_known_ = knows_program(around);
     }
     if (in_program || links != way_.links) {
-        Way way = links.empty() ? plan_return(around.timing, ledger) : plan_hold(links);
+        Way way = links.empty() ? plan_return(around, ledger) : plan_hold(links);
         const bool in_green = in_program || stage_ == Stage::hold;
         const bool goes_on =
             owes_green(way.target, around) || (in_green && waits_for_gap(way.target, around));
@@ -211,16 +211,25 @@ bool SignalControl::waits_for_gap(const std::string& target, const SignalContext
     return asked_for_gap_;
 }
 
+OwedGreen SignalControl::owed_by(const SignalTiming& timing) const {
+    return [this, &timing](std::uint16_t link, std::uint32_t phase) {
+        return owed_green_s(link, phase, timing);
+    };
+}
+
+double SignalControl::owed_green_s(std::uint16_t link, std::optional<std::uint32_t> phase,
+                                   const SignalTiming& timing) const {
+    if (signal_.crossings[link]) return timing.walk_s;
+    return std::max(timing.entry_green_s, least_green_s(signal_, link, phase));
+}
+
 /// Whether a link that would lose green has not had the least that it is owed.
 bool SignalControl::owes_green(const std::string& target, const SignalContext& around) const {
     if (around.duties == nullptr) return false;
     const auto phase = green_phase(signal_, around.state);
     return std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
-        if (link >= signal_.links.size()) return false;
-        const double least_s = signal_.crossings[link] ? around.timing.walk_s
-                                                       : std::max(around.timing.entry_green_s,
-                                                                  least_green_s(signal_, link, phase));
-        return around.duties->history.green_s(link, around.now) < least_s - time_tolerance_s;
+        return link < signal_.links.size() && around.duties->history.green_s(link, around.now) <
+                                                  owed_green_s(link, phase, around.timing) - time_tolerance_s;
     });
 }
 
@@ -276,9 +285,13 @@ std::optional<std::uint32_t> SignalControl::phase_after_hold(const SignalTiming&
     return phase;
 }
 
-SignalControl::Way SignalControl::plan_return(const SignalTiming& timing, Ledger& ledger) {
+SignalControl::Way SignalControl::plan_return(const SignalContext& around, Ledger& ledger) {
     Way way;
-    way.return_phase = phase_after_hold(timing, ledger);
+    way.return_phase = phase_after_hold(around.timing, ledger);
+    if (!way.return_phase && around.duties != nullptr && program_known_) {
+        way.return_phase = own_.resume(owed_by(around.timing), around.now);
+        way.in_turn = way.return_phase.has_value();
+    }
     way.target.assign(shown_.size(), 'r');
     if (way.return_phase) {
         const std::string& state = signal_.program[*way.return_phase].state;
@@ -415,7 +428,9 @@ std::optional<core::Seconds> SignalControl::first_duration(std::uint32_t phase,
 
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
-    const auto lasting = way_.return_phase ? first_duration(*way_.return_phase, timing) : std::nullopt;
+    auto lasting = way_.return_phase ? first_duration(*way_.return_phase, timing) : std::nullopt;
+    if (way_.in_turn && signal_.fixed_time)
+        lasting = core::Seconds(own_.resumed_s(*way_.return_phase, owed_by(timing), now));
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase, lasting});
     if (way_.return_phase) own_.disturb(now);
     stage_ = Stage::background_plan;

@@ -83,6 +83,7 @@ class SignalControl {
         Links gaining;       ///< All links that are green in `target`; their ways must be clear first.
         /// Phase at which the program restarts after the way back.
         std::optional<std::uint32_t> return_phase;
+        bool in_turn = false;  ///< Nobody asked for that phase: it is where the program goes on.
     };
 
     traffic::RequestStatus status_of(const HeldLease& held, core::Seconds now) const;
@@ -92,7 +93,7 @@ class SignalControl {
     Links allowed_now(const SignalContext& around, Ledger& ledger);
     bool must_go_on(const SignalContext& around) const;
     Way plan_hold(const Links& links) const;
-    Way plan_return(const SignalTiming& timing, Ledger& ledger);
+    Way plan_return(const SignalContext& around, Ledger& ledger);
     std::optional<std::uint32_t> phase_after_hold(const SignalTiming& timing, Ledger& ledger);
     void begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands);
     void run_background_plan(const SignalContext& around, Ledger& ledger,
@@ -104,6 +105,9 @@ class SignalControl {
     bool is_left_by_pedestrians(const SignalContext& around) const;
     bool may_open(const SignalContext& around) const;
     bool waits_for_gap(const std::string& target, const SignalContext& around);
+    double owed_green_s(std::uint16_t link, std::optional<std::uint32_t> phase,
+                        const SignalTiming& timing) const;
+    OwedGreen owed_by(const SignalTiming& timing) const;
     bool owes_green(const std::string& target, const SignalContext& around) const;
     void clear_link_by_link(const SignalContext& around, std::vector<traffic::Command>& commands);
     bool knows_program(const SignalContext& around) const;
