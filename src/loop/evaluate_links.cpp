@@ -43,6 +43,8 @@ experiment::ConditionSpec traffic_of(const experiment::LinkJob& job) {
     if (!job.policy.empty()) {
         condition.policies = {job.policy};
         condition.settings = {{"actuation.clearance", "fixed"}};
+        if (job.policy == "corridor" || job.policy == "recover_signals")
+            condition.settings.emplace("recover_signals.change_vehicles", "4");
     }
     return condition;
 }

@@ -14,7 +14,7 @@ struct RecoverSignalsConfig {
     double near_m = 300.0;
     double lasting_s = 60.0;
     double close_m = 50.0;
-    int change_vehicles = 4;
+    int change_vehicles = 8;
     double halted_mps = 0.5;
     double lease_s = 2.0;
     double exit_room_m = 0.0;
@@ -33,7 +33,9 @@ struct RecoverSignalsConfig {
                   "Moving vehicles closer than this to the stop line count as waiting, too", "assumed"},
             Field{"change_vehicles", "1", &C::change_vehicles, 0.0, 50.0,
                   "How many more vehicles a phase change must serve",
-                  "assumed: as many as pass on a lane during yellow and all-red"},
+                  "as many as pass on two lanes during yellow and red clearance; with 4 the dense city jams "
+                  "more "
+                  "often (study seed 7441, docs/findings/policies.md)"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,

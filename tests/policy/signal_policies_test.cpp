@@ -235,19 +235,19 @@ TEST(RecoverSignals, goes_on_for_a_while_after_the_emergency_vehicle_has_passed)
     EXPECT_TRUE(act(policy, scene, 160.5).empty());
 }
 
-TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_more) {
+TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_eight_vehicles_more) {
     policy::RecoverSignals policy({two_crossings()});
     CrossingScene scene = emergency_at(100.0);
     // The first phase serves north and south: one vehicle comes near on green, others stand in the west.
     scene.add({"h0", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 280.0, 10.0});
-    for (int number = 1; number <= 5; ++number)
+    for (int number = 1; number <= 9; ++number)
         scene.add(
             {"h" + std::to_string(number), VehicleClass::human, eastbound, 0, 490.0 - 8.0 * number, 0.0});
     const auto served = [&] {
         return std::get<traffic::AdjustGreen>(act(policy, scene).front().action).links;
     };
-    EXPECT_EQ(served().front(), 0U) << "one and the worth of a change against five";
-    scene.add({"h6", VehicleClass::human, eastbound, 0, 440.0, 0.0});
+    EXPECT_EQ(served().front(), 0U) << "one and the worth of a change against nine";
+    scene.add({"h10", VehicleClass::human, eastbound, 0, 410.0, 0.0});
     EXPECT_GE(served().front(), 12U);
 }
 
