@@ -44,7 +44,7 @@ experiment::ConditionSpec traffic_of(const experiment::LinkJob& job) {
         condition.policies = {job.policy};
         condition.settings = {{"actuation.clearance", "fixed"}};
         if (job.policy == "corridor" || job.policy == "recover_signals")
-            condition.settings.emplace("recover_signals.change_vehicles", "4");
+            condition.settings.emplace("recover_signals.longest_red_s", "0");
     }
     return condition;
 }
