@@ -114,12 +114,11 @@ bool BackgroundPlan::pays_greens(std::uint32_t phase, double since_s, const Owed
     const std::string& state = signal_.program[phase].state;
     if (std::ranges::any_of(state, traffic::is_yellow) || std::ranges::none_of(state, traffic::is_green))
         return false;
-    for (const std::uint16_t link : green_links(state)) {
-        if (link >= signal_.links.size()) continue;
+    return std::ranges::all_of(green_links(state), [&](std::uint16_t link) {
+        if (link >= signal_.links.size()) return true;
         const double least_s = std::min(owed_s(link, phase), whole_green_s(signal_, link, phase));
-        if (green_from_s(signal_, link, phase) - since_s < least_s - time_tolerance_s) return false;
-    }
-    return true;
+        return green_from_s(signal_, link, phase) - since_s >= least_s - time_tolerance_s;
+    });
 }
 
 std::optional<std::uint32_t> BackgroundPlan::resume(const OwedGreen& owed_s, core::Seconds now) const {
