@@ -1,5 +1,6 @@
 #include "analysis/signal_audit.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -18,6 +19,7 @@ struct Light {
     std::optional<double> green_s;   ///< Since when it is green, if the log says so.
     std::optional<double> yellow_s;  ///< Likewise.
     std::optional<double> red_s;     ///< Since when it is red without a conflicting link having opened.
+    bool on_foot = false;            ///< Its last green was a walk.
 };
 
 std::vector<std::uint16_t> links_of(const SignalEvent& event, std::size_t count) {
@@ -70,14 +72,14 @@ class Auditor {
                 open(where, owed, lights);
             } else if (code == SignalCode::begin_yellow) {
                 end_green(where, owed, light);
-                light = {std::nullopt, event.time_s, std::nullopt};
+                light = {std::nullopt, event.time_s, std::nullopt, light.on_foot};
             } else if (code == SignalCode::begin_red_clearance || code == SignalCode::begin_dont_walk) {
                 end_green(where, owed, light);
                 if (light.yellow_s)
                     check(where, Shortfall::yellow, *light.yellow_s, owed.yellow_s[link]);
                 else if (light.green_s && code == SignalCode::begin_red_clearance)
                     check(where, Shortfall::yellow, event.time_s, owed.yellow_s[link]);
-                light = {std::nullopt, std::nullopt, event.time_s};
+                light = {std::nullopt, std::nullopt, event.time_s, code == SignalCode::begin_dont_walk};
             }
         }
     }
@@ -98,12 +100,23 @@ class Auditor {
         if (code == SignalCode::coordination && event.parameter < 2 && calls == 0)
             lights_.erase(event.signal);
     }
-    SignalAudit take() { return std::move(audit_); }
+    SignalAudit take() {
+        for (const auto& [signal, all] : early_)
+            for (const Early& early : all)
+                audit_.findings.push_back(early.finding);
+        std::ranges::stable_sort(audit_.findings, {}, &SignalFinding::ended_s);
+        return std::move(audit_);
+    }
 
   private:
     struct Where {
         const SignalEvent& event;
         std::uint16_t link;
+    };
+    /// A link that got green before those on foot had cleared.
+    struct Early {
+        std::uint16_t opened;
+        SignalFinding finding;
     };
 
     void end_green(const Where& where, const SignalLimits& owed, const Light& light) {
@@ -112,30 +125,50 @@ class Auditor {
     /// A link gets green: those that conflict with it must have been red for long enough.
     void open(const Where& where, const SignalLimits& owed, std::vector<Light>& lights) {
         for (std::size_t other = 0; other < lights.size(); ++other) {
-            if (!owed.foes[where.link][other] || !lights[other].red_s) continue;
-            check({where.event, static_cast<std::uint16_t>(other)}, Shortfall::red_clearance,
-                  *lights[other].red_s, owed.red_s[other]);
-            lights[other].red_s.reset();
+            Light& light = lights[other];
+            if (!owed.foes[where.link][other] || !light.red_s) continue;
+            const auto shortfall = judge({where.event, static_cast<std::uint16_t>(other)},
+                                         Shortfall::red_clearance, *light.red_s, owed.red_s[other]);
+            light.red_s.reset();
+            if (!shortfall) continue;
+            if (light.on_foot)
+                early_[where.event.signal].push_back({where.link, *shortfall});
+            else
+                audit_.findings.push_back(*shortfall);
         }
-        lights[where.link] = {where.event.time_s, std::nullopt, std::nullopt};
+        const bool on_foot = static_cast<SignalCode>(where.event.event) == SignalCode::begin_walk;
+        if (on_foot) excuse(where, lights);
+        lights[where.link] = {where.event.time_s, std::nullopt, std::nullopt, on_foot};
+    }
+    /// Who walks again while the other still goes shares the green with it: the other one yields.
+    void excuse(const Where& where, const std::vector<Light>& lights) {
+        std::erase_if(early_[where.event.signal], [&](const Early& early) {
+            const std::optional<double>& green_s = lights[early.opened].green_s;
+            return early.finding.link == where.link && green_s && *green_s <= early.finding.ended_s;
+        });
     }
     void check(const Where& where, Shortfall what, double since_s, const std::optional<double>& least_s) {
-        if (!least_s) return;
+        if (const auto shortfall = judge(where, what, since_s, least_s))
+            audit_.findings.push_back(*shortfall);
+    }
+    std::optional<SignalFinding> judge(const Where& where, Shortfall what, double since_s,
+                                       const std::optional<double>& least_s) {
+        if (!least_s) return std::nullopt;
         ++(what == Shortfall::yellow          ? audit_.yellows
            : what == Shortfall::red_clearance ? audit_.reds
                                               : audit_.greens);
         constexpr double rounding_s = 1e-3;
         const double in_steps_s = std::floor(*least_s / step_s_ + rounding_s) * step_s_;
         const double lasted_s = where.event.time_s - since_s;
-        if (lasted_s >= in_steps_s - rounding_s) return;
-        audit_.findings.push_back(
-            {where.event.signal, where.link, what, where.event.time_s, lasted_s, *least_s});
+        if (lasted_s >= in_steps_s - rounding_s) return std::nullopt;
+        return SignalFinding{where.event.signal, where.link, what, where.event.time_s, lasted_s, *least_s};
     }
 
     const std::map<std::string, SignalLimits>& limits_;
     double step_s_;
     std::map<std::string, std::vector<Light>> lights_;
     std::map<std::string, int> calls_;
+    std::map<std::string, std::vector<Early>> early_;  ///< By signal.
     SignalAudit audit_;
 };
 

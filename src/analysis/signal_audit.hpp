@@ -45,7 +45,8 @@ struct SignalAudit {
 };
 
 /// Checks every colour in an event log whose beginning and end the log holds. A link whose beginnings it does
-/// not hold, and times that the program does not state, are not checked. Times are compared in whole steps of
+/// not hold, and times that the program does not state, are not checked. A link owes those on foot no
+/// clearance with whom it is green later on, because it yields to them. Times are compared in whole steps of
 /// the simulation, because a program's own times are shown in whole steps too. Throws core::InputError for a
 /// signal that `limits` lacks and for a link beyond its last one.
 SignalAudit audit_signals(std::span<const metrics::SignalEvent> events,

@@ -64,6 +64,17 @@ TEST(SignalAudit, OwesNoClearanceBetweenLinksThatGetGreenTogether) {
     EXPECT_EQ(audit.reds, 0U);
 }
 
+TEST(SignalAudit, OwesThoseOnFootNoClearanceWithWhomALinkIsGreenLater) {
+    std::vector<SignalEvent> events{
+        {100.0, "J", 21, 1, "0", ""}, {120.0, "J", 23, 1, "0", ""}, {121.0, "J", 1, 2, "1", ""}};
+    EXPECT_EQ(audited(events).findings.size(), 1U) << "1 s instead of 2 s";
+    events.push_back({122.0, "J", 21, 1, "0", ""});
+    EXPECT_THAT(audited(events).findings, IsEmpty()) << "link 1 yields";
+    events.back() = {150.0, "J", 21, 1, "0", ""};
+    events.insert(events.end() - 1, {140.0, "J", 8, 2, "1", ""});
+    EXPECT_EQ(audited(events).findings.size(), 1U) << "link 1 had no green any more";
+}
+
 TEST(SignalAudit, ComparesWholeStepsOfTheSimulation) {
     EXPECT_THAT(audited(change(10.0, 4.0, 2.0), 1.0).findings, IsEmpty());
     const auto of_three = [](double step_s) {
