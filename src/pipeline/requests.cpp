@@ -35,6 +35,35 @@ double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float
     return std::hypot(snapshot.x_m[row] - x_m, snapshot.y_m[row] - y_m);
 }
 
+/// Somebody with a radio: on the road, or standing beside it.
+struct Radio {
+    core::VehicleKey key;
+    traffic::VehicleClass vehicle_class;
+    float x_m;
+    float y_m;
+};
+
+std::size_t radio_count(const truth::Snapshot& snapshot) {
+    return snapshot.size() + snapshot.beside_road.size();
+}
+
+/// Numbered by row, and behind the rows those beside the road.
+Radio radio(const truth::Snapshot& snapshot, std::size_t number) {
+    if (number >= snapshot.size()) {
+        const truth::BesideRoad& beside = snapshot.beside_road[number - snapshot.size()];
+        return {beside.key, beside.vehicle_class, beside.x_m, beside.y_m};
+    }
+    const auto row = static_cast<core::VehicleIndex>(number);
+    return {snapshot.key[row], snapshot.vehicle_class[row], snapshot.x_m[row], snapshot.y_m[row]};
+}
+
+std::optional<std::size_t> radio_of(const truth::Snapshot& snapshot, core::VehicleKey vehicle) {
+    if (const auto row = snapshot.row_of(vehicle)) return *row;
+    const auto beside = std::ranges::lower_bound(snapshot.beside_road, vehicle, {}, &truth::BesideRoad::key);
+    if (beside == snapshot.beside_road.end() || beside->key != vehicle) return std::nullopt;
+    return snapshot.size() + static_cast<std::size_t>(beside - snapshot.beside_road.begin());
+}
+
 /// The vehicles that a request asks in truth; none for one to a signal.
 std::vector<core::VehicleKey> meant_by(const traffic::Lease& lease, const truth::Snapshot& snapshot) {
     if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) return {*vehicle};
@@ -135,8 +164,8 @@ void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle
     if (hearing.empty() && !vehicles_.is_perfect()) return;
     ++counts_.sent;
     sent_.push_back(asked);
-    const auto row = moment.snapshot.row_of(vehicle);
-    const int hops = row && !is_unreachable(vehicle, moment) ? hearing[*row] : 0;
+    const auto number = radio_of(moment.snapshot, vehicle);
+    const int hops = number && !is_unreachable(vehicle, moment) ? hearing[*number] : 0;
     if (hops > 0) {
         ++counts_.heard;
         if (hops > 1) ++counts_.relayed;
@@ -171,14 +200,14 @@ const Requests::Hearing& Requests::hearing_of(core::VehicleKey sender, const Mom
 Requests::Hearing Requests::spread(core::VehicleKey sender, const Moment& moment) {
     if (vehicles_.is_perfect()) {
         ++counts_.messages;
-        return Hearing(moment.snapshot.size(), 1);
+        return Hearing(radio_count(moment.snapshot), 1);
     }
     const auto row = moment.snapshot.row_of(sender);
     if (!row || vehicles_.is_silent(sender.value, vehicles_.message_at(moment.snapshot.time))) return {};
-    Hearing hearing(moment.snapshot.size(), 0);
+    Hearing hearing(radio_count(moment.snapshot), 0);
     transmit(*row, 1, moment.snapshot, hearing);
     for (int hop = 2; hop <= vehicles_.config().hops; ++hop) {
-        for (core::VehicleIndex relay = 0; relay < hearing.size(); ++relay) {
+        for (core::VehicleIndex relay = 0; relay < moment.snapshot.size(); ++relay) {
             const bool relays = hearing[relay] == hop - 1 &&
                                 moment.snapshot.vehicle_class[relay] == traffic::VehicleClass::automated &&
                                 !is_unreachable(moment.snapshot.key[relay], moment);
@@ -191,12 +220,13 @@ Requests::Hearing Requests::spread(core::VehicleKey sender, const Moment& moment
 void Requests::transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing) {
     ++counts_.messages;
     const sensing::MessageNumber number = vehicles_.message_at(snapshot.time);
-    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
-        if (row == from || hearing[row] != 0) continue;
-        const double apart_m = distance_m(snapshot, row, snapshot.x_m[from], snapshot.y_m[from]);
-        if (equipment_.equipped(snapshot.key[row], snapshot.vehicle_class[row]) &&
-            vehicles_.hears(snapshot.key[from].value, snapshot.key[row].value, number, apart_m))
-            hearing[row] = hop;
+    for (std::size_t listener = 0; listener < hearing.size(); ++listener) {
+        if (listener == from || hearing[listener] != 0) continue;
+        const Radio there = radio(snapshot, listener);
+        const double apart_m = distance_m(snapshot, from, there.x_m, there.y_m);
+        if (equipment_.equipped(there.key, there.vehicle_class) &&
+            vehicles_.hears(snapshot.key[from].value, there.key.value, number, apart_m))
+            hearing[listener] = hop;
     }
 }
 

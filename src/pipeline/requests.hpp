@@ -67,8 +67,8 @@ class Requests {
         double arrives_s = 0.0;
         traffic::Lease lease;
     };
-    /// Who hears a message, by row of the snapshot: after how many hops; 0: not at all. Empty when no message
-    /// is sent.
+    /// Who hears a message: after how many hops, by row of the snapshot, and behind the rows those beside the
+    /// road; 0: not at all. Empty when no message is sent.
     using Hearing = std::vector<int>;
     /// Everything about one decision.
     struct Moment {
@@ -88,7 +88,7 @@ class Requests {
     /// Those who hear what the sender asks of vehicles now; the message is sent when it is asked for first.
     const Hearing& hearing_of(core::VehicleKey sender, const Moment& moment);
     Hearing spread(core::VehicleKey sender, const Moment& moment);
-    /// Marks the rows that hear a message of the row `from` and had not heard it with fewer hops.
+    /// Marks who hears a message of the row `from` and had not heard it with fewer hops.
     void transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing);
     static bool is_unreachable(core::VehicleKey vehicle, const Moment& moment);
     void deliver(const traffic::Lease& lease, double latency_s, core::Seconds now);

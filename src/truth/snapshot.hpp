@@ -12,6 +12,17 @@
 
 namespace clearway::truth {
 
+/// A vehicle that stands beside the road: it is in nobody's way and no sensor looks there, but it hears
+/// requests.
+struct BesideRoad {
+    core::VehicleKey key;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
+    float x_m = 0.0F;
+    float y_m = 0.0F;
+
+    bool operator==(const BesideRoad&) const = default;
+};
+
 /// The true state of all vehicles on the road at one step, as a structure of arrays. Rows are ordered by key;
 /// a row number (`core::VehicleIndex`) is valid for this snapshot alone. Buffers keep their capacity between
 /// steps.
@@ -28,6 +39,7 @@ struct Snapshot {
     std::vector<float> lane_position_m;
     std::vector<std::uint32_t> route_edge;  ///< See traffic::MotionState.
     traffic::SignalStates signals;
+    std::vector<BesideRoad> beside_road;  ///< Vehicles without a row, ordered by key.
 
     std::size_t size() const { return key.size(); }
     void resize(std::size_t rows);

@@ -69,6 +69,28 @@ class OneRoad {
     std::optional<Requests> requests_;
 };
 
+TEST(Requests, ReachWhoStandsBesideTheRoadAsFarAsTheChannelDoes) {
+    const core::VehicleKey parked = core::vehicle_key("parked");
+    const auto heard_at = [&](float away_m) {
+        OneRoad one("perfect,request_propagation=sharp,request_range_m=50");
+        truth::Snapshot& snapshot = one.scene.snapshot();
+        const auto sender = *snapshot.row_of(one.scene.key("e1"));
+        snapshot.beside_road = {
+            {parked, traffic::VehicleClass::automated, snapshot.x_m[sender] + away_m, snapshot.y_m[sender]}};
+        one.decide({lease(parked, traffic::PullAside{}, one.scene.key("e1"))});
+        EXPECT_EQ(one.counts().sent, 1u);
+        return one.counts().heard;
+    };
+    EXPECT_EQ(heard_at(49.0F), 1u);
+    EXPECT_EQ(heard_at(51.0F), 0u);
+}
+
+TEST(Requests, DoNotReachAVehicleThatIsNeitherOnTheRoadNorBesideIt) {
+    OneRoad one("perfect,request_propagation=sharp,request_range_m=50");
+    one.decide({lease(core::vehicle_key("gone"), traffic::PullAside{}, one.scene.key("e1"))});
+    EXPECT_EQ(one.counts().heard, 0u);
+}
+
 TEST(Requests, ThatArePerfectArriveAtOnceInTheirOrder) {
     OneRoad one("perfect");
     one.ask({"a3", "a1", "h1"});

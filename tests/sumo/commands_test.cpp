@@ -221,6 +221,10 @@ TEST(Commands, AVehicleBesideTheRoadIsInNobodysWayAndReturnsWhenItResumes) {
                                        traffic::StopPlace::beside_road});
     step_until(session, 25.0);
     EXPECT_FALSE(session.snapshot().row_of(key("a"))) << "beside the road";
+    ASSERT_EQ(session.snapshot().beside_road.size(), 1U);
+    EXPECT_EQ(session.snapshot().beside_road[0].key, key("a"));
+    EXPECT_EQ(session.snapshot().beside_road[0].vehicle_class, traffic::VehicleClass::human);
+    EXPECT_NEAR(session.snapshot().beside_road[0].x_m, 100.0F, 1.0F);
     step_until(session, 31.0);
     apply(session, traffic::SetLaneChangeFreedom{key("b"), traffic::LaneChangeFreedom::none});
     step_until(session, 60.0);
@@ -228,6 +232,7 @@ TEST(Commands, AVehicleBesideTheRoadIsInNobodysWayAndReturnsWhenItResumes) {
     apply(session, traffic::ResumeFromStop{key("a")});
     step_until(session, 70.0);
     ASSERT_TRUE(session.snapshot().row_of(key("a")));
+    EXPECT_TRUE(session.snapshot().beside_road.empty());
     EXPECT_GT(speed(session, "a"), 5.0F);
     step_until(session, 200.0);
     EXPECT_FALSE(session.snapshot().row_of(key("a"))) << "arrived";

@@ -123,10 +123,10 @@ class ApiGateway : public Sumo {
         return call([&] {
             const auto position = api::Vehicle::getPosition(vehicle);
             if (position.x == ::libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
-            reading.lane = api::Vehicle::getLaneID(vehicle);
-            if (reading.lane.empty()) return Presence::parked;
             reading.x_m = position.x;
             reading.y_m = position.y;
+            reading.lane = api::Vehicle::getLaneID(vehicle);
+            if (reading.lane.empty()) return Presence::parked;
             reading.angle_deg = api::Vehicle::getAngle(vehicle);
             reading.speed_mps = api::Vehicle::getSpeed(vehicle);
             reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);

@@ -156,8 +156,8 @@ void Observer::register_vehicle(Vehicle& vehicle) {
 }
 
 void Observer::take_parked() {
-    std::erase_if(parked_, [this](core::VehicleKey key) {
-        Vehicle* vehicle = fleet_.find(key);
+    std::erase_if(parked_, [this](const auto& parked) {
+        Vehicle* vehicle = fleet_.find(parked.first);
         if (vehicle == nullptr) return true;
         if (sumo_.read(vehicle->id, reading_) != gateway::Presence::on_road) return false;
         fleet_.put_on_road(*vehicle);
@@ -176,7 +176,9 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         snapshot.resize(fleet_.rows().size());
         for (Vehicle* vehicle : fleet_.on_road()) {
             const gateway::Presence presence = sumo_.read(vehicle->id, reading_);
-            if (presence == gateway::Presence::parked) parked_.insert(vehicle->key);
+            if (presence == gateway::Presence::parked)
+                parked_[vehicle->key] = {vehicle->key, vehicle->vehicle_class,
+                                         static_cast<float>(reading_.x_m), static_cast<float>(reading_.y_m)};
             if (presence != gateway::Presence::on_road) {
                 gone.push_back(vehicle);
                 continue;
@@ -188,6 +190,9 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         // SUMO reports a removal after a collision one step late: the rows are read again without the
         // vehicle.
     } while (!gone.empty());
+    snapshot.beside_road.clear();
+    for (const auto& [key, parked] : parked_)
+        snapshot.beside_road.push_back(parked);
 }
 
 void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -71,7 +72,7 @@ class Observer {
     traffic::Roster roster_;
     std::unordered_map<std::string, traffic::VehicleKind> declared_;
     std::set<Contact> contacts_;
-    std::set<core::VehicleKey> parked_;  ///< Off the road until they drive on.
+    std::map<core::VehicleKey, truth::BesideRoad> parked_;  ///< Off the road until they drive on.
     gateway::VehicleReading reading_;
     double routes_checked_s_ = 0.0;
 };
