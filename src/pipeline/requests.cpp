@@ -39,8 +39,7 @@ double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float
 struct Radio {
     core::VehicleKey key;
     traffic::VehicleClass vehicle_class;
-    float x_m;
-    float y_m;
+    traffic::MotionState state;
 };
 
 std::size_t radio_count(const truth::Snapshot& snapshot) {
@@ -51,10 +50,10 @@ std::size_t radio_count(const truth::Snapshot& snapshot) {
 Radio radio(const truth::Snapshot& snapshot, std::size_t number) {
     if (number >= snapshot.size()) {
         const truth::BesideRoad& beside = snapshot.beside_road[number - snapshot.size()];
-        return {beside.key, beside.vehicle_class, beside.x_m, beside.y_m};
+        return {beside.key, beside.vehicle_class, beside.state};
     }
     const auto row = static_cast<core::VehicleIndex>(number);
-    return {snapshot.key[row], snapshot.vehicle_class[row], snapshot.x_m[row], snapshot.y_m[row]};
+    return {snapshot.key[row], snapshot.vehicle_class[row], snapshot.motion(row)};
 }
 
 std::optional<std::size_t> radio_of(const truth::Snapshot& snapshot, core::VehicleKey vehicle) {
@@ -69,9 +68,9 @@ std::vector<core::VehicleKey> meant_by(const traffic::Lease& lease, const truth:
     if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) return {*vehicle};
     std::vector<core::VehicleKey> there;
     if (const auto* const stretch = std::get_if<traffic::Stretch>(&lease.target)) {
-        for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
-            if (stretch->has(snapshot.vehicle_class[row], snapshot.motion(row)))
-                there.push_back(snapshot.key[row]);
+        for (std::size_t number = 0; number < radio_count(snapshot); ++number) {
+            const Radio one = radio(snapshot, number);
+            if (stretch->has(one.vehicle_class, one.state)) there.push_back(one.key);
         }
     }
     return there;
@@ -223,7 +222,7 @@ void Requests::transmit(core::VehicleIndex from, int hop, const truth::Snapshot&
     for (std::size_t listener = 0; listener < hearing.size(); ++listener) {
         if (listener == from || hearing[listener] != 0) continue;
         const Radio there = radio(snapshot, listener);
-        const double apart_m = distance_m(snapshot, from, there.x_m, there.y_m);
+        const double apart_m = distance_m(snapshot, from, there.state.x_m, there.state.y_m);
         if (equipment_.equipped(there.key, there.vehicle_class) &&
             vehicles_.hears(snapshot.key[from].value, there.key.value, number, apart_m))
             hearing[listener] = hop;

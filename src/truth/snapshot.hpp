@@ -17,10 +17,7 @@ namespace clearway::truth {
 struct BesideRoad {
     core::VehicleKey key;
     traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
-    float x_m = 0.0F;
-    float y_m = 0.0F;
-
-    bool operator==(const BesideRoad&) const = default;
+    traffic::MotionState state;  ///< The lane is the one that it left.
 };
 
 /// The true state of all vehicles on the road at one step, as a structure of arrays. Rows are ordered by key;

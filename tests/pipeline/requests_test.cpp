@@ -75,8 +75,9 @@ TEST(Requests, ReachWhoStandsBesideTheRoadAsFarAsTheChannelDoes) {
         OneRoad one("perfect,request_propagation=sharp,request_range_m=50");
         truth::Snapshot& snapshot = one.scene.snapshot();
         const auto sender = *snapshot.row_of(one.scene.key("e1"));
-        snapshot.beside_road = {
-            {parked, traffic::VehicleClass::automated, snapshot.x_m[sender] + away_m, snapshot.y_m[sender]}};
+        traffic::MotionState state = snapshot.motion(sender);
+        state.x_m += away_m;
+        snapshot.beside_road = {{parked, traffic::VehicleClass::automated, state}};
         one.decide({lease(parked, traffic::PullAside{}, one.scene.key("e1"))});
         EXPECT_EQ(one.counts().sent, 1u);
         return one.counts().heard;
@@ -248,6 +249,18 @@ TEST(Requests, ToAStretchReachWhoeverIsThereAndHearsThem) {
     one.decide({geocast(one, 0.0F, 1000.0F, traffic::Addressed::drivers)}, 1.0);
     EXPECT_THAT(one.arrived(), ElementsAre("a1", "a2"));
     EXPECT_THAT(one.lost(), ElementsAre("h1", "a3"));
+}
+
+TEST(Requests, ToAStretchReachWhoStandsBesideIt) {
+    OneRoad one("perfect,request_propagation=sharp,request_range_m=100");
+    truth::Snapshot& snapshot = one.scene.snapshot();
+    traffic::MotionState state = snapshot.motion(one.scene.row("a1"));
+    state.speed_mps = 0.0F;
+    snapshot.beside_road = {{core::vehicle_key("parked"), traffic::VehicleClass::automated, state}};
+    one.decide({geocast(one, 0.0F, 50.0F)});
+    EXPECT_EQ(one.counts().heard, 2u) << "a1, and who stands beside it";
+    one.decide({geocast(one, 50.0F, 90.0F)}, 0.5);
+    EXPECT_EQ(one.counts().heard, 3u) << "a2 alone";
 }
 
 TEST(Requests, ToAStretchNeedNobodyThere) {

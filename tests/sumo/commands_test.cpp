@@ -224,7 +224,8 @@ TEST(Commands, AVehicleBesideTheRoadIsInNobodysWayAndReturnsWhenItResumes) {
     ASSERT_EQ(session.snapshot().beside_road.size(), 1U);
     EXPECT_EQ(session.snapshot().beside_road[0].key, key("a"));
     EXPECT_EQ(session.snapshot().beside_road[0].vehicle_class, traffic::VehicleClass::human);
-    EXPECT_NEAR(session.snapshot().beside_road[0].x_m, 100.0F, 1.0F);
+    EXPECT_NEAR(session.snapshot().beside_road[0].state.x_m, 100.0F, 1.0F);
+    EXPECT_NEAR(session.snapshot().beside_road[0].state.lane_position_m, 100.0F, 1.0F);
     step_until(session, 31.0);
     apply(session, traffic::SetLaneChangeFreedom{key("b"), traffic::LaneChangeFreedom::none});
     step_until(session, 60.0);

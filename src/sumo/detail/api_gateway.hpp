@@ -125,9 +125,9 @@ class ApiGateway : public Sumo {
             if (position.x == ::libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
             reading.x_m = position.x;
             reading.y_m = position.y;
+            reading.angle_deg = api::Vehicle::getAngle(vehicle);
             reading.lane = api::Vehicle::getLaneID(vehicle);
             if (reading.lane.empty()) return Presence::parked;
-            reading.angle_deg = api::Vehicle::getAngle(vehicle);
             reading.speed_mps = api::Vehicle::getSpeed(vehicle);
             reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
             reading.lane_position_m = api::Vehicle::getLanePosition(vehicle);

@@ -25,6 +25,18 @@ bool is_internal(const std::string& lane) {
     return lane.starts_with(':');
 }
 
+/// SUMO tells no lane of a vehicle beside the road: it is the last one known.
+truth::BesideRoad beside_road(const Vehicle& vehicle, const gateway::VehicleReading& reading) {
+    return {.key = vehicle.key,
+            .vehicle_class = vehicle.vehicle_class,
+            .state = {.x_m = static_cast<float>(reading.x_m),
+                      .y_m = static_cast<float>(reading.y_m),
+                      .heading_rad = heading_rad(reading.angle_deg),
+                      .lane = vehicle.lane,
+                      .lane_position_m = vehicle.lane_position_m,
+                      .route_edge = vehicle.route_edge}};
+}
+
 }  // namespace
 
 void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
@@ -177,8 +189,7 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         for (Vehicle* vehicle : fleet_.on_road()) {
             const gateway::Presence presence = sumo_.read(vehicle->id, reading_);
             if (presence == gateway::Presence::parked)
-                parked_[vehicle->key] = {vehicle->key, vehicle->vehicle_class,
-                                         static_cast<float>(reading_.x_m), static_cast<float>(reading_.y_m)};
+                parked_[vehicle->key] = beside_road(*vehicle, reading_);
             if (presence != gateway::Presence::on_road) {
                 gone.push_back(vehicle);
                 continue;
