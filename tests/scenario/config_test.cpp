@@ -33,10 +33,10 @@ class Config : public ScratchTest {
 };
 
 TEST_F(Config, shipped_scenarios_are_listed_and_load) {
-    EXPECT_THAT(list(), ElementsAre("arterial", "bologna", "city", "grid_signals", "intersection", "merge",
-                                    "motorway_jam", "motorway_jam_3km", "motorway_jam_three_lanes",
-                                    "motorway_jam_three_lanes_3km", "random_town", "rural", "short_grid",
-                                    "short_ring", "short_town", "spider"));
+    EXPECT_THAT(list(), ElementsAre("arterial", "bologna", "bologna_stretch", "city", "grid_signals",
+                                    "intersection", "merge", "motorway_jam", "motorway_jam_3km",
+                                    "motorway_jam_three_lanes", "motorway_jam_three_lanes_3km", "random_town",
+                                    "rural", "short_grid", "short_ring", "short_town", "spider"));
     for (const std::string& name : list()) {
         const ScenarioConfig config = load(name);
         EXPECT_EQ(config.name, name);

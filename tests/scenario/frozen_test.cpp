@@ -34,6 +34,7 @@ constexpr Frozen frozen_v1[] = {
     {"short_ring", "7776cf8e1f0aa00bb19f83fcdfd14d03", "62912f26ffaf56c6118b2a837e219ca7", ""},
     {"short_town", "988206843d17c5cc69b3ae278179d9b7", "8fb3facc7562e7119ee4358a6266a1da", ""},
     {"bologna", "e45a580d8534cd552226c0993a8c9460", "714c3e0b25043cbdf0ed2bca5cc4aec7", ""},
+    {"bologna_stretch", "e45a580d8534cd552226c0993a8c9460", "ba249a667b36c2779ff16fcf4df6d91f", ""},
 };
 
 std::ostream& operator<<(std::ostream& out, const Frozen& frozen) {
