@@ -38,7 +38,7 @@ double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float
 /// Somebody with a radio: on the road, or standing beside it.
 struct Radio {
     core::VehicleKey key;
-    traffic::VehicleClass vehicle_class;
+    traffic::VehicleClass vehicle_class = traffic::VehicleClass::human;
     traffic::MotionState state;
 };
 
