@@ -43,8 +43,6 @@ experiment::ConditionSpec traffic_of(const experiment::LinkJob& job) {
     if (!job.policy.empty()) {
         condition.policies = {job.policy};
         condition.settings = {{"actuation.clearance", "fixed"}};
-        if (job.policy == "corridor" || job.policy == "recover_signals")
-            condition.settings.emplace("recover_signals.longest_red_s", "0");
     }
     return condition;
 }

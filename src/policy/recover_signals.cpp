@@ -1,11 +1,8 @@
 #include "policy/recover_signals.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <unordered_map>
-#include <utility>
 
 #include "policy/detail/approach.hpp"
 #include "policy/detail/room.hpp"
@@ -16,7 +13,6 @@ namespace clearway::policy {
 namespace {
 
 constexpr char policy_name[] = "recover_signals";
-constexpr double never_s = std::numeric_limits<double>::infinity();
 
 using DemandByLane = std::unordered_map<std::uint32_t, int>;
 
@@ -37,7 +33,6 @@ DemandByLane demand_by_lane(const roads::Network& network, const traffic::Believ
 struct Served {
     std::vector<std::uint16_t> links;
     int vehicles = 0;
-    int overdue = 0;  ///< Of these: have had red for too long.
 };
 
 /// What waits, and whether there is room for it behind the signals.
@@ -45,18 +40,15 @@ struct Demand {
     DemandByLane by_lane;
     std::optional<detail::Room> room;
     double exit_room_m = 0.0;
-    double overdue_s = 0.0;  ///< Whoever has had red since before this has waited for too long.
 
     bool may_leave(const roads::SignalLink& way) const {
         return !room || !room->is_blocked({way}, exit_room_m);
     }
 };
 
-Served served_by(const roads::Signal& signal, const std::string& state, const Demand& demand,
-                 const std::vector<double>& red_since_s) {
+Served served_by(const roads::Signal& signal, const std::string& state, const Demand& demand) {
     Served served;
     std::set<std::uint32_t> lanes;
-    std::set<std::uint32_t> overdue;
     for (std::uint16_t link = 0; link < signal.links.size() && link < state.size(); ++link) {
         if (!traffic::is_green(state[link])) continue;
         bool has_demand = false;
@@ -65,8 +57,6 @@ Served served_by(const roads::Signal& signal, const std::string& state, const De
             if (found == demand.by_lane.end() || !demand.may_leave(way)) continue;
             has_demand = true;
             if (lanes.insert(way.from.value).second) served.vehicles += found->second;
-            if (red_since_s[link] < demand.overdue_s && overdue.insert(way.from.value).second)
-                served.overdue += found->second;
         }
         if (has_demand) served.links.push_back(link);
     }
@@ -76,14 +66,12 @@ Served served_by(const roads::Signal& signal, const std::string& state, const De
 /// The links with demand of the phase that serves the most vehicles; empty when none wait. The present phase
 /// counts `worth` vehicles more, because a change costs time.
 std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::string& shown,
-                                       const Demand& demand, const std::vector<double>& red_since_s,
-                                       int worth) {
+                                       const Demand& demand, int worth) {
     Served best;
     for (const roads::Phase& phase : signal.program) {
-        Served served = served_by(signal, phase.state, demand, red_since_s);
+        Served served = served_by(signal, phase.state, demand);
         if (served.vehicles > 0 && phase.state == shown) served.vehicles += worth;
-        if (std::pair(served.overdue, served.vehicles) > std::pair(best.overdue, best.vehicles))
-            best = std::move(served);
+        if (served.vehicles > best.vehicles) best = std::move(served);
     }
     return best.links;
 }
@@ -96,21 +84,7 @@ RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfi
         keeps_cycle_ = detail::on_short_loops(context_.network, config_.short_block_m);
 }
 
-void RecoverSignals::watch_reds(const traffic::BelievedGraph& belief) {
-    red_since_s_.resize(context_.network.signals().size());
-    for (std::size_t signal = 0; signal < red_since_s_.size(); ++signal) {
-        const std::string& state = belief.signals.state[signal];
-        red_since_s_[signal].resize(context_.network.signals()[signal].links.size(), never_s);
-        for (std::size_t link = 0; link < red_since_s_[signal].size(); ++link) {
-            double& since_s = red_since_s_[signal][link];
-            const bool is_red = link < state.size() && traffic::is_red(state[link]);
-            since_s = is_red ? std::min(since_s, belief.time.value) : never_s;
-        }
-    }
-}
-
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
-    watch_reds(belief);
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
@@ -122,13 +96,12 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
-    Demand demand{demand_by_lane(context_.network, belief, config_), std::nullopt, config_.exit_room_m,
-                  config_.longest_red_s > 0.0 ? belief.time.value - config_.longest_red_s : -never_s};
+    Demand demand{demand_by_lane(context_.network, belief, config_), std::nullopt, config_.exit_room_m};
     if (config_.exit_room_m > 0.0) demand.room.emplace(context_.network, belief, config_.halted_mps);
     for (const auto& [signal, until] : until_s_) {
         std::vector<std::uint16_t> links =
             most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,
-                        red_since_s_[signal.value], config_.change_vehicles);
+                        config_.change_vehicles);
         if (!links.empty())
             write.add(signal, traffic::AdjustGreen{std::move(links)}, "waited for an emergency vehicle", {});
     }

@@ -19,7 +19,6 @@ struct RecoverSignalsConfig {
     double lease_s = 2.0;
     double exit_room_m = 0.0;
     double short_block_m = 150.0;
-    double longest_red_s = 90.0;
 
     static constexpr auto fields() {
         using C = RecoverSignalsConfig;
@@ -34,8 +33,7 @@ struct RecoverSignalsConfig {
                   "Moving vehicles closer than this to the stop line count as waiting, too", "assumed"},
             Field{"change_vehicles", "1", &C::change_vehicles, 0.0, 50.0,
                   "How many more vehicles a phase change must serve",
-                  "assumed: as many as pass on a lane during yellow and all-red; 8 shows no gain, "
-                  "docs/findings/policies.md"},
+                  "assumed: as many as pass on a lane during yellow and all-red"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
@@ -48,11 +46,7 @@ struct RecoverSignalsConfig {
                   "0: as all figures were measured that do not name it"},
             Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
                   "Signals on closed loops of blocks shorter than this keep their cycle; 0: none does",
-                  "docs/findings/short-blocks.md; no scenario of the other findings has such loops"},
-            Field{
-                "longest_red_s", "s", &C::longest_red_s, 0.0, 600.0,
-                "Vehicles that have had red for longer come first, however many others wait; 0: nobody does",
-                "assumed: a usual cycle"});
+                  "docs/findings/short-blocks.md; no scenario of the other findings has such loops"});
     }
 };
 
@@ -68,11 +62,8 @@ class RecoverSignals : public Policy {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    void watch_reds(const traffic::BelievedGraph& belief);
-
     PolicyContext context_;
     RecoverSignalsConfig config_;
-    std::vector<std::vector<double>> red_since_s_;  ///< By signal and link; infinite while it is not red.
     std::map<core::SignalIndex, double> until_s_;
     std::vector<bool> keeps_cycle_;  ///< By signal; empty if none does.
 };

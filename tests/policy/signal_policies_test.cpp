@@ -251,29 +251,6 @@ TEST(RecoverSignals, keeps_what_is_green_unless_a_change_serves_four_vehicles_mo
     EXPECT_GE(served().front(), 12U);
 }
 
-TEST(RecoverSignals, serves_those_first_that_have_had_red_for_too_long) {
-    policy::RecoverSignals fair({two_crossings()}, {.longest_red_s = 90.0});
-    policy::RecoverSignals counts({two_crossings()}, {.longest_red_s = 0.0});
-    CrossingScene scene = emergency_at(100.0);
-    // The first phase serves north and south, where many wait; one vehicle has had red in the west.
-    for (int number = 1; number <= 6; ++number)
-        scene.add({"h" + std::to_string(number),
-                   VehicleClass::human,
-                   {"north_a_A", "A_south_a"},
-                   0,
-                   285.0 - 8.0 * number,
-                   0.0});
-    scene.add({"h7", VehicleClass::human, eastbound, 0, 480.0, 0.0});
-    const auto served = [&](policy::RecoverSignals& policy, double time_s) {
-        return std::get<traffic::AdjustGreen>(act(policy, scene, time_s).front().action).links.front();
-    };
-    EXPECT_EQ(served(fair, 100.0), 0U);
-    EXPECT_EQ(served(fair, 189.5), 0U);
-    EXPECT_GE(served(fair, 190.5), 12U) << "red for more than 90 s";
-    EXPECT_EQ(served(counts, 100.0), 0U);
-    EXPECT_EQ(served(counts, 190.5), 0U);
-}
-
 TEST(RedPrivilege, slows_the_emergency_vehicle_down_to_20_kmh_at_the_line) {
     policy::RedPrivilege policy({two_crossings()});
     const std::string red(16, 'r');
