@@ -11,7 +11,7 @@ struct OwnClearance {
     double yellow_s = 0.0;  ///< Longest yellow after a green.
     /// From the end of the yellow (of the green, without one) until any link opens, but not while other
     /// vehicles go for whom that one waits: the shortest in the cycle of those after which a link that
-    /// conflicts opens before it is green again.
+    /// conflicts opens before it is green again. 0 where a link opens during the yellow already.
     double red_s = 0.0;
 };
 

@@ -22,7 +22,7 @@ struct Clock {
     double since_s = 0.0;
     bool is_whole = false;      ///< The beginning of the colour was seen.
     bool clears = false;        ///< Red, and no link has opened since.
-    bool is_joined = false;     ///< Yellow, and a link that conflicts has opened since.
+    bool is_joined = false;     ///< Yellow, and a link has opened since.
     double went_until_s = 0.0;  ///< End of its last green.
     std::optional<double> red_s =
         std::nullopt;  ///< Red clearance, until it is known whether it was for a foe.
@@ -86,9 +86,9 @@ class Playback {
             Clock& clock = clocks_[link];
             if (std::exchange(clock.clears, false))
                 clock.red_s = now_s_ - std::max(clock.since_s, free_since_s(opened, link));
+            clock.is_joined = clock.is_joined || clock.colour == 'y';
             const bool foe_opens =
                 std::ranges::any_of(opened, [&](std::size_t other) { return signal_.foes[link][other]; });
-            clock.is_joined = clock.is_joined || (clock.colour == 'y' && foe_opens);
             if (!clock.red_s || !foe_opens) continue;
             take_least(times_.red_s[link], *clock.red_s);
             clock.red_s.reset();

@@ -83,6 +83,8 @@ roads::Signal known_clockwork() {
     return signal;
 }
 
+constexpr core::Seconds least_rest{5.0};
+
 double owed_8_s(std::uint16_t /*link*/, std::uint32_t /*phase*/) {
     return 8.0;
 }
@@ -90,42 +92,54 @@ double owed_8_s(std::uint16_t /*link*/, std::uint32_t /*phase*/) {
 TEST(BackgroundPlan, of_a_fixed_program_goes_on_where_it_would_be) {
     const roads::Signal signal = known_clockwork();
     const BackgroundPlan own(signal, true);
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(220.0 + 40.0)), 0) << "16 s of green are left";
-    EXPECT_NEAR(own.resumed_s(0, owed_8_s, core::Seconds(220.0 + 46.0)), 10.0, 1e-9)
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 40.0)), 0) << "16 s of green are left";
+    EXPECT_NEAR(own.resumed_s(0, owed_8_s, least_rest, core::Seconds(220.0 + 46.0)), 10.0, 1e-9)
         << "until it ends in step";
-    EXPECT_EQ(own.resumed_s(0, owed_8_s, core::Seconds(220.0 + 50.0)), 56.0)
+    EXPECT_EQ(own.resumed_s(0, owed_8_s, least_rest, core::Seconds(220.0 + 50.0)), 56.0)
         << "the way back took long: 6 s are too short, the whole green is not";
 }
 
 TEST(BackgroundPlan, rest_of_a_green_or_a_yellow_is_left_out) {
     const roads::Signal signal = known_clockwork();
     const BackgroundPlan own(signal, true);
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(220.0 + 50.0)), 2) << "6 s are left of 56";
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(220.0 + 58.0)), 2) << "during yellow";
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(220.0 + 95.0)), 0);
-    EXPECT_NEAR(own.resumed_s(2, owed_8_s, core::Seconds(220.0 + 55.0)), 41.0, 1e-9) << "5 s early";
-    EXPECT_NEAR(own.resumed_s(2, owed_8_s, core::Seconds(220.0 + 30.0)), 54.0, 1e-9)
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 50.0)), 2) << "6 s are left of 56";
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 58.0)), 2) << "during yellow";
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 95.0)), 0);
+    EXPECT_NEAR(own.resumed_s(2, owed_8_s, least_rest, core::Seconds(220.0 + 55.0)), 41.0, 1e-9)
+        << "5 s early";
+    EXPECT_NEAR(own.resumed_s(2, owed_8_s, least_rest, core::Seconds(220.0 + 30.0)), 54.0, 1e-9)
         << "half as long again at most";
+}
+
+TEST(BackgroundPlan, rest_of_a_phase_in_which_others_clear_is_left_out) {
+    roads::Signal signal = known_clockwork();
+    signal.links.resize(3);
+    signal.crossings = {false, false, false};
+    signal.program = {{50.0, "GrG"}, {4.0, "yrG"}, {6.0, "rrG"}, {36.0, "rGG"}, {4.0, "ryG"}};
+    const BackgroundPlan own(signal, true);
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 58.0)), 3) << "2 s are left of 6";
+    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(1.0), core::Seconds(220.0 + 58.0)), 2);
+    EXPECT_EQ(own.resumed_s(2, owed_8_s, least_rest, core::Seconds(220.0 + 58.0)), 6.0);
 }
 
 TEST(BackgroundPlan, that_gives_less_than_is_owed_is_taken_as_it_is) {
     roads::Signal signal = known_clockwork();
     signal.program[2].duration_s = 4.0;
     const BackgroundPlan own(signal, true);
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(20.0 + 50.0)), 2);
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(20.0 + 50.0)), 2);
 }
 
 TEST(BackgroundPlan, that_vehicles_actuate_goes_on_after_the_phase_that_was_left) {
     roads::Signal signal = known_clockwork();
     signal.fixed_time = false;
     BackgroundPlan own(signal, false);
-    EXPECT_FALSE(own.resume(owed_8_s, core::Seconds(0.0))) << "it was never seen";
+    EXPECT_FALSE(own.resume(owed_8_s, least_rest, core::Seconds(0.0))) << "it was never seen";
     own.watch("Gr", core::Seconds(3.0));
     own.leave();
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(30.0)), 2);
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(30.0)), 2);
     own.watch("rG", core::Seconds(60.0));
     own.leave();
-    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(90.0)), 0);
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(90.0)), 0);
 }
 
 TEST(KeepsStep, with_neighbours_near_by_and_fixed_times) {

@@ -53,6 +53,15 @@ TEST(OwnClearance, is_no_phase_that_lets_others_go_however_long_the_foes_wait) {
     EXPECT_DOUBLE_EQ(own[1].red_s, 1.0);
 }
 
+TEST(OwnClearance, is_nothing_where_another_link_opens_during_the_yellow) {
+    roads::Signal signal = two_links();
+    signal.links.resize(3);
+    signal.crossings.assign(3, false);
+    signal.foes = {{false, true, false}, {true, false, true}, {false, true, false}};
+    signal.program = {{30.0, "Grr"}, {3.0, "yrG"}, {5.0, "rrG"}, {3.0, "rry"}, {9.0, "rGr"}, {3.0, "ryr"}};
+    EXPECT_DOUBLE_EQ(roads::own_clearances(signal)[0].red_s, 0.0);
+}
+
 TEST(OwnClearance, of_a_link_that_ends_early_is_not_the_time_in_which_others_still_go) {
     roads::Signal signal = two_links();
     signal.links.resize(3);

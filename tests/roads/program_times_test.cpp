@@ -43,10 +43,13 @@ TEST(ProgramTimes, DoNotCallAPhaseForOthersClearance) {
     EXPECT_THAT(times.red_s[0], Optional(0.0)) << "link 2 opens at once, and link 1 23 s later";
 }
 
-TEST(ProgramTimes, GiveNoClearanceWhereAConflictingLinkOpensDuringYellow) {
-    const ProgramTimes times = program_times(signal_with(
+TEST(ProgramTimes, GiveNoClearanceWhereALinkOpensDuringYellow) {
+    const ProgramTimes foe = program_times(signal_with(
         {{30.0, "Grrr"}, {3.0, "ygrr"}, {20.0, "rGrr"}, {3.0, "ryrr"}, {2.0, "rrrr"}, {9.0, "rrGr"}}));
-    EXPECT_THAT(times.red_s[0], Optional(0.0)) << "link 1 goes before link 0 is red; link 2 opens 25 s later";
+    EXPECT_THAT(foe.red_s[0], Optional(0.0)) << "link 1 goes before link 0 is red; link 2 opens 25 s later";
+    const ProgramTimes other = program_times(
+        signal_with({{30.0, "Grrr"}, {3.0, "yrGr"}, {5.0, "rrGr"}, {3.0, "rryr"}, {9.0, "rGrr"}}));
+    EXPECT_THAT(other.red_s[0], Optional(0.0)) << "link 2 already goes; link 1 waits 8 s for it";
 }
 
 TEST(ProgramTimes, OweTheProgramsOwnMinimumButNeverMoreThanItShowsItself) {

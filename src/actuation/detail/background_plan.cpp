@@ -121,7 +121,8 @@ bool BackgroundPlan::pays_greens(std::uint32_t phase, double since_s, const Owed
     });
 }
 
-std::optional<std::uint32_t> BackgroundPlan::resume(const OwedGreen& owed_s, core::Seconds now) const {
+std::optional<std::uint32_t> BackgroundPlan::resume(const OwedGreen& owed_s, core::Seconds least_rest,
+                                                    core::Seconds now) const {
     const auto rows = static_cast<std::uint32_t>(signal_.program.size());
     if (cycle_s_ <= 0.0) return std::nullopt;
     std::uint32_t phase = 0;
@@ -137,16 +138,19 @@ std::optional<std::uint32_t> BackgroundPlan::resume(const OwedGreen& owed_s, cor
     }
     for (std::uint32_t tried = 0; tried <= rows; ++tried, since_s = 0.0) {
         const std::uint32_t row = (phase + tried) % rows;
-        if (pays_greens(row, since_s, owed_s)) return row;
+        const bool lasts = since_s <= 0.0 || signal_.program[row].duration_s - since_s >= least_rest.value;
+        if (lasts && pays_greens(row, since_s, owed_s)) return row;
     }
     return std::nullopt;
 }
 
-double BackgroundPlan::resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds now) const {
+double BackgroundPlan::resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds least_rest,
+                                 core::Seconds now) const {
     const double own_s = signal_.program[phase].duration_s;
     const double lag_s = this->lag_s(phase, now);
     const double left_s = own_s + lag_s;
-    if (left_s <= 0.0 || !pays_greens(phase, std::max(0.0, -lag_s), owed_s)) return own_s;
+    const bool lasts = lag_s >= 0.0 || left_s >= least_rest.value;
+    if (!lasts || !pays_greens(phase, std::max(0.0, -lag_s), owed_s)) return own_s;
     return std::min(left_s, own_s * (1.0 + most_stretch));
 }
 

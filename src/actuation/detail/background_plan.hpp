@@ -51,12 +51,15 @@ class BackgroundPlan {
     std::optional<PhaseChange> step_back(core::Seconds least_green, core::Seconds now);
     /// Where the program goes on after a hold: a fixed one where it would be without the hold, another one
     /// after the phase that was left; in both cases at the first phase from there on in which each green
-    /// lasts as long as `owed_s` of its link and phase says, or as the program itself gives it. Nothing where
-    /// no phase does, or where it is unknown which phase was left.
-    std::optional<std::uint32_t> resume(const OwedGreen& owed_s, core::Seconds now) const;
-    /// For how long that phase of a fixed program lasts, s: until it would end in step, if that is enough for
-    /// its greens, and at most half as long again as usual.
-    double resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds now) const;
+    /// lasts as long as `owed_s` of its link and phase says, or as the program itself gives it. A phase that
+    /// would have begun already lasts `least_rest` from now on, because it may be what others clear in.
+    /// Nothing where no phase does, or where it is unknown which phase was left.
+    std::optional<std::uint32_t> resume(const OwedGreen& owed_s, core::Seconds least_rest,
+                                        core::Seconds now) const;
+    /// For how long that phase of a fixed program lasts, s: until it would end in step, if that is enough,
+    /// and at most half as long again as usual.
+    double resumed_s(std::uint32_t phase, const OwedGreen& owed_s, core::Seconds least_rest,
+                     core::Seconds now) const;
 
   private:
     /// Whether each green of a phase that began `since_s` ago lasts long enough from now on.

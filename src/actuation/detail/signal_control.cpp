@@ -289,7 +289,8 @@ SignalControl::Way SignalControl::plan_return(const SignalContext& around, Ledge
     Way way;
     way.return_phase = phase_after_hold(around.timing, ledger);
     if (!way.return_phase && around.duties != nullptr && program_known_) {
-        way.return_phase = own_.resume(owed_by(around.timing), around.now);
+        way.return_phase =
+            own_.resume(owed_by(around.timing), core::Seconds(around.timing.least_green_s), around.now);
         way.in_turn = way.return_phase.has_value();
     }
     way.target.assign(shown_.size(), 'r');
@@ -430,7 +431,8 @@ void SignalControl::return_to_program(core::Seconds now, const SignalTiming& tim
                                       std::vector<traffic::Command>& commands) {
     auto lasting = way_.return_phase ? first_duration(*way_.return_phase, timing) : std::nullopt;
     if (way_.in_turn && signal_.fixed_time)
-        lasting = core::Seconds(own_.resumed_s(*way_.return_phase, owed_by(timing), now));
+        lasting = core::Seconds(
+            own_.resumed_s(*way_.return_phase, owed_by(timing), core::Seconds(timing.least_green_s), now));
     commands.push_back(traffic::RestoreProgram{index_, way_.return_phase, lasting});
     if (way_.return_phase) own_.disturb(now);
     stage_ = Stage::background_plan;
