@@ -30,7 +30,9 @@ class RunTest : public UserTest {
         std::error_code ignored;
         for (auto entry = std::filesystem::recursive_directory_iterator(runs, ignored);
              entry != std::filesystem::recursive_directory_iterator(); entry.increment(ignored)) {
-            if (entry->path().filename() == "run.json") ++count;
+            // A run that is being written lies in a folder with a dot in front.
+            const bool is_whole = entry->path().parent_path().filename().string().front() != '.';
+            if (is_whole && entry->path().filename() == "run.json") ++count;
         }
         return count;
     }
