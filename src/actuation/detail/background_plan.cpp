@@ -21,15 +21,12 @@ constexpr double in_step_s = 1.0;
 /// Signals farther apart than this are not coordinated, m.
 constexpr double neighbour_m = 800.0;
 
-bool is_green_in(const roads::Phase& phase, std::uint16_t link) {
-    return link < phase.state.size() && traffic::is_green(phase.state[link]);
-}
-
 /// From the start of a phase in which a link is green until it loses green, s; at most one cycle.
 double green_from_s(const roads::Signal& signal, std::uint16_t link, std::uint32_t phase) {
     double green_s = 0.0;
     const std::size_t rows = signal.program.size();
-    for (std::size_t row = phase; row < phase + rows && is_green_in(signal.program[row % rows], link); ++row)
+    for (std::size_t row = phase; row < phase + rows && is_green_for(signal.program[row % rows].state, link);
+         ++row)
         green_s += signal.program[row % rows].duration_s;
     return green_s;
 }
@@ -40,7 +37,7 @@ double whole_green_s(const roads::Signal& signal, std::uint16_t link, std::uint3
     std::uint32_t first = phase;
     for (std::uint32_t back = 1; back < rows; ++back) {
         const std::uint32_t row = (phase + rows - back) % rows;
-        if (!is_green_in(signal.program[row], link)) break;
+        if (!is_green_for(signal.program[row].state, link)) break;
         first = row;
     }
     return green_from_s(signal, link, first);

@@ -15,15 +15,15 @@ bool is_foe_of_any(const roads::Signal& signal, std::size_t link, const Links& l
     return std::ranges::any_of(links, [&](std::uint16_t other) { return are_foes(signal, link, other); });
 }
 
-bool is_green_for(const std::string& state, std::size_t link) {
-    return link < state.size() && traffic::is_green(state[link]);
-}
-
 bool serves_all(const std::string& state, const Links& links) {
     return std::ranges::all_of(links, [&](std::uint16_t link) { return is_green_for(state, link); });
 }
 
 }  // namespace
+
+bool is_green_for(const std::string& state, std::size_t link) {
+    return link < state.size() && traffic::is_green(state[link]);
+}
 
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links) {
     std::string state(shown.size(), 'r');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ bool needs_all_red(const std::string& shown, const std::string& target);
 Links green_links(const std::string& state);
 /// Links that are green in `shown` and not in `target`, ascending.
 Links losing_links(const std::string& shown, const std::string& target);
+/// Whether a link is green in a state; not if the state has no letter for it.
+bool is_green_for(const std::string& state, std::size_t link);
 /// Whether any of `links` is green in a state.
 bool serves_any(const std::string& state, const Links& links);
 /// The phase that shows `state`, if exactly one phase does and it has green without yellow.
