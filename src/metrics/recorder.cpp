@@ -100,6 +100,17 @@ class RowTable {
         }
     }
 
+    /// SUMO leaves planned stops out of both measures. A stop that a policy commanded is time lost.
+    void add_stops(const std::unordered_map<core::VehicleKey, double>& stopped_s) {
+        for (const auto& [vehicle, seconds] : stopped_s) {
+            const auto found = row_of_.find(vehicle);
+            if (found == row_of_.end() || !rows_[found->second].depart_s) continue;
+            VehicleRow& row = rows_[found->second];
+            row.time_loss_s = row.time_loss_s.value_or(0.0) + seconds;
+            row.waiting_time_s = row.waiting_time_s.value_or(0.0) + seconds;
+        }
+    }
+
     const Walks& walks() const { return walks_; }
 
     std::vector<VehicleRow> take_rows() {
@@ -312,6 +323,8 @@ struct Recorder::State {
     LinkComparison links;
     RunMetrics counted;  ///< Counts from events and snapshots so far.
     std::unordered_map<core::VehicleKey, std::uint32_t> teleports;
+    std::unordered_map<core::VehicleKey, double> stopped_s;  ///< At stops that were commanded.
+    std::optional<double> before_s;                          ///< Time of the step before.
     RoadLayout layout;
     std::vector<core::VehicleKey> keys;     ///< Keys at the step before.
     std::vector<std::uint32_t> row_before;  ///< Row of each vehicle at the step before.
@@ -364,6 +377,11 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         count_collision(collision, roster, counted);
     for (const core::VehicleKey vehicle : events.teleported)
         ++state_->teleports[vehicle];
+    const double now_s = snapshot.time.value;
+    const double step_s = now_s - state_->before_s.value_or(now_s);
+    state_->before_s = now_s;
+    for (const core::VehicleKey vehicle : snapshot.commanded_stops)
+        state_->stopped_s[vehicle] += step_s;
 }
 
 void Recorder::signals(const truth::Snapshot& snapshot, std::span<const traffic::SignalStatus> asked) {
@@ -382,6 +400,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     for (const std::filesystem::path& file : end.tripinfo_files)
         table.read(file);
     table.set_teleports(state_->teleports);
+    table.add_stops(state_->stopped_s);
 
     RunSummary summary;
     summary.vehicles = table.take_rows();

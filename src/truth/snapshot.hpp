@@ -37,6 +37,9 @@ struct Snapshot {
     std::vector<std::uint32_t> route_edge;  ///< See traffic::MotionState.
     traffic::SignalStates signals;
     std::vector<BesideRoad> beside_road;  ///< Vehicles without a row, ordered by key.
+    /// Vehicles that stand at a stop because a command says so, on a lane or beside the road. SUMO counts
+    /// that as a planned stop: neither as waiting nor as time lost.
+    std::vector<core::VehicleKey> commanded_stops;
 
     std::size_t size() const { return key.size(); }
     void resize(std::size_t rows);

@@ -68,6 +68,23 @@ TEST_F(RecorderAtTheEnd, AveragesOverThoseThatArrivedOrWereInserted) {
     EXPECT_DOUBLE_EQ(metrics.simulated_s, 100.0);
 }
 
+TEST_F(RecorderAtTheEnd, AStopThatWasCommandedIsTimeLostAndWaiting) {
+    Recorder recorder;
+    truth::Snapshot snapshot;
+    for (const double now_s : {10.0, 10.5, 11.0, 11.5}) {
+        snapshot.time = core::Seconds(now_s);
+        snapshot.commanded_stops.clear();
+        if (now_s >= 10.5) snapshot.commanded_stops = {core::vehicle_key("a1"), core::vehicle_key("e3")};
+        recorder.step(snapshot, {}, {}, {});
+    }
+    const RunSummary summary = recorder.finish(end(all_trips_));
+    const auto row = std::ranges::find(summary.vehicles, "a1", &VehicleRow::id);
+    EXPECT_DOUBLE_EQ(*row->time_loss_s, 31.5);
+    EXPECT_DOUBLE_EQ(*row->waiting_time_s, 21.5);
+    EXPECT_DOUBLE_EQ(*summary.metrics.others_time_loss_s, 14.5);
+    EXPECT_FALSE(std::ranges::find(summary.vehicles, "e3", &VehicleRow::id)->time_loss_s) << "never entered";
+}
+
 TEST_F(RecorderAtTheEnd, CountsThoseWhoseMeansLackThem) {
     const RunMetrics metrics = Recorder().finish(end(all_trips_)).metrics;
     EXPECT_EQ(metrics.emergency_count, 3U);

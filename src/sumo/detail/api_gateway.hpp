@@ -305,6 +305,9 @@ class ApiGateway : public Sumo {
 
     void cancel_next_stop(const std::string& vehicle) override {
         call([&] { api::Vehicle::replaceStop(vehicle, 0, ""); });
+        // Without this SUMO goes on with lanes that end at the stop, and the vehicle stands there until it is
+        // teleported.
+        call([&] { api::Vehicle::updateBestLanes(vehicle); });
     }
 
     std::string signal_state(const std::string& signal) override {

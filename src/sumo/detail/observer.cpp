@@ -204,6 +204,18 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
     snapshot.beside_road.clear();
     for (const auto& [key, parked] : parked_)
         snapshot.beside_road.push_back(parked);
+    list_commanded_stops(snapshot);
+}
+
+void Observer::list_commanded_stops(truth::Snapshot& snapshot) {
+    snapshot.commanded_stops.clear();
+    for (const Vehicle* vehicle : fleet_.rows())
+        if (vehicle->controls.own_stop && sumo_.is_stopped(vehicle->id))
+            snapshot.commanded_stops.push_back(vehicle->key);
+    for (const auto& [key, parked] : parked_) {
+        const Vehicle* const vehicle = fleet_.find(key);
+        if (vehicle != nullptr && vehicle->controls.own_stop) snapshot.commanded_stops.push_back(key);
+    }
 }
 
 void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {

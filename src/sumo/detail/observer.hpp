@@ -60,6 +60,7 @@ class Observer {
     bool reached_destination(const Vehicle& vehicle, double step_s) const;
     void take_parked();
     void read_vehicles(truth::Snapshot& snapshot, truth::Events& events);
+    void list_commanded_stops(truth::Snapshot& snapshot);
     void store(Vehicle& vehicle, truth::Snapshot& snapshot);
     void look_for_oncoming_lane(Vehicle& vehicle);
     void note_braking(Vehicle& vehicle, truth::Events& events) const;

@@ -10,7 +10,8 @@
 namespace clearway::trace::detail {
 
 /// Does not compile when one of the structs gains or loses a member: then the columns and `recording_format`
-/// must change. Not recorded: who stands beside the road, because a replay sends no requests.
+/// must change. Not recorded: who stands beside the road, because a replay sends no requests,
+/// and commanded stops, because it measures no time lost.
 inline void every_member_has_a_column(const traffic::Lease& lease, const truth::Events& events,
                                       const truth::Snapshot& snapshot,
                                       const traffic::Observation& observation,
@@ -21,7 +22,7 @@ inline void every_member_has_a_column(const traffic::Lease& lease, const truth::
     [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7] = events;
     [[maybe_unused]] const auto& [c1, c2, c3, c4, c5] = truth::Collision{};
     [[maybe_unused]] const auto& [k1, k2] = truth::EmergencyBraking{};
-    [[maybe_unused]] const auto& [s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12, s13] = snapshot;
+    [[maybe_unused]] const auto& [s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12, s13, s14] = snapshot;
     [[maybe_unused]] const auto& [o1, o2, o3, o4, o5, o6, o7, o8, o9] = observation;
     [[maybe_unused]] const auto& [v1, v2, v3, v4, v5, v6] = traffic::ObservedVehicle{};
     [[maybe_unused]] const auto& [d1, d2, d3, d4] = traffic::DetectedLink{};
