@@ -48,7 +48,8 @@ struct Edge {
     std::uint32_t lane_count = 0;
     float length_m = 0.0F;
     bool internal = false;
-    bool crossing = false;      ///< For pedestrians; such an edge is internal.
+    bool crossing = false;  ///< For pedestrians; such an edge is internal.
+    bool roundabout = false;
     bool walking_area = false;  ///< Where sidewalks and crossings of a junction meet; internal.
     int priority = 0;
 };
@@ -63,6 +64,8 @@ struct Connection {
     char direction = 's';          ///< SUMO's letter: s straight, r, l, t turn, R, L partial.
     bool allows_cars = true;       ///< Both lanes, the way between them and the connection itself do.
     bool allows_emergency = true;  ///< Likewise for vClass emergency.
+    std::uint32_t first_prior = 0;
+    std::uint32_t prior_count = 0;
 };
 
 struct Phase {
@@ -137,6 +140,12 @@ class Network {
     core::LaneIndex lane_of(core::EdgeIndex edge, std::uint32_t number) const;
     /// In the order of the file, which is that of SUMO's link numbers.
     std::span<const Connection> connections_from(core::LaneIndex lane) const;
+    /// Connections, by `connection`, to whose vehicles those on `way` must yield at a junction without a
+    /// signal, by its right-of-way table. Empty at signals and where the file has no table that fits.
+    std::span<const std::uint32_t> prior_to(const Connection& way) const {
+        return std::span(prior_).subspan(way.first_prior, way.prior_count);
+    }
+    const Connection& connection(std::uint32_t row) const { return connections_[row]; }
     /// Edges outside junctions that can be reached directly from `edge` by a car, each once, ascending.
     std::span<const core::EdgeIndex> successors(core::EdgeIndex edge) const;
 
@@ -153,6 +162,7 @@ class Network {
     std::vector<Edge> edges_;
     std::vector<Signal> signals_;
     std::vector<Connection> connections_;
+    std::vector<std::uint32_t> prior_;
     std::vector<core::EdgeIndex> successors_;
     std::vector<std::uint32_t> first_successor_;
     /// Allows lookups by std::string_view.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <regex>
 #include <string>
 
 namespace clearway::roads {
@@ -77,6 +78,13 @@ inline std::string crossing_network() {
     <connection from=":J_4" to="north" fromLane="0" toLane="0" dir="s" state="M"/>
 </net>
 )";
+}
+
+/// The same crossing without its signal: south yields to west.
+inline std::string crossing_without_signal() {
+    const std::string without_links =
+        std::regex_replace(crossing_network(), std::regex(R"( tl="J" linkIndex="\d")"), "");
+    return std::regex_replace(without_links, std::regex(R"(type="traffic_light")"), R"(type="priority")");
 }
 
 }  // namespace clearway::roads

@@ -317,6 +317,43 @@ TEST_F(NetworkTest, LinksThatShareANumberShareTheirFoes) {
     EXPECT_EQ(foes_of(network.signals()[0]), "0000 0011 0100 0100 ");
 }
 
+/// Edges into and out of a junction, of those who go first.
+std::vector<std::string> prior_to(const Network& network, const std::string& from, const std::string& to) {
+    std::vector<std::string> ways;
+    for (const Connection& way : network.connections_from(*network.find_lane(from))) {
+        if (network.lane(way.to).id != to) continue;
+        for (const std::uint32_t row : network.prior_to(way)) {
+            const Connection& prior = network.connection(row);
+            ways.push_back(network.lane(prior.from).id + " " + network.lane(prior.to).id);
+        }
+    }
+    return ways;
+}
+
+TEST_F(NetworkTest, KnowsWhoGoesFirstWhereThereIsNoSignal) {
+    const Network network = read(crossing_without_signal());
+    EXPECT_THAT(prior_to(network, "south_0", "east_0"), ElementsAre("west_0 east_0"));
+    EXPECT_THAT(prior_to(network, "south_0", "north_0"), ElementsAre("west_0 east_0"))
+        << "cars may not use the other lane";
+    EXPECT_TRUE(prior_to(network, "west_0", "east_0").empty());
+    EXPECT_TRUE(prior_to(crossing(), "south_0", "east_0").empty()) << "at a signal";
+}
+
+TEST_F(NetworkTest, ATableThatDoesNotFitSaysNothingOfAJunctionWithoutSignal) {
+    std::string text = crossing_without_signal();
+    const std::size_t start = text.find(R"(        <request index="3")");
+    text.erase(start, text.find('\n', start) + 1 - start);
+    EXPECT_TRUE(prior_to(read(text), "south_0", "east_0").empty());
+}
+
+TEST_F(NetworkTest, KnowsTheEdgesOfRoundabouts) {
+    const Network network =
+        read(altered("</net>", R"(<roundabout nodes="J K W" edges="east back unknown"/></net>)"));
+    EXPECT_TRUE(network.edge(*network.find_edge("east")).roundabout);
+    EXPECT_TRUE(network.edge(*network.find_edge("back")).roundabout);
+    EXPECT_FALSE(network.edge(*network.find_edge("west")).roundabout);
+}
+
 TEST_F(NetworkTest, LeavesOutSignalsOfRailways) {
     std::string text = altered(R"(type="traffic_light")", R"(type="rail_crossing")");
     const std::size_t first = text.find("    <tlLogic");

@@ -80,6 +80,7 @@ void NetworkBuilder::start(std::string_view element, const core::XmlAttributes& 
         if (in_junction_) read_junction(attributes);
         if (element == "location") read_location(attributes);
         if (element == "connection") read_connection(attributes);
+        if (element == "roundabout") read_roundabout(attributes);
         return;
     }
     if (in_edge_ && element == "lane") read_lane(attributes);
@@ -295,13 +296,14 @@ void NetworkBuilder::end_program() {
 
 void NetworkBuilder::read_junction(const core::XmlAttributes& attributes) {
     const std::string_view type = attributes.find("type").value_or("");
-    in_junction_ = type.starts_with("traffic_light");
+    in_junction_ = type != "internal" && type != "dead_end";
     if (type.starts_with("rail_")) railway_signals_.insert(text(attributes, "id"));
     if (!in_junction_) return;
     Junction junction;
     junction.incoming_lanes = words_of(attributes.find("incLanes").value_or(""));
     junction.inner_lanes = words_of(attributes.find("intLanes").value_or(""));
     junction.line = line_;
+    junction.has_signal = type.starts_with("traffic_light");
     junctions_.push_back(std::move(junction));
 }
 
@@ -312,6 +314,12 @@ void NetworkBuilder::read_request(const core::XmlAttributes& attributes) {
         add_problem(fmt::format("request index=\"{}\"", index), std::to_string(junction.foes.size()));
     }
     junction.foes.push_back(text(attributes, "foes"));
+    if (!junction.has_signal) junction.responses.emplace_back(attributes.find("response").value_or(""));
+}
+
+void NetworkBuilder::read_roundabout(const core::XmlAttributes& attributes) {
+    for (const std::string& id : words_of(attributes.find("edges").value_or("")))
+        if (const auto edge = network_.find_edge(id)) network_.edges_[edge->value].roundabout = true;
 }
 
 core::LaneIndex NetworkBuilder::connection_end(const core::XmlAttributes& attributes, const char* edge_name,

@@ -29,17 +29,18 @@ class NetworkBuilder : public core::XmlHandler {
     Network finish();
 
   private:
-    /// A junction with a signal, kept until its links are known.
+    /// A junction and its right-of-way table, kept until its ways are known.
     struct Junction {
         std::vector<std::string> incoming_lanes;
         std::vector<std::string> inner_lanes;  ///< One per request, empty in files without internal lanes.
         std::vector<std::string> foes;         ///< By request; the rightmost letter is request 0.
+        std::vector<std::string> responses;    ///< Likewise; empty at signals.
         unsigned long line = 0;
+        bool has_signal = false;
     };
-    struct LinkPlace {
-        core::SignalIndex signal;
-        std::uint16_t link = 0;
-    };
+    /// Position in the network's connections.
+    using Row = std::uint32_t;
+    static constexpr Row no_row = 0xffffffffU;
 
     bool is_known_program(std::string_view element, const core::XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
@@ -60,6 +61,7 @@ class NetworkBuilder : public core::XmlHandler {
     std::size_t letters_in_use(const Signal& signal) const;
     void read_junction(const core::XmlAttributes& attributes);
     void read_request(const core::XmlAttributes& attributes);
+    void read_roundabout(const core::XmlAttributes& attributes);
     void read_connection(const core::XmlAttributes& attributes);
     void set_signal(const core::XmlAttributes& attributes, Connection& connection);
     core::LaneIndex connection_end(const core::XmlAttributes& attributes, const char* edge_name,
@@ -68,9 +70,13 @@ class NetworkBuilder : public core::XmlHandler {
     void group_connections();
     void list_successors();
     void list_signal_links();
-    void list_foes();
-    std::vector<LinkPlace> links_by_request(const Junction& junction) const;
-    std::vector<LinkPlace> links_by_incoming_order(const Junction& junction) const;
+    void list_right_of_way();
+    void list_foes(const Junction& junction, const std::vector<Row>& ways);
+    void list_prior(const Junction& junction, const std::vector<Row>& ways,
+                    std::vector<std::vector<Row>>& prior) const;
+    void store_prior(const std::vector<std::vector<Row>>& prior);
+    std::vector<Row> ways_by_request(const Junction& junction) const;
+    std::vector<Row> ways_by_incoming_order(const Junction& junction) const;
     core::LaneIndex inner_lane_of(const Connection& connection) const;
 
     std::string file_;

@@ -24,7 +24,7 @@ Network NetworkBuilder::finish() {
     group_connections();
     list_successors();
     list_signal_links();
-    list_foes();
+    list_right_of_way();
     if (!problems_.empty()) throw core::InputError(std::move(problems_));
     return std::move(network_);
 }
@@ -81,63 +81,87 @@ core::LaneIndex NetworkBuilder::inner_lane_of(const Connection& connection) cons
     return lane;
 }
 
-std::vector<NetworkBuilder::LinkPlace> NetworkBuilder::links_by_incoming_order(
-    const Junction& junction) const {
-    std::vector<LinkPlace> places;
+std::vector<NetworkBuilder::Row> NetworkBuilder::ways_by_incoming_order(const Junction& junction) const {
+    std::vector<Row> ways;
     for (const std::string& id : junction.incoming_lanes) {
         const auto lane = network_.find_lane(id);
         if (!lane) continue;
-        for (const Connection& connection : network_.connections_from(*lane)) {
-            places.push_back({connection.signal, connection.signal_link});
-        }
+        const Lane& from = network_.lane(*lane);
+        for (Row row = from.first_connection; row < from.first_connection + from.connection_count; ++row)
+            ways.push_back(row);
     }
-    return places;
+    return ways;
 }
 
-std::vector<NetworkBuilder::LinkPlace> NetworkBuilder::links_by_request(const Junction& junction) const {
-    if (junction.inner_lanes.empty()) return links_by_incoming_order(junction);
-    std::map<core::LaneIndex, LinkPlace> by_inner_lane;
-    for (const std::string& id : junction.incoming_lanes) {
-        const auto lane = network_.find_lane(id);
-        if (!lane) continue;
-        for (const Connection& connection : network_.connections_from(*lane)) {
-            by_inner_lane[inner_lane_of(connection)] = {connection.signal, connection.signal_link};
-        }
-    }
-    std::vector<LinkPlace> places(junction.inner_lanes.size());
-    for (std::size_t request = 0; request < places.size(); ++request) {
+std::vector<NetworkBuilder::Row> NetworkBuilder::ways_by_request(const Junction& junction) const {
+    if (junction.inner_lanes.empty()) return ways_by_incoming_order(junction);
+    std::map<core::LaneIndex, Row> by_inner_lane;
+    for (const Row row : ways_by_incoming_order(junction))
+        by_inner_lane[inner_lane_of(network_.connections_[row])] = row;
+    std::vector<Row> ways(junction.inner_lanes.size(), no_row);
+    for (std::size_t request = 0; request < ways.size(); ++request) {
         const auto lane = network_.find_lane(junction.inner_lanes[request]);
         const auto found = lane ? by_inner_lane.find(*lane) : by_inner_lane.end();
-        if (found != by_inner_lane.end()) places[request] = found->second;
+        if (found != by_inner_lane.end()) ways[request] = found->second;
     }
-    return places;
+    return ways;
 }
 
-void NetworkBuilder::list_foes() {
+void NetworkBuilder::list_right_of_way() {
     for (Signal& signal : network_.signals_) {
         signal.foes.assign(signal.links.size(), std::vector<bool>(signal.links.size(), false));
     }
+    std::vector<std::vector<Row>> prior(network_.connections_.size());
     for (const Junction& junction : junctions_) {
         line_ = junction.line;
-        const std::vector<LinkPlace> places = links_by_request(junction);
-        if (places.size() != junction.foes.size()) {
+        const std::vector<Row> ways = ways_by_request(junction);
+        const bool fits = ways.size() == junction.foes.size();
+        if (fits && junction.has_signal)
+            list_foes(junction, ways);
+        else if (fits)
+            list_prior(junction, ways, prior);
+        else if (junction.has_signal)
             add_problem(fmt::format("junction has {} requests", junction.foes.size()),
-                        fmt::format("one for each of its {} ways", places.size()));
-            continue;
+                        fmt::format("one for each of its {} ways", ways.size()));
+    }
+    store_prior(prior);
+}
+
+void NetworkBuilder::list_foes(const Junction& junction, const std::vector<Row>& ways) {
+    for (std::size_t request = 0; request < ways.size(); ++request) {
+        const std::string& letters = junction.foes[request];
+        for (std::size_t other = 0; other < std::min(ways.size(), letters.size()); ++other) {
+            const bool crossing = letters[letters.size() - 1 - other] == '1';
+            if (!crossing || ways[request] == no_row || ways[other] == no_row) continue;
+            const Connection& left = network_.connections_[ways[request]];
+            const Connection& right = network_.connections_[ways[other]];
+            if (!left.signal.exists() || left.signal != right.signal) continue;
+            if (left.signal_link == right.signal_link) continue;
+            auto& foes = network_.signals_[left.signal.value].foes;
+            foes[left.signal_link][right.signal_link] = true;
+            foes[right.signal_link][left.signal_link] = true;
         }
-        for (std::size_t request = 0; request < places.size(); ++request) {
-            const std::string& letters = junction.foes[request];
-            for (std::size_t other = 0; other < std::min(places.size(), letters.size()); ++other) {
-                const LinkPlace left = places[request];
-                const LinkPlace right = places[other];
-                const bool crossing = letters[letters.size() - 1 - other] == '1';
-                if (!crossing || !left.signal.exists() || left.signal != right.signal) continue;
-                if (left.link == right.link) continue;
-                auto& foes = network_.signals_[left.signal.value].foes;
-                foes[left.link][right.link] = true;
-                foes[right.link][left.link] = true;
-            }
+    }
+}
+
+void NetworkBuilder::list_prior(const Junction& junction, const std::vector<Row>& ways,
+                                std::vector<std::vector<Row>>& prior) const {
+    for (std::size_t request = 0; request < ways.size(); ++request) {
+        if (ways[request] == no_row) continue;
+        const std::string& letters = junction.responses[request];
+        for (std::size_t other = 0; other < std::min(ways.size(), letters.size()); ++other) {
+            const bool yields = letters[letters.size() - 1 - other] == '1';
+            if (yields && ways[other] != no_row && network_.connections_[ways[other]].allows_cars)
+                prior[ways[request]].push_back(ways[other]);
         }
+    }
+}
+
+void NetworkBuilder::store_prior(const std::vector<std::vector<Row>>& prior) {
+    for (Row row = 0; row < prior.size(); ++row) {
+        network_.connections_[row].first_prior = static_cast<std::uint32_t>(network_.prior_.size());
+        network_.connections_[row].prior_count = static_cast<std::uint32_t>(prior[row].size());
+        network_.prior_.insert(network_.prior_.end(), prior[row].begin(), prior[row].end());
     }
 }
 
