@@ -224,31 +224,34 @@ TEST(StopAtLineLease, that_needs_hard_braking_is_refused) {
     EXPECT_EQ(bench.counts("policy/stop_at_line").refused.at("cannot_stop_comfortably"), 1U);
 }
 
-class StopAtLineLease : public ::testing::TestWithParam<double> {};
-
-TEST_P(StopAtLineLease, brings_the_vehicle_to_a_stop_before_the_line_with_its_usual_deceleration) {
-    const double step_s = GetParam();
-    ActuationBench bench(step_s);
+TEST(StopAtLineLease, stops_the_vehicle_on_its_lane_before_the_line_until_it_ends) {
+    ActuationBench bench;
     const auto vehicle = bench.add(automated("a", 400.0, 16.0));
-    bench.self.allowed_mps = 16.0;
-    auto& state = bench.on_road[vehicle];
-    double set_mps = 16.0;
-    for (int step = 0; step * step_s < 40.0; ++step) {
-        bench.offer(vehicle, traffic::StopAtLine{}, 2.0);
-        for (const auto& set : bench.only<traffic::SetSpeed>(bench.step()))
-            set_mps = set.speed.value;
-        const double next = std::min(set_mps, state.speed_mps + 2.6 * step_s);
-        ASSERT_GE(next, state.speed_mps - 4.5 * step_s - 1e-3) << "step " << step;
-        state.speed_mps = static_cast<float>(next);
-        state.lane_position_m += static_cast<float>(next * step_s);
-    }
-    const float line = two_crossings().lane(state.lane).length_m;
-    EXPECT_LT(state.speed_mps, 0.2F);
-    EXPECT_LE(state.lane_position_m, line - 0.9F);
-    EXPECT_GE(state.lane_position_m, line - 3.0F);
+    bench.offer(vehicle, traffic::StopAtLine{}, 2.0);
+    const auto stopping = bench.run_until(1.0);
+    ASSERT_EQ(stopping.size(), 1U);
+    const auto stops = bench.only<traffic::StopOnLane>(stopping);
+    ASSERT_EQ(stops.size(), 1U);
+    EXPECT_EQ(stops[0].place, traffic::StopPlace::on_lane);
+    EXPECT_DOUBLE_EQ(stops[0].position.value,
+                     two_crossings().lane(bench.on_road[vehicle].lane).length_m - 1.0);
+    bench.offer(vehicle, traffic::StopAtLine{}, 2.0);
+    EXPECT_TRUE(bench.run_until(2.5).empty()) << "renewed";
+    EXPECT_EQ(bench.only<traffic::ResumeFromStop>(bench.run_until(6.0)).size(), 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Steps, StopAtLineLease, ::testing::Values(0.1, 0.25, 1.0));
+TEST(StopAtLineLease, of_a_vehicle_that_pulls_aside_waits_until_it_is_back) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a", 300.0, 16.0));
+    bench.offer(vehicle, traffic::PullAside{}, 1.0);
+    bench.offer(vehicle, traffic::StopAtLine{}, 4.0);
+    const auto commands = bench.run_until(3.0);
+    const auto stops = bench.only<traffic::StopOnLane>(commands);
+    ASSERT_EQ(stops.size(), 2U);
+    EXPECT_EQ(stops[0].place, traffic::StopPlace::beside_road);
+    EXPECT_EQ(stops[1].place, traffic::StopPlace::on_lane);
+    EXPECT_EQ(bench.only<traffic::ResumeFromStop>(commands).size(), 1U);
+}
 
 TEST(PassRedLease, is_for_emergency_vehicles_only) {
     ActuationBench bench;

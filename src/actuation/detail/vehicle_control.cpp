@@ -27,19 +27,12 @@ bool is_best_or_long(const truth::LaneOutlook& outlook) {
     return outlook.best_offset == 0 || outlook.drivable_m > roads::worth_following.value;
 }
 
-/// Highest speed for the next step after which the vehicle can still stop within `distance_m`.
-double braking_speed(double distance_m, double deceleration_mps2, double step_s) {
-    const double lost = deceleration_mps2 * step_s;
-    return std::max(0.0,
-                    -lost + std::sqrt(lost * lost + 2.0 * deceleration_mps2 * std::max(0.0, distance_m)));
-}
-
 }  // namespace
 
 bool VehicleSettings::is_default() const {
     return !speed && !lane && freedom == traffic::LaneChangeFreedom::normal &&
            alignment == traffic::LateralAlignment::usual && privilege == traffic::JunctionPrivilege::none &&
-           checks == traffic::SafetyChecks::on && !beside_road;
+           checks == traffic::SafetyChecks::on && !beside_road && !line;
 }
 
 VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action) {
@@ -133,20 +126,17 @@ void VehicleControl::judge_speed(const VehicleContext& around, const Place& plac
         queues_[speed].end_best(ledger);
         return;
     }
+    const auto* const drive = std::get_if<traffic::DriveAt>(&held->lease.action);
+    if (drive == nullptr) return judge_line(around, place, settings, *held, ledger);
     const auto allowed = around.self.allowed_speed(vehicle_);
     if (!allowed) {
         LeaseQueue::refuse(*held, "vehicle_does_not_answer", ledger);
-        return;
+    } else if (drive->speed.value > allowed->value + speed_tolerance_mps) {
+        LeaseQueue::refuse(*held, "above_allowed_speed", ledger);
+    } else {
+        settings.speed = std::min(drive->speed, *allowed);
+        LeaseQueue::act(*held, ledger);
     }
-    if (const auto* drive = std::get_if<traffic::DriveAt>(&held->lease.action)) {
-        if (drive->speed.value > allowed->value + speed_tolerance_mps)
-            LeaseQueue::refuse(*held, "above_allowed_speed", ledger);
-        else
-            settings.speed = std::min(drive->speed, *allowed);
-    } else if (const auto stop = stop_speed(around, place, *held, ledger)) {
-        settings.speed = std::min(*stop, *allowed);
-    }
-    if (settings.speed) LeaseQueue::act(*held, ledger);
 }
 
 /// Whether the vehicle has left the edge that the lease is about. The first call ties the lease to the
@@ -157,25 +147,21 @@ bool VehicleControl::has_left_edge(const VehicleContext& around, const Place& pl
     return held.edge != edge;
 }
 
-/// Speed for a stop at the line. A stop that needs more than the usual deceleration is refused.
-std::optional<core::MetresPerSecond> VehicleControl::stop_speed(const VehicleContext& around,
-                                                                const Place& place, HeldLease& held,
-                                                                Ledger& ledger) const {
-    const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
-    if (around.network.edge(lane.edge).internal) {
-        LeaseQueue::refuse(held, "on_a_junction", ledger);
-        return std::nullopt;
-    }
+/// A stop at the line. One that needs more than the usual deceleration is refused.
+void VehicleControl::judge_line(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                                HeldLease& held, Ledger& ledger) {
+    const core::LaneIndex index = around.snapshot.lane[place.row];
+    const roads::Lane& lane = around.network.lane(index);
+    if (around.network.edge(lane.edge).internal) return LeaseQueue::refuse(held, "on_a_junction", ledger);
     const double room = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
     const double now_mps = around.snapshot.speed_mps[place.row];
-    const double deceleration = place.info.deceleration_mps2;
-    const bool fits = now_mps <= speed_tolerance_mps || now_mps * now_mps <= 2.0 * deceleration * room;
-    if (held.granted_on != lane.edge && !fits) {
-        LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
-        return std::nullopt;
-    }
+    const bool fits =
+        now_mps <= speed_tolerance_mps || now_mps * now_mps <= 2.0 * place.info.deceleration_mps2 * room;
+    if (held.granted_on != lane.edge && !fits)
+        return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
     held.granted_on = lane.edge;
-    return core::MetresPerSecond(braking_speed(room, deceleration, around.step.value));
+    settings.line = LineStop{index, lane.length_m - stop_line_gap_m};
+    LeaseQueue::act(held, ledger);
 }
 
 void VehicleControl::judge_lateral(const VehicleContext& around, const Place& place,
@@ -277,15 +263,20 @@ void VehicleControl::apply(const VehicleSettings& wanted, core::Seconds now,
     apply_lane(wanted, now, commands);
 }
 
-/// A stop at the start of the lane means as soon as the usual deceleration allows.
+/// One stop at a time; beside the road goes before at the line. A stop at the start of the lane means as soon
+/// as the usual deceleration allows.
 void VehicleControl::apply_stop(const VehicleSettings& wanted, std::vector<traffic::Command>& commands) {
-    if (wanted.beside_road == applied_.beside_road) return;
-    applied_.beside_road = wanted.beside_road;
+    const std::optional<LineStop> line = wanted.beside_road ? std::nullopt : wanted.line;
+    if (wanted.beside_road == applied_.beside_road && line == applied_.line) return;
+    if (applied_.beside_road || applied_.line) commands.push_back(traffic::ResumeFromStop{vehicle_});
+    const core::Seconds longest(longest_stop_s);
     if (wanted.beside_road)
-        commands.push_back(traffic::StopOnLane{vehicle_, core::Metres(0.0), core::Seconds(longest_stop_s),
-                                               traffic::StopPlace::beside_road});
-    else
-        commands.push_back(traffic::ResumeFromStop{vehicle_});
+        commands.push_back(
+            traffic::StopOnLane{vehicle_, core::Metres(0.0), longest, traffic::StopPlace::beside_road});
+    else if (line)
+        commands.push_back(traffic::StopOnLane{vehicle_, core::Metres(line->position_m), longest});
+    applied_.beside_road = wanted.beside_road;
+    applied_.line = line;
 }
 
 void VehicleControl::apply_lane(const VehicleSettings& wanted, core::Seconds now,

@@ -33,6 +33,14 @@ struct LaneRequest {
     core::Seconds until;
 };
 
+/// A place before a junction where a vehicle stands, or is about to.
+struct LineStop {
+    core::LaneIndex lane;
+    double position_m = 0.0;
+
+    bool operator==(const LineStop&) const = default;
+};
+
 /// Differences from an uncontrolled vehicle. The default has none.
 struct VehicleSettings {
     std::optional<core::MetresPerSecond> speed;
@@ -42,6 +50,7 @@ struct VehicleSettings {
     traffic::JunctionPrivilege privilege = traffic::JunctionPrivilege::none;
     traffic::SafetyChecks checks = traffic::SafetyChecks::on;
     bool beside_road = false;  ///< Stands beside the road, or is about to.
+    std::optional<LineStop> line;
 
     bool is_default() const;
 };
@@ -76,8 +85,8 @@ class VehicleControl {
     void judge_speed(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                      Ledger& ledger);
     static bool has_left_edge(const VehicleContext& around, const Place& place, HeldLease& held);
-    std::optional<core::MetresPerSecond> stop_speed(const VehicleContext& around, const Place& place,
-                                                    HeldLease& held, Ledger& ledger) const;
+    static void judge_line(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                           HeldLease& held, Ledger& ledger);
     void judge_lateral(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                        Ledger& ledger);
     void judge_aside(const VehicleContext& around, const Place& place, VehicleSettings& settings,
