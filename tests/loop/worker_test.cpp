@@ -401,6 +401,26 @@ pid_t child_of(pid_t process) {
     }
 }
 
+/// Whether a process stands still after SIGSTOP; false when it ended before. A signal that ends a process
+/// overtakes one that stops it, so whoever sends both must wait in between.
+bool stands_still(pid_t process) {
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+        std::string id, name, state;
+        std::ifstream(fmt::format("/proc/{}/stat", process)) >> id >> name >> state;
+        if (state == "T") return true;
+        if (state.empty() || state == "Z") return false;
+    }
+}
+
+/// Stops the run that a worker is making, the next one if the first has ended meanwhile.
+pid_t stop_run_of(pid_t worker) {
+    for (;;) {
+        const pid_t run = child_of(worker);
+        ::kill(run, SIGSTOP);
+        if (stands_still(run)) return run;
+    }
+}
+
 TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     const test::StudyFolder folder("city", {}, {repaired, baseline});
     const std::filesystem::path file = folder.write(folder.unit(0));
@@ -427,11 +447,10 @@ TEST(Worker, EndsAnInterruptedRunBeforeItselfSoThatNothingIsWrittenAfterwards) {
                                             .arguments = {folder.write(folder.unit(0)).string()},
                                             .environment = {},
                                             .output = folder.path() / "worker.log"});
-    const pid_t run = child_of(worker.pid);
-    ::kill(run, SIGSTOP);
+    const pid_t run = stop_run_of(worker.pid);
     ::kill(worker.pid, SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    EXPECT_FALSE(core::poll(worker)) << "the worker is gone while its run may still write";
+    ASSERT_FALSE(core::poll(worker)) << "the worker is gone while its run may still write";
     ::kill(run, SIGCONT);
     EXPECT_EQ(core::wait(worker).signal, SIGTERM);
     EXPECT_NE(::kill(run, 0), 0);
