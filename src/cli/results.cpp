@@ -7,6 +7,7 @@
 
 #include "cli/verb.hpp"
 #include "results/table_reader.hpp"
+#include "results/table_writer.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -22,7 +23,7 @@ struct Arguments {
 
 core::ExitCode print_results(const Arguments& arguments) {
     const results::Store store = results::Store::open(arguments.folder);
-    if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
+    if (!results::tables_are_current(store)) results::write_tables(store);
     if (arguments.asked == Asked::names) {
         for (const std::string& name : results::table_names(store))
             fmt::print("{}\n", name);

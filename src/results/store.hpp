@@ -130,7 +130,4 @@ std::string runs_csv(const Results& results);
 /// All vehicles of all complete runs, one line per vehicle. Sorted; equal results give equal bytes.
 std::string vehicles_csv(const Results& results);
 
-/// Writes `runs.csv`, `vehicles.csv`, `leases.csv` and `results.sqlite` of a run folder from its runs.
-void write_tables(const Store& store, const Results& results);
-
 }  // namespace clearway::results

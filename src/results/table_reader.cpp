@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "results/detail/log_tables.hpp"
+#include "results/detail/runs_hash.hpp"
 #include "results/detail/sqlite.hpp"
 
 namespace clearway::results {
@@ -33,23 +34,22 @@ std::string text_at(sqlite3_stmt* row, int column) {
     return {text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
 }
 
+/// A value of table `study`; empty if it has none, as a database of an older version.
+std::string study_value(const Database& database, const char* key) {
+    std::string value;
+    database.for_each_row(fmt::format("SELECT value FROM study WHERE key = '{}'", key),
+                          [&](sqlite3_stmt* row) { value = text_at(row, 0); });
+    return value;
+}
+
 /// Opens `results.sqlite` of a run folder read-only and checks that it is of this version.
 Database open_database(const Store& store) {
     Database database(store.folder() / "results.sqlite", SQLITE_OPEN_READONLY, fail);
-    std::string format;
-    database.for_each_row("SELECT value FROM study WHERE key = 'format'",
-                          [&](sqlite3_stmt* row) { format = text_at(row, 0); });
+    const std::string format = study_value(database, "format");
     if (format != fmt::format("{}", store.manifest().format))
         refuse(database.file(),
                fmt::format("is of another version: format \"{}\", not {}", format, store.manifest().format));
     return database;
-}
-
-std::uint64_t count_of(const Database& database, const std::string& sql) {
-    std::uint64_t count = 0;
-    database.for_each_row(
-        sql, [&](sqlite3_stmt* row) { count = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0)); });
-    return count;
 }
 
 std::vector<std::string> names_in(const Database& database) {
@@ -128,21 +128,8 @@ void print_json(const Database& database, const std::string& table, std::ostream
 bool tables_are_current(const Store& store) {
     if (!std::filesystem::exists(store.folder() / "results.sqlite")) return false;
     const Database database = open_database(store);
-    std::string study;
-    database.for_each_row("SELECT value FROM study WHERE key = 'manifest_hash'",
-                          [&](sqlite3_stmt* row) { study = text_at(row, 0); });
-    if (study != manifest_hash(store.manifest())) return false;
-    std::uint64_t complete = 0;
-    std::uint64_t failed = 0;
-    for (const experiment::RunKey& key : store.manifest().runs()) {
-        if (store.complete(key)) {
-            ++complete;
-        } else if (store.read_error(key)) {
-            ++failed;
-        }
-    }
-    return count_of(database, "SELECT count(*) FROM runs") == complete &&
-           count_of(database, "SELECT count(*) FROM errors WHERE outcome = 'failed'") == failed;
+    return study_value(database, "manifest_hash") == manifest_hash(store.manifest()) &&
+           study_value(database, "runs_hash") == detail::runs_hash(store);
 }
 
 std::vector<std::string> table_names(const Store& store) {

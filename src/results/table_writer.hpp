@@ -39,4 +39,8 @@ struct RunCounts {
 /// runs; memory is that of one run. Throws core::InputError for a damaged record.
 RunCounts write_tables(const Store& store);
 
+/// Removes `results.sqlite`, so that all tables are written anew when they are next needed: of a run which
+/// was made anew no row stays, whatever somebody did to the database meanwhile.
+void outdate_tables(const Store& store);
+
 }  // namespace clearway::results

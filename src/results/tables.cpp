@@ -4,6 +4,7 @@
 #include "core/csv.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
+#include "results/detail/runs_hash.hpp"
 #include "results/factor_columns.hpp"
 #include "results/table_writer.hpp"
 
@@ -154,7 +155,7 @@ struct TableWriter::Files {
           runs(store.runs_csv()),
           vehicles(store.vehicles_csv()),
           leases(store.folder() / "leases.csv"),
-          database(store.folder() / "results.sqlite", store.manifest()) {
+          database(store.folder() / "results.sqlite", store.manifest(), detail::runs_hash(store)) {
         runs.write(lines.header() + "\n");
         vehicles.write(vehicles_header() + "\n");
         leases.write(leases_header() + "\n");
@@ -197,13 +198,8 @@ void TableWriter::finish() {
     files_->database.finish();
 }
 
-void write_tables(const Store& store, const Results& results) {
-    TableWriter writer(store);
-    write_all(results, writer);
-    writer.finish();
-}
-
 RunCounts write_tables(const Store& store) {
+    // Hashes the runs before they are read: what changes in between is seen next time.
     TableWriter writer(store);
     RunCounts counts;
     store.manifest().for_each_run([&](const experiment::RunKey& key) {
@@ -220,6 +216,11 @@ RunCounts write_tables(const Store& store) {
     });
     writer.finish();
     return counts;
+}
+
+void outdate_tables(const Store& store) {
+    std::error_code ignored;  // What cannot be removed is still told apart by its hash of the runs.
+    std::filesystem::remove(store.folder() / "results.sqlite", ignored);
 }
 
 }  // namespace clearway::results

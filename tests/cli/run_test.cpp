@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <nlohmann/json.hpp>
+#include <sqlite3.h>
 
 #include "user.hpp"
 
@@ -192,6 +193,25 @@ TEST_F(RunTest, without_out_the_same_command_finds_its_folder_again) {
     ASSERT_EQ(clearway(other).code, 0);
     const auto second = std::filesystem::directory_iterator(folder() / "runs");
     EXPECT_EQ(std::distance(second, std::filesystem::directory_iterator()), 2);
+}
+
+TEST_F(RunTest, a_run_that_is_made_anew_replaces_its_rows) {
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    const std::string runs = read("out/runs.csv");
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open((folder() / "out/results.sqlite").c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database,
+                           "UPDATE runs SET emergency_travel_time_s = 7654.5 WHERE condition = 'baseline'",
+                           nullptr, nullptr, nullptr),
+              SQLITE_OK);
+    sqlite3_close(database);
+    const std::vector<std::string> shown = {"results", "out", "runs"};
+    EXPECT_THAT(clearway(shown).out, HasSubstr(",7654.5,"));
+    std::filesystem::remove_all(folder() / "out/runs/line/baseline");
+    write("out/runs.csv", "of earlier runs");
+    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
+    EXPECT_THAT(clearway(shown).out, AllOf(HasSubstr("line,baseline,1,"), Not(HasSubstr(",7654.5,"))));
+    EXPECT_EQ(read("out/runs.csv"), runs);
 }
 
 TEST_F(RunTest, another_study_in_the_same_folder_is_refused) {

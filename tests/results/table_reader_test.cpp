@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "results/synthetic.hpp"
+#include "results/table_writer.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::results {
@@ -23,7 +24,7 @@ class TableReader : public testing::Test {
     TableReader() : store(Store::create(folder.path(), synthetic::manifest())) {
         store.write(synthetic::record({"alpha", "baseline", 0}), {});
         store.write(synthetic::error({"alpha", "treated", 0}));
-        write_tables(store, read_results(store));
+        write_tables(store);
     }
     std::string printed(const std::string& table, TableFormat format) const {
         std::ostringstream out;
@@ -84,10 +85,41 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
     EXPECT_TRUE(tables_are_current(store));
     store.write(synthetic::record({"alpha", "baseline", 1}), {});
     EXPECT_FALSE(tables_are_current(store));
-    write_tables(store, read_results(store));
+    write_tables(store);
     store.write(synthetic::error({"beta", "treated", 1}));
     EXPECT_FALSE(tables_are_current(store));
     std::filesystem::remove(folder.path() / "results.sqlite");
+    EXPECT_FALSE(tables_are_current(store));
+}
+
+TEST_F(TableReader, SeesThatARunWasMadeAnewWithAnotherResult) {
+    const experiment::RunKey key{"alpha", "baseline", 0};
+    RunRecord record = synthetic::record(key);
+    const auto made_anew = [&] {
+        std::filesystem::remove_all(store.run_folder(key));
+        store.write(record, {});
+    };
+    made_anew();
+    EXPECT_TRUE(tables_are_current(store)) << "the same result";
+    record.metrics.emergency_travel_time_s = 77.5;
+    made_anew();
+    EXPECT_FALSE(tables_are_current(store));
+    write_tables(store);
+    EXPECT_TRUE(tables_are_current(store));
+    EXPECT_THAT(printed("runs", TableFormat::csv), HasSubstr(",77.5,"));
+    record.vehicles.at(0).travel_time_s = 66.5;  // Stands in another file.
+    made_anew();
+    EXPECT_FALSE(tables_are_current(store));
+    write_tables(store);
+    EXPECT_THAT(core::read_file(store.vehicles_csv()), HasSubstr(",66.5,"));
+    RunError error = synthetic::error({"alpha", "treated", 0});
+    error.message += " and otherwise";
+    store.write(error);
+    EXPECT_FALSE(tables_are_current(store));
+}
+
+TEST_F(TableReader, TakesADatabaseWithoutAHashOfItsRunsAsOutOfDate) {
+    execute("DELETE FROM study WHERE key = 'runs_hash'");
     EXPECT_FALSE(tables_are_current(store));
 }
 

@@ -8,6 +8,7 @@
 #include "results/store.hpp"
 #include "results/synthetic.hpp"
 #include "results/table_reader.hpp"
+#include "results/table_writer.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::results {
@@ -74,7 +75,7 @@ TEST(Tables, DoNotDependOnTheOrderInWhichRunsEnded) {
     fill(forward, keys);
     fill(backward, {keys.rbegin(), keys.rend()});
     for (const Store* store : {&forward, &backward})
-        write_tables(*store, read_results(*store));
+        write_tables(*store);
     for (const char* file : {"runs.csv", "vehicles.csv", "leases.csv", "results.sqlite"})
         EXPECT_EQ(core::read_file(forward.folder() / file), core::read_file(backward.folder() / file))
             << file;
@@ -87,7 +88,7 @@ TEST(Tables, HaveALineForEveryOutcomeOfTheLeasesOfAnAction) {
     run.leases.emplace().push_back({"listing_5_5", "change_lane", 5, 2, 1, 3, {{"no_room_beside", 4}}});
     store.write(run, {});
     EXPECT_EQ(store.read(run.key)->leases, run.leases);
-    write_tables(store, read_results(store));
+    write_tables(store);
     EXPECT_EQ(core::read_file(folder.path() / "leases.csv"),
               "scenario,condition,replication,policy,action,outcome,reason,leases\n"
               "alpha,treated,0,listing_5_5,change_lane,issued,,5\n"
@@ -117,7 +118,7 @@ TEST(Tables, AreInOneDatabaseToo) {
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), synthetic::manifest());
     fill(store, keys);
-    write_tables(store, read_results(store));
+    write_tables(store);
     const auto file = folder.path() / "results.sqlite";
     EXPECT_EQ(query(file, "SELECT count(*), sum(emergency_travel_time_s), max(collisions) FROM runs"),
               "4|200.4|1|");
@@ -149,7 +150,7 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     EXPECT_THAT(lines[8], testing::StartsWith("beta,treated,1,ok,,on,B5,-2,80,50.1,"));
     for (const std::string& line : lines)
         EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(lines[0], ',')) << line;
-    write_tables(store, results);
+    write_tables(store);
     EXPECT_EQ(query(folder.path() / "results.sqlite",
                     "SELECT \"condition.failure\", typeof(\"failure.dark_share\"), \"scenario.demand.human\" "
                     "FROM runs WHERE \"failure.dark_share\" < 0 ORDER BY scenario"),

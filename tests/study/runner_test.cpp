@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "experiment/job.hpp"
 #include "results/synthetic.hpp"
+#include "results/table_writer.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::study {
@@ -47,7 +48,7 @@ class Study : public testing::Test {
     /// All final bytes of a run folder.
     std::string tables_of(const std::string& folder) const {
         const results::Store store = store_in(folder);
-        results::write_tables(store, results::read_results(store));
+        results::write_tables(store);
         std::string all;
         for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
             all += core::read_file(store.folder() / file);

@@ -24,6 +24,7 @@
 #include "report/read_facts.hpp"
 #include "results/run_name.hpp"
 #include "results/table_reader.hpp"
+#include "results/table_writer.hpp"
 #include "study/side_files.hpp"
 
 namespace clearway::cli {
@@ -178,6 +179,7 @@ study::StudyResult run_missing(const study::Plan& plan, const results::Store& st
         progress.update(now.done + now.failed, now.failed, estimate.text());
     });
     progress.finish();
+    if (result.progress.done > result.progress.resumed) results::outdate_tables(store);
     if (was_interrupted(result)) say_how_to_continue(store.folder(), result.progress, options.command);
     return result;
 }
@@ -194,7 +196,7 @@ core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& opti
 }
 
 core::ExitCode publish(const results::Store& store, const PublishOptions& options) {
-    if (!results::tables_are_current(store)) results::write_tables(store, results::read_results(store));
+    if (!results::tables_are_current(store)) results::write_tables(store);
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary =
         analysis::summarise(results, analysis::usual_level, options.response_threshold_s);

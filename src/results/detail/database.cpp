@@ -102,11 +102,12 @@ std::string places(int words) {
 
 constexpr const char* key_columns = "scenario TEXT, condition TEXT, replication INTEGER";
 
-void write_study(Database& database, const Manifest& manifest) {
+void write_study(Database& database, const Manifest& manifest, const std::string& runs_hash) {
     database.execute("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)");
     Inserter row(database, "INSERT INTO study VALUES (?, ?)");
     for (const auto& [key, value] : {std::pair<const char*, std::string>{"manifest", to_json(manifest)},
                                      {"manifest_hash", manifest_hash(manifest)},
+                                     {"runs_hash", runs_hash},
                                      {"format", fmt::format("{}", manifest.format)}}) {
         row.add(std::string_view(key));
         row.add(std::string_view(value));
@@ -142,13 +143,14 @@ void create_tables(Database& database, const FactorColumns& factors) {
 }
 
 /// A new database with the study's metadata and empty tables.
-Database begin_database(const std::filesystem::path& file, const Manifest& manifest) {
+Database begin_database(const std::filesystem::path& file, const Manifest& manifest,
+                        const std::string& runs_hash) {
     std::filesystem::remove(file);
     Database database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, fail);
     // An unfinished file is thrown away as a whole, so it needs no journal.
     database.execute("PRAGMA journal_mode = OFF");
     database.execute("BEGIN");
-    write_study(database, manifest);
+    write_study(database, manifest, runs_hash);
     create_tables(database, FactorColumns(manifest));
     return database;
 }
@@ -156,8 +158,8 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
 }  // namespace
 
 struct DatabaseWriter::Tables {
-    Tables(const std::filesystem::path& part, const Manifest& manifest)
-        : database(begin_database(part, manifest)),
+    Tables(const std::filesystem::path& part, const Manifest& manifest, const std::string& runs_hash)
+        : database(begin_database(part, manifest, runs_hash)),
           factors(manifest),
           runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(
                                                           1 + static_cast<int>(factors.names().size()))),
@@ -182,10 +184,11 @@ struct DatabaseWriter::Tables {
     Inserter errors;
 };
 
-DatabaseWriter::DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest)
+DatabaseWriter::DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest,
+                               const std::string& runs_hash)
     : file_(file), part_(file.string() + fmt::format(".{}.part", ::getpid())) {
     try {
-        tables_ = std::make_unique<Tables>(part_, manifest);
+        tables_ = std::make_unique<Tables>(part_, manifest, runs_hash);
     } catch (...) {
         discard();
         throw;

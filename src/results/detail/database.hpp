@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "results/store.hpp"
 
@@ -12,7 +13,8 @@ namespace clearway::results::detail {
 /// without `finish` it is removed. All members throw core::EnvironmentError.
 class DatabaseWriter {
   public:
-    DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest);
+    /// `runs_hash` (detail/runs_hash.hpp) tells later whether the tables still are those of the runs.
+    DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest, const std::string& runs_hash);
     ~DatabaseWriter();
     DatabaseWriter(const DatabaseWriter&) = delete;
     DatabaseWriter& operator=(const DatabaseWriter&) = delete;
