@@ -96,6 +96,30 @@ function(clearway_closure name result)
     set(${result} ${seen} PARENT_SCOPE)
 endfunction()
 
+# The library with core/build_stamp.hpp, which knows the sources of the program `worker` and of all modules below its own.
+function(clearway_add_build_stamp worker module)
+    clearway_closure(${module} closure)
+    set(folders ${module} ${closure})
+    list(TRANSFORM folders REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/src/\\1/*" OUTPUT_VARIABLE globs)
+    file(GLOB_RECURSE files RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS ${globs} ${CMAKE_SOURCE_DIR}/programs/${worker}/*)
+    list(SORT files)
+    list(JOIN files "\n" lines)
+    set(list ${CMAKE_BINARY_DIR}/build_stamp.txt)
+    set(source ${CMAKE_BINARY_DIR}/build_stamp.cpp)
+    file(CONFIGURE OUTPUT ${list} CONTENT "${lines}\n" @ONLY)
+    set(script ${CMAKE_SOURCE_DIR}/cmake/build_stamp.cmake)
+    list(TRANSFORM files PREPEND ${CMAKE_SOURCE_DIR}/)
+    add_custom_command(
+        OUTPUT ${source}
+        COMMAND ${CMAKE_COMMAND} -D OUTPUT=${source} -D LIST=${list} -D ROOT=${CMAKE_SOURCE_DIR} -P ${script}
+        DEPENDS ${files} ${list} ${script}
+        COMMENT "Stamping the build"
+        VERBATIM)
+    add_library(clearway_build_stamp STATIC ${source})
+    target_link_libraries(clearway_build_stamp PRIVATE clearway_core)
+    clearway_compile_options(clearway_build_stamp)
+endfunction()
+
 # Nothing after sensing sees the truth: neither prediction nor policy may reach it, however indirectly.
 function(clearway_check_layers)
     get_property(modules GLOBAL PROPERTY CLEARWAY_MODULES)

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "loop/episodes.hpp"
 #include "loop/worker.hpp"
@@ -31,7 +32,8 @@ int main(int argument_count, char** arguments) {
     const std::string_view word = argument_count == 2 ? arguments[1] : "";
     try {
         if (word == "--version") {
-            fmt::print("clearway-run {} with SUMO {}\n", CLEARWAY_VERSION, clearway::sumo::version());
+            fmt::print("clearway-run {} with SUMO {}\nbuild {}\n", CLEARWAY_VERSION,
+                       clearway::sumo::version(), core::build_stamp());
             return 0;
         }
         if (argument_count == 6 && std::string_view(arguments[1]) == "--episodes")

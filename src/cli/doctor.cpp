@@ -64,6 +64,18 @@ Check check_sister(const std::string& program, const std::string& purpose) {
     return check;
 }
 
+/// The worker must also be of the same build as this program.
+Check check_worker() {
+    Check check = check_sister("clearway-run", "the worker that holds SUMO");
+    if (!check.passed) return check;
+    const auto worker = identity_from(output_of(sister_program("clearway-run"), {"--version"}).value_or(""));
+    check.passed = worker && is_of_this_build(*worker);
+    if (check.passed) return check;
+    check.found += ", of another build than this clearway";
+    check.cure = cure_of_another_build;
+    return check;
+}
+
 Check check_osmium() {
     const std::string text = first_line(output_of("osmium", {"--version"}).value_or(""));
     return {"osmium", !text.empty(), Severity::optional, text.empty() ? "missing" : text,
@@ -91,7 +103,7 @@ std::vector<Check> all_checks() {
         check_sumo("sumo"),
         check_sumo("netconvert"),
         check_sumo_home(),
-        check_sister("clearway-run", "the worker that holds SUMO"),
+        check_worker(),
         check_sister("clearway-train", "training, holds libtorch"),
         check_osmium(),
         check_rasteriser(),

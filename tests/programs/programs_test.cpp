@@ -1,6 +1,8 @@
 // The three programs: what each is linked to, and how it answers a wrong call.
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -21,10 +23,11 @@ struct Answer {
     std::string text;  ///< Both streams.
 };
 
-Answer call(const std::string& program, const std::vector<std::string>& arguments) {
+Answer call(const std::string& program, const std::vector<std::string>& arguments,
+            const std::map<std::string, std::string>& environment = {}) {
     const support::TemporaryFolder folder;
     const std::filesystem::path log = folder.path() / "log.txt";
-    const core::Exit exit = core::run({program, arguments, {}, log});
+    const core::Exit exit = core::run({program, arguments, environment, log});
     return {exit, core::read_file(log)};
 }
 
@@ -49,10 +52,72 @@ TEST(ProgramsTest, the_trainer_holds_torch_but_no_sumo) {
     EXPECT_THAT(libraries_of("clearway-train"), AllOf(HasSubstr("libtorch"), Not(HasSubstr("libsumo"))));
 }
 
-TEST(ProgramsTest, the_worker_tells_both_versions) {
+TEST(ProgramsTest, the_worker_tells_both_versions_and_its_build) {
     const Answer answer = call(path_of("clearway-run"), {"--version"});
     EXPECT_TRUE(answer.exit.ok());
-    EXPECT_THAT(answer.text, testing::MatchesRegex("clearway-run [0-9.]+ with SUMO [0-9.]+\n"));
+    EXPECT_THAT(answer.text,
+                testing::MatchesRegex("clearway-run [0-9.]+ with SUMO [0-9.]+\nbuild [0-9a-f]+\n"));
+}
+
+/// `clearway` with a worker beside it that answers `--version` with `answer`, and leaves a file if it gets a
+/// job.
+class TwoBuilds {
+  public:
+    explicit TwoBuilds(const std::string& answer) {
+        std::filesystem::copy(path_of("clearway"), clearway());
+        const std::string worker =
+            folder_.write("clearway-run", "#!/bin/sh\nif [ \"$1\" = --version ]; then printf '" + answer +
+                                              "'; else touch \"${0%/*}/worked\"; fi\n");
+        std::filesystem::permissions(worker, std::filesystem::perms::owner_all);
+    }
+    std::string clearway() const { return folder_.path() / "clearway"; }
+    std::string out() const { return folder_.path() / "out"; }
+    bool worked() const { return std::filesystem::exists(folder_.path() / "worked"); }
+
+  private:
+    support::TemporaryFolder folder_;
+};
+
+TEST(ProgramsTest, a_worker_of_another_build_is_refused_before_anything_runs) {
+    for (const std::string build : {"\\nbuild 0123456789abcdef\\n", "\\n"}) {
+        const TwoBuilds two("clearway-run 0.1.0 with SUMO 1.15.0" + build);
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"run", "merge", "--seeds", "1", "--out", two.out()},
+              std::vector<std::string>{"dataset", "merge", "--seeds", "1", "--out", two.out()}}) {
+            const Answer answer = call(two.clearway(), words, {{"CLEARWAY_HOME", CLEARWAY_SOURCE_DIR}});
+            EXPECT_EQ(answer.exit.code, 4) << words[0];
+            EXPECT_THAT(answer.text, AllOf(HasSubstr("/clearway-run: is of another build than this clearway"),
+                                           HasSubstr("Build both programs together")));
+        }
+        EXPECT_FALSE(two.worked());
+        const Answer doctor = call(two.clearway(), {"doctor"});
+        EXPECT_EQ(doctor.exit.code, 4);
+        EXPECT_THAT(doctor.text, HasSubstr("of another build than this clearway"));
+    }
+}
+
+/// The stamp of a tree with these files.
+std::string stamp_of(const std::vector<std::pair<std::string, std::string>>& files) {
+    const support::TemporaryFolder folder;
+    std::string names;
+    for (const auto& [name, text] : files) {
+        folder.write(name, text);
+        names += name + "\n";
+    }
+    const std::string root = folder.path();
+    const Answer answer = call(
+        "cmake", {"-D", "OUTPUT=" + root + "/stamp.cpp", "-D", "LIST=" + folder.write("list", names).string(),
+                  "-D", "ROOT=" + root, "-P", CLEARWAY_SOURCE_DIR "/cmake/build_stamp.cmake"});
+    EXPECT_TRUE(answer.exit.ok()) << answer.text;
+    return core::read_file(root + "/stamp.cpp");
+}
+
+TEST(ProgramsTest, a_build_is_told_by_names_and_contents_of_its_sources) {
+    const std::string stamp = stamp_of({{"a.cpp", "one"}, {"b.cpp", "two"}});
+    EXPECT_EQ(stamp_of({{"a.cpp", "one"}, {"b.cpp", "two"}}), stamp) << "elsewhere and later";
+    EXPECT_NE(stamp_of({{"a.cpp", "one"}, {"b.cpp", "three"}}), stamp);
+    EXPECT_NE(stamp_of({{"a.cpp", "one"}, {"c.cpp", "two"}}), stamp);
+    EXPECT_NE(stamp_of({{"a.cpp", "one"}}), stamp);
 }
 
 TEST(ProgramsTest, the_worker_explains_a_wrong_call_and_exits_with_2) {

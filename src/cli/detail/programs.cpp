@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "core/process.hpp"
 
@@ -61,19 +62,46 @@ void become(const std::string& program, const std::vector<std::string>& argument
     throw core::EnvironmentError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
 }
 
-study::Versions installed_versions() {
-    const std::string program = sister_program("clearway-run");
-    const std::string text = output_of(program, {"--version"}).value_or("");
-    // `clearway-run 0.1.0 with SUMO 1.15.0`
+std::optional<WorkerIdentity> identity_from(const std::string& text) {
     const std::string head = "clearway-run ";
     const std::string middle = " with SUMO ";
+    const std::string last = "\nbuild ";
     const std::size_t split = text.find(middle);
-    if (!text.starts_with(head) || split == std::string::npos) {
+    if (!text.starts_with(head) || split == std::string::npos) return std::nullopt;
+    const std::size_t sumo = split + middle.size();
+    const std::size_t end = text.find('\n', sumo);
+    WorkerIdentity identity;
+    identity.versions = {text.substr(head.size(), split - head.size()), text.substr(sumo, end - sumo)};
+    if (const std::size_t build = text.find(last, sumo); build != std::string::npos) {
+        const std::size_t from = build + last.size();
+        identity.build = text.substr(from, text.find('\n', from) - from);
+    }
+    return identity;
+}
+
+bool is_of_this_build(const WorkerIdentity& worker) {
+    return worker.build == core::build_stamp();
+}
+
+study::Versions installed_versions() {
+    const std::string program = sister_program("clearway-run");
+    const auto worker = identity_from(output_of(program, {"--version"}).value_or(""));
+    if (!worker)
         throw core::EnvironmentError(
             fmt::format("{}: cannot be started. `clearway doctor` shows what is missing", program));
-    }
-    const std::size_t sumo = split + middle.size();
-    return {text.substr(head.size(), split - head.size()), text.substr(sumo, text.find('\n', sumo) - sumo)};
+    if (!is_of_this_build(*worker))
+        throw core::EnvironmentError(
+            fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults of settings, "
+                        "models and the "
+                        "way a run is made may differ. {}",
+                        program, worker->build.empty() ? "unknown (an older one)" : worker->build,
+                        core::build_stamp(), cure_of_another_build));
+    return worker->versions;
+}
+
+std::string worker_program() {
+    static const study::Versions checked = installed_versions();
+    return sister_program("clearway-run");
 }
 
 }  // namespace clearway::cli

@@ -34,7 +34,7 @@ class JobList : public core::TaskList {
     JobList(const std::vector<WorkerJob>& jobs, const std::string& title)
         : jobs_(jobs),
           logs_(jobs.size()),
-          program_(sister_program("clearway-run")),
+          program_(worker_program()),
           progress_(title, jobs.size(), core::Progress::style_for_stderr()) {}
 
     std::optional<core::Task> next() override {
