@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/markup.hpp"
+#include "scenario/detail/labels.hpp"
 #include "scenario/signal_sheet.hpp"
 
 namespace clearway::scenario {
@@ -134,45 +136,98 @@ std::string roads_of(const roads::Network& network, const Frame& frame) {
     return svg;
 }
 
-/// Names that are longer, or nearer to another signal, would lie upon each other; units of the picture.
+/// Names that are longer would lie upon something nearly always; units of the picture.
 constexpr std::size_t longest_name = 14;
-constexpr double room_for_name = 90.0;
-constexpr double line_of_text = 14.0;
+constexpr double width_of_letter = 7.0;
+constexpr double height_of_text = 12.0;
 
-bool has_room_for_name(const std::vector<SignalSheet>& sheets, std::size_t row, const Frame& frame) {
-    if (sheets[row].signal.size() > longest_name) return false;
-    for (std::size_t other = 0; other < sheets.size(); ++other) {
-        const double right = frame.x(sheets[other].place.x_m) - frame.x(sheets[row].place.x_m);
-        const double down = frame.y(sheets[other].place.y_m) - frame.y(sheets[row].place.y_m);
-        if (other != row && std::abs(right) < room_for_name && std::abs(down) < line_of_text) return false;
+/// The words beside a disc.
+struct NameBox {
+    double left = 0.0;
+    double bottom = 0.0;
+    double width = 0.0;
+
+    bool meets(const NameBox& other) const {
+        return left < other.left + other.width && other.left < left + width &&
+               std::abs(bottom - other.bottom) < height_of_text;
     }
-    return true;
+    bool meets(const detail::Spot& disc) const {
+        return disc.x + detail::disc_radius > left && disc.x - detail::disc_radius < left + width &&
+               disc.y + detail::disc_radius > bottom - height_of_text &&
+               disc.y - detail::disc_radius < bottom;
+    }
+};
+
+/// The signals of a picture and where their marks are drawn.
+struct SignalMarks {
+    std::vector<SignalSheet> sheets;
+    std::vector<detail::Spot> places;
+    std::vector<detail::Spot> spots;
+};
+
+SignalMarks marks_of(const roads::Network& network, const Frame& frame,
+                     const std::vector<std::string>& labels) {
+    SignalMarks marks{signal_sheets(network, {}), {}, {}};
+    std::vector<detail::Mark> kinds;
+    for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
+        const roads::Point place = marks.sheets[row].place;
+        marks.places.push_back({frame.x(place.x_m), frame.y(place.y_m)});
+        kinds.push_back(labels[row].empty() ? detail::Mark::dot : detail::Mark::disc);
+    }
+    marks.spots = detail::spread(marks.places, kinds, {picture_width, frame.height});
+    return marks;
 }
 
-/// `labels` are by signal; one without is a small grey dot.
+/// Where the name of a signal lies upon no number and no name in `taken`; nothing if there is no such place.
+std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row,
+                                     const std::vector<NameBox>& taken) {
+    const std::string& name = marks.sheets[row].signal;
+    // Among signals that lie close together a name would seem to be that of a neighbour.
+    if (marks.spots[row] != marks.places[row] || name.size() > longest_name) return std::nullopt;
+    const double width = width_of_letter * static_cast<double>(name.size());
+    for (const double down : {-8.0, 18.0}) {
+        for (const double right : {12.0, -12.0 - width}) {
+            const NameBox box{marks.spots[row].x + right, marks.spots[row].y + down, width};
+            const auto meets = [&](const auto& other) { return box.meets(other); };
+            if (std::ranges::none_of(marks.spots, meets) && std::ranges::none_of(taken, meets)) return box;
+        }
+    }
+    return std::nullopt;
+}
+
+/// `labels` are by signal; one without is a small grey dot. A line leads from a disc that had to give way to
+/// its signal.
 void draw_labels(const roads::Network& network, const Frame& frame, const std::vector<std::string>& labels,
                  std::string& svg) {
     auto out = std::back_inserter(svg);
-    const std::vector<SignalSheet> sheets = signal_sheets(network, {});
-    for (std::size_t row = 0; row < sheets.size(); ++row) {
+    const SignalMarks marks = marks_of(network, frame, labels);
+    std::vector<NameBox> names;
+    for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
+        const detail::Spot& place = marks.places[row];
+        const detail::Spot& spot = marks.spots[row];
+        const std::string name = core::escaped(marks.sheets[row].signal);
         if (labels[row].empty()) {
             fmt::format_to(
-                out, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"#999\"><title>{}</title></circle>\n",
-                frame.x(sheets[row].place.x_m), frame.y(sheets[row].place.y_m),
-                core::escaped(sheets[row].signal));
+                out,
+                "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"#999\"><title>{}</title></circle>\n",
+                place.x, place.y, detail::dot_radius, name);
             continue;
         }
-        const double x = frame.x(sheets[row].place.x_m);
-        const double y = frame.y(sheets[row].place.y_m);
-        const std::string name = core::escaped(sheets[row].signal);
-        fmt::format_to(
-            out,
-            "<g fill=\"#000\"><title>{0}: {1}</title><circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"8\" "
-            "fill=\"#d55e00\"/><text x=\"{2:.1f}\" y=\"{4:.1f}\" text-anchor=\"middle\" "
-            "style=\"font-size:9px;fill:#fff\">{0}</text>",
-            labels[row], name, x, y, y + 3.5);
-        if (has_room_for_name(sheets, row, frame))
-            fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 12.0, y - 8.0, name);
+        fmt::format_to(out, "<g fill=\"#000\"><title>{}: {}</title>", labels[row], name);
+        if (spot != place)
+            fmt::format_to(out,
+                           "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#d55e00\"/>"
+                           "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"2.5\" fill=\"#d55e00\"/>",
+                           place.x, place.y, spot.x, spot.y);
+        fmt::format_to(out,
+                       "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"#d55e00\"/>"
+                       "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" "
+                       "style=\"font-size:9px;fill:#fff\">{4}</text>",
+                       spot.x, spot.y, detail::disc_radius, spot.y + 3.5, labels[row]);
+        if (const auto box = room_for_name(marks, row, names)) {
+            fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left, box->bottom, name);
+            names.push_back(*box);
+        }
         svg += "</g>\n";
     }
 }

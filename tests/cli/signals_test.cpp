@@ -1,4 +1,8 @@
 // The signals of a scenario, and their preemption parameters.
+#include <array>
+#include <cmath>
+#include <regex>
+
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -32,6 +36,21 @@ TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
 TEST_F(SignalsTest, are_drawn_with_their_numbers) {
     ASSERT_EQ(clearway({"signals", "./crossings", "--svg", "map.svg"}).code, 0);
     EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">2</text>")));
+}
+
+TEST_F(SignalsTest, have_numbers_that_do_not_lie_upon_each_other) {
+    ASSERT_EQ(clearway({"signals", "city", "--svg", "map.svg"}).code, 0);
+    const std::string map = read("map.svg");
+    std::vector<std::array<double, 2>> discs;
+    const std::regex disc("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"8\"");
+    for (auto found = std::sregex_iterator(map.begin(), map.end(), disc); found != std::sregex_iterator();
+         ++found)
+        discs.push_back({std::stod((*found)[1]), std::stod((*found)[2])});
+    ASSERT_EQ(discs.size(), 13U);
+    for (std::size_t one = 0; one < discs.size(); ++one)
+        for (std::size_t other = 0; other < one; ++other)
+            EXPECT_GT(std::hypot(discs[one][0] - discs[other][0], discs[one][1] - discs[other][1]), 16.0)
+                << other + 1 << " and " << one + 1;
 }
 
 TEST_F(SignalsTest, have_their_parameters_in_a_file_to_edit_that_the_scenario_then_names) {

@@ -1,0 +1,94 @@
+#include "scenario/detail/labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace clearway::scenario::detail {
+namespace {
+
+constexpr double gap = 1.0;
+/// Spots round a place: rings of so many spots each. Sixteen on the smallest ring are 6 units apart, and the
+/// farthest is 92 units away, a tenth of the picture: farther, nobody sees what a disc belongs to.
+constexpr int rings = 20;
+constexpr int spots_of_ring = 16;
+constexpr double first_ring = 16.0;
+constexpr double ring_step = 4.0;
+
+double distance(const Spot& one, const Spot& other) {
+    return std::hypot(one.x - other.x, one.y - other.y);
+}
+
+class Spreader {
+  public:
+    Spreader(const std::vector<Spot>& places, const std::vector<Mark>& marks, Spot size)
+        : places_(places), marks_(marks), size_(size) {}
+
+    std::vector<Spot> spots() {
+        std::vector<Spot> spots = places_;
+        std::vector<std::size_t> crowded;
+        for (std::size_t row = 0; row < places_.size(); ++row) {
+            if (marks_[row] == Mark::dot) continue;
+            if (hides_a_place(places_[row], row) || meets_a_disc_at_its_place(row)) {
+                crowded.push_back(row);
+            } else {
+                discs_.push_back(places_[row]);
+            }
+        }
+        for (const std::size_t row : crowded) {
+            spots[row] = free_spot(row);
+            discs_.push_back(spots[row]);
+        }
+        return spots;
+    }
+
+  private:
+    bool meets_a_disc_at_its_place(std::size_t row) const {
+        for (std::size_t other = 0; other < places_.size(); ++other)
+            if (other != row && marks_[other] == Mark::disc &&
+                distance(places_[row], places_[other]) < 2 * disc_radius + gap)
+                return true;
+        return false;
+    }
+
+    bool hides_a_place(const Spot& spot, std::size_t row) const {
+        for (std::size_t other = 0; other < places_.size(); ++other)
+            if (other != row && distance(spot, places_[other]) < disc_radius + dot_radius) return true;
+        return false;
+    }
+
+    bool is_free(const Spot& spot, std::size_t row) const {
+        const bool inside = spot.x >= disc_radius && spot.y >= disc_radius &&
+                            spot.x <= size_.x - disc_radius && spot.y <= size_.y - disc_radius;
+        return inside && !hides_a_place(spot, row) && std::ranges::none_of(discs_, [&](const Spot& disc) {
+                   return distance(spot, disc) < 2 * disc_radius + gap;
+               });
+    }
+
+    /// From the nearest ring outwards, in each beginning above and going round with the clock.
+    Spot free_spot(std::size_t row) const {
+        for (int ring = 0; ring < rings; ++ring) {
+            const double radius = first_ring + ring_step * ring;
+            for (int at = 0; at < spots_of_ring; ++at) {
+                const double angle = 2.0 * std::numbers::pi * at / spots_of_ring;
+                const Spot spot{places_[row].x + radius * std::sin(angle),
+                                places_[row].y - radius * std::cos(angle)};
+                if (is_free(spot, row)) return spot;
+            }
+        }
+        return places_[row];
+    }
+
+    const std::vector<Spot>& places_;
+    const std::vector<Mark>& marks_;
+    Spot size_;
+    std::vector<Spot> discs_;  ///< Those that have their spot.
+};
+
+}  // namespace
+
+std::vector<Spot> spread(const std::vector<Spot>& places, const std::vector<Mark>& marks, Spot size) {
+    return Spreader(places, marks, size).spots();
+}
+
+}  // namespace clearway::scenario::detail

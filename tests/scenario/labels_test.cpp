@@ -1,0 +1,56 @@
+#include "scenario/detail/labels.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+namespace clearway::scenario::detail {
+namespace {
+
+constexpr Spot picture{960.0, 540.0};
+
+double distance(const Spot& one, const Spot& other) {
+    return std::hypot(one.x - other.x, one.y - other.y);
+}
+
+std::vector<Spot> discs(const std::vector<Spot>& places) {
+    return spread(places, std::vector<Mark>(places.size(), Mark::disc), picture);
+}
+
+TEST(Labels, WithEnoughRoomStayAtTheirPlaces) {
+    const std::vector<Spot> places = {{100, 100}, {118, 100}, {100, 400}};
+    EXPECT_EQ(discs(places), places);
+}
+
+TEST(Labels, OfPlacesNearEachOtherLieBesideEachOtherAndHideNoPlace) {
+    std::vector<Spot> places = {{300, 300}, {303, 301}, {300, 300}, {310, 290}, {5, 5}, {7, 5}};
+    for (int more = 0; more < 12; ++more)
+        places.push_back({500.0 + more, 200.0 + 2 * more});
+    const std::vector<Spot> spots = discs(places);
+    for (std::size_t row = 0; row < spots.size(); ++row) {
+        EXPECT_GE(spots[row].x, disc_radius);
+        EXPECT_GE(spots[row].y, disc_radius);
+        EXPECT_LT(distance(spots[row], places[row]), 100.0) << row;
+        for (std::size_t other = 0; other < spots.size(); ++other) {
+            if (other == row) continue;
+            EXPECT_GE(distance(spots[row], spots[other]), 2 * disc_radius) << row << " and " << other;
+            EXPECT_GE(distance(spots[row], places[other]), disc_radius + 2.5) << row << " hides " << other;
+        }
+    }
+    EXPECT_EQ(discs(places), spots) << "every time the same";
+}
+
+TEST(Labels, GiveWayToADotThatStays) {
+    const std::vector<Spot> places = {{300, 300}, {305, 300}};
+    const std::vector<Spot> spots = spread(places, {Mark::disc, Mark::dot}, picture);
+    EXPECT_EQ(spots[1], places[1]);
+    EXPECT_GE(distance(spots[0], spots[1]), disc_radius + dot_radius);
+}
+
+TEST(Labels, WithoutAnyRoomStayToo) {
+    const std::vector<Spot> places = {{5, 5}, {7, 5}};
+    EXPECT_EQ(spread(places, {Mark::disc, Mark::disc}, {10.0, 10.0}), places);
+}
+
+}  // namespace
+}  // namespace clearway::scenario::detail
