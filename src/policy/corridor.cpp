@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "policy/clear_lane.hpp"
+#include "policy/give_way.hpp"
 #include "policy/preempt_signals.hpp"
 #include "policy/recover_signals.hpp"
 
@@ -29,6 +30,7 @@ Corridor::Corridor(const PolicyContext& context, const core::Settings& settings)
     policies_.push_back(
         configured<RecoverSignals, RecoverSignalsConfig>("recover_signals", context, settings));
     policies_.push_back(configured<ClearLane, ClearLaneConfig>("clear_lane", context, settings));
+    policies_.push_back(configured<GiveWay, GiveWayConfig>("give_way", context, settings));
 }
 
 void Corridor::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {

@@ -7,11 +7,11 @@
 
 namespace clearway::policy {
 
-/// The default combination of PreemptSignals, RecoverSignals and ClearLane. Each lease carries the name of
-/// the policy that issued it.
+/// The default combination of PreemptSignals, RecoverSignals, ClearLane and GiveWay. Each lease carries the
+/// name of the policy that issued it.
 class Corridor : public Policy {
   public:
-    /// `settings` are those of the three policies, such as `preempt_signals.lead_s`.
+    /// `settings` are those of the four policies, such as `preempt_signals.lead_s`.
     explicit Corridor(const PolicyContext& context, const core::Settings& settings = {});
 
     std::string_view name() const override { return "corridor"; }

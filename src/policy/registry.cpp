@@ -7,6 +7,7 @@
 #include "policy/corridor.hpp"
 #include "policy/dissertation.hpp"
 #include "policy/geocast.hpp"
+#include "policy/give_way.hpp"
 #include "policy/green_wave.hpp"
 #include "policy/hold_cross.hpp"
 #include "policy/line_of_sight.hpp"
@@ -78,8 +79,9 @@ const std::vector<PolicyEntry>& policies() {
                                                     "Gives time back to the approaches that waited"),
         entry<ClearLane, ClearLaneConfig>("clear_lane",
                                           "Automated vehicles ahead leave the emergency vehicle's lane"),
-        combination<Corridor>("corridor", "preempt_signals, recover_signals and clear_lane together",
-                              {"preempt_signals", "recover_signals", "clear_lane"}),
+        combination<Corridor>("corridor",
+                              "preempt_signals, recover_signals, clear_lane and give_way together",
+                              {"preempt_signals", "recover_signals", "clear_lane", "give_way"}),
         entry<GreenWave, GreenWaveConfig>(
             "green_wave", "Opponent: green at every signal on the route, planned once by arrival times"),
         entry<CheckInOut, CheckInOutConfig>(
@@ -94,6 +96,8 @@ const std::vector<PolicyEntry>& policies() {
             "pull_aside", "Vehicles of a queue pull aside until the emergency vehicle has passed"),
         entry<HoldCross, HoldCrossConfig>("hold_cross",
                                           "Cross traffic stops at its line although it has green"),
+        entry<GiveWay, GiveWayConfig>(
+            "give_way", "At junctions without signals, vehicles with right of way stop and yield"),
         needing(entry<RescueLane, RescueLaneConfig>(
                     "rescue_lane", "Slow traffic keeps to the edges of its lanes, a lane between them opens"),
                 Need::sublane_model),

@@ -74,11 +74,13 @@ TEST(Settings, OfEveryPartThatAConditionHasAreAccepted) {
                 set(condition, component + "." + row.name, row.preset);
         }
     }
-    set(condition, "clear_lane.ask", "linked");  // without it, how it asks the linked has no effect
+    for (const char* const part : {"clear_lane.ask", "give_way.ask"})
+        set(condition, part, "linked");  // without it, how it asks the linked has no effect
     EXPECT_THAT(problems_of(condition), IsEmpty());
-    EXPECT_THAT(components_of(condition),
-                testing::ElementsAre("loop", "failure", "graphsage", "preempt_signals", "recover_signals",
-                                     "clear_lane", "actuation", "siren", "requests", "privilege"));
+    EXPECT_THAT(
+        components_of(condition),
+        testing::ElementsAre("loop", "failure", "graphsage", "preempt_signals", "recover_signals",
+                             "clear_lane", "give_way", "actuation", "siren", "requests", "privilege"));
 }
 
 TEST(Settings, ThatCannotBeNameTheNearest) {
@@ -262,7 +264,7 @@ TEST(Settings, OfAModelKeepItsContent) {
 
 TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
     const std::vector<Component> found = components_named("corridor");
-    ASSERT_EQ(found.size(), 3U);
+    ASSERT_EQ(found.size(), 4U);
     const std::string text = settings_console(found);
     EXPECT_THAT(text, HasSubstr("  preempt_signals.lead_s = 8 s (0 to 60)\n"));
     EXPECT_THAT(text, HasSubstr("Why: "));

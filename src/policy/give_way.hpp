@@ -1,0 +1,81 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "policy/ask.hpp"
+#include "policy/detail/cooperation.hpp"
+#include "policy/policy.hpp"
+
+namespace clearway::policy {
+
+/// Settings of GiveWay.
+struct GiveWayConfig : AskSettings {
+    double lead_s = 6.0;
+    double lead_per_halted_s = 2.0;
+    double longest_lead_s = 20.0;
+    double horizon_m = 300.0;
+    double near_m = 60.0;
+    double halted_mps = 0.5;
+    double slowest_mps = 5.0;
+    double longest_s = 30.0;
+    double fastest_road_mps = 17.0;
+    double lease_s = 2.0;
+
+    static constexpr auto fields() {
+        using C = GiveWayConfig;
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{
+                "lead_s", "s", &C::lead_s, 0.0, 60.0,
+                "Vehicles with right of way are asked from this long before the emergency vehicle's arrival",
+                "as hold_cross"},
+            Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,
+                  "And this much earlier per vehicle that stands ahead of it", "saturation headway"},
+            Field{"longest_lead_s", "s", &C::longest_lead_s, 0.0, 60.0, "But no earlier than this",
+                  "assumed"},
+            Field{"horizon_m", "m", &C::horizon_m, 1.0, 2000.0,
+                  "Junctions farther away than this are ignored", "assumed: the longest lead at 15 m/s"},
+            Field{"near_m", "m", &C::near_m, 1.0, 500.0,
+                  "Vehicles closer than this to the junction are asked",
+                  "assumed: more than the usual braking distance in towns"},
+            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
+                  "assumed: walking pace is 1.4 m/s"},
+            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0,
+                  "Arrival is estimated with at least this speed",
+                  "assumed: a standing queue moves once it has the way"},
+            Field{"longest_s", "s", &C::longest_s, 1.0, 600.0,
+                  "For one emergency vehicle a junction is kept free no longer than this", "assumed"},
+            Field{
+                "fastest_road_mps", "m/s", &C::fastest_road_mps, 1.0, 50.0,
+                "Nobody is asked to stop on roads with a higher limit",
+                "60 km/h, above the usual limit of towns: on faster roads nobody expects a vehicle to stop"},
+            detail::lifetime_field<C>());
+        return std::tuple_cat(own, AskSettings::fields());
+    }
+};
+
+/// At junctions without signals where an emergency vehicle must yield, those who have right of way stop
+/// before the junction until it has passed, and with them everybody behind. The queue ahead of the emergency
+/// vehicle then goes, too. Nobody is asked inside a roundabout.
+class GiveWay : public Policy {
+  public:
+    explicit GiveWay(const PolicyContext& context, GiveWayConfig config = {});
+
+    std::string_view name() const override { return "give_way"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    /// An emergency vehicle and the edge by which it comes to a junction.
+    using Passage = std::pair<core::VehicleKey, core::EdgeIndex>;
+
+    bool is_early(const detail::View& view, const traffic::BelievedVehicle& emergency,
+                  double distance_m) const;
+
+    PolicyContext context_;
+    GiveWayConfig config_;
+    std::map<Passage, double> since_s_;  ///< When the first request was made.
+};
+
+}  // namespace clearway::policy
