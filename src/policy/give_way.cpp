@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "policy/detail/approach.hpp"
@@ -74,10 +75,8 @@ class JunctionsAhead {
 /// of its lane.
 bool takes_one_of(const detail::View& view, const traffic::BelievedVehicle& vehicle,
                   const std::set<Turn>& turns, double near_m, std::vector<roads::RouteStep>& steps) {
-    if (!view.is_on_route(vehicle)) return false;
     const roads::Network& network = view.network();
     const roads::Route route = view.route_of(vehicle.key);
-    if (network.edge(network.lane(vehicle.state.lane).edge).internal) return false;
     roads::lanes_ahead(network, route, vehicle.state, core::Metres(near_m), steps);
     for (const roads::RouteStep& step : steps) {
         if (step.end_m > near_m || step.end_m - steps.front().end_m > last_pieces_m) return false;
@@ -87,6 +86,25 @@ bool takes_one_of(const detail::View& view, const traffic::BelievedVehicle& vehi
             return true;
     }
     return false;
+}
+
+/// Whether a vehicle may be asked to stop at the end of its lane.
+bool may_stop(const detail::View& view, const traffic::BelievedVehicle& vehicle, double fastest_road_mps) {
+    if (!view.is_on_route(vehicle)) return false;
+    const roads::Lane& lane = view.network().lane(vehicle.state.lane);
+    const roads::Edge& edge = view.network().edge(lane.edge);
+    return !edge.internal && !edge.roundabout && lane.speed_limit_mps <= fastest_road_mps;
+}
+
+/// Vehicles that drive ahead of an emergency vehicle: none of them may be held.
+std::set<core::VehicleKey> ahead_of_one(const detail::View& view,
+                                        const std::vector<traffic::BelievedVehicle>& emergencies,
+                                        double horizon_m) {
+    std::set<core::VehicleKey> ahead;
+    for (const traffic::BelievedVehicle& emergency : emergencies)
+        for (const detail::VehicleAhead& other : view.vehicles_ahead(emergency, core::Metres(horizon_m)))
+            ahead.insert(other.vehicle->key);
+    return ahead;
 }
 
 bool is_near(const traffic::MotionState& state, const roads::Point& place, double near_m) {
@@ -111,29 +129,38 @@ void GiveWay::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lea
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
     JunctionsAhead junctions(context_.network, config_);
-    std::map<Passage, double> since_s;
+    const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
+    std::optional<std::set<core::VehicleKey>> not_held;
+    std::map<Passage, double> kept_free_s;
+    std::map<core::VehicleKey, double> held_s;
     std::vector<roads::RouteStep> steps;
-    for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
+    const auto lasted_s = [&](auto& before, auto& now, const auto& key) {
+        const auto known = before.find(key);
+        return belief.time.value - (now[key] = known == before.end() ? belief.time.value : known->second);
+    };
+    for (const traffic::BelievedVehicle& emergency : emergencies) {
         const Audience audience(belief, emergency.key, config_);
         for (const Junction& junction : junctions.of(view, emergency)) {
             const Passage passage{emergency.key, junction.edge_in};
-            const auto known = since_s_.find(passage);
-            if (known == since_s_.end() && is_early(view, emergency, junction.distance_m)) continue;
-            const double first_s = known == since_s_.end() ? belief.time.value : known->second;
-            since_s[passage] = first_s;
-            if (belief.time.value - first_s > config_.longest_s) continue;
+            if (!kept_free_s_.contains(passage) && is_early(view, emergency, junction.distance_m)) continue;
+            if (lasted_s(kept_free_s_, kept_free_s, passage) > config_.longest_s) continue;
+            if (!not_held) not_held = ahead_of_one(view, emergencies, config_.horizon_m);
             for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
-                // A street bends less than twofold on its last metres.
-                if (!audience.has(vehicle) ||
-                    !is_near(vehicle.state, junction.place, config_.near_m + 50.0) ||
+                // A junction may be so wide that the end of its other arms is this much farther away.
+                constexpr double width_m = 50.0;
+                if (!audience.has(vehicle) || not_held->contains(vehicle.key) ||
+                    !is_near(vehicle.state, junction.place, config_.near_m + width_m) ||
+                    !may_stop(view, vehicle, config_.fastest_road_mps) ||
                     !takes_one_of(view, vehicle, junction.prior, config_.near_m, steps))
                     continue;
+                if (lasted_s(held_s_, held_s, vehicle.key) > config_.longest_s) continue;
                 write.add(vehicle.key, traffic::StopAtLine{}, "gives way to an emergency vehicle",
                           emergency.key);
             }
         }
     }
-    since_s_ = std::move(since_s);
+    kept_free_s_ = std::move(kept_free_s);
+    held_s_ = std::move(held_s);
 }
 
 }  // namespace clearway::policy

@@ -46,7 +46,10 @@ struct GiveWayConfig : AskSettings {
                   "Arrival is estimated with at least this speed",
                   "assumed: a standing queue moves once it has the way"},
             Field{"longest_s", "s", &C::longest_s, 1.0, 600.0,
-                  "For one emergency vehicle a junction is kept free no longer than this", "assumed"},
+                  "For one emergency vehicle a junction is kept free no longer than this, and nobody is "
+                  "asked to "
+                  "stand longer",
+                  "assumed"},
             Field{
                 "fastest_road_mps", "m/s", &C::fastest_road_mps, 1.0, 50.0,
                 "Nobody is asked to stop on roads with a higher limit",
@@ -58,7 +61,7 @@ struct GiveWayConfig : AskSettings {
 
 /// At junctions without signals where an emergency vehicle must yield, those who have right of way stop
 /// before the junction until it has passed, and with them everybody behind. The queue ahead of the emergency
-/// vehicle then goes, too. Nobody is asked inside a roundabout.
+/// vehicle then goes, too. Nobody is asked to stop in a roundabout, nor ahead of an emergency vehicle.
 class GiveWay : public Policy {
   public:
     explicit GiveWay(const PolicyContext& context, GiveWayConfig config = {});
@@ -75,7 +78,9 @@ class GiveWay : public Policy {
 
     PolicyContext context_;
     GiveWayConfig config_;
-    std::map<Passage, double> since_s_;  ///< When the first request was made.
+    // When the first of the requests was made that still go on.
+    std::map<Passage, double> kept_free_s_;
+    std::map<core::VehicleKey, double> held_s_;
 };
 
 }  // namespace clearway::policy

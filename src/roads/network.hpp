@@ -141,7 +141,8 @@ class Network {
     /// In the order of the file, which is that of SUMO's link numbers.
     std::span<const Connection> connections_from(core::LaneIndex lane) const;
     /// Connections, by `connection`, to whose vehicles those on `way` must yield at a junction without a
-    /// signal, by its right-of-way table. Empty at signals and where the file has no table that fits.
+    /// signal, by its right-of-way table; those that cars may not take are left out. Empty at signals and
+    /// where the file has no table that fits.
     std::span<const std::uint32_t> prior_to(const Connection& way) const {
         return std::span(prior_).subspan(way.first_prior, way.prior_count);
     }

@@ -240,6 +240,29 @@ TEST(StopAtLineLease, stops_the_vehicle_on_its_lane_before_the_line_until_it_end
     EXPECT_EQ(bench.only<traffic::ResumeFromStop>(bench.run_until(6.0)).size(), 1U);
 }
 
+TEST(StopAtLineLease, on_a_lane_that_does_not_continue_is_refused) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a", 300.0, 10.0));
+    bench.self.outlook[two_crossings().lane(bench.on_road[vehicle].lane).number] = {0, 200.0F, 1};
+    bench.offer(vehicle, traffic::StopAtLine{});
+    EXPECT_TRUE(bench.step().empty());
+    EXPECT_EQ(bench.counts("policy/stop_at_line").refused.at("lane_does_not_continue"), 1U);
+}
+
+TEST(StopAtLineLease, counts_the_way_until_the_command_acts) {
+    ActuationBench bench(1.0);
+    const double length_m = two_crossings().lane(two_crossings().find_lane("west_A_0").value()).length_m;
+    const double braking_m = 16.0 * 16.0 / (2.0 * 4.5);
+    const auto late = bench.add(automated("late", length_m - 1.0 - braking_m - 10.0, 16.0));
+    const auto early = bench.add(automated("early", length_m - 1.0 - braking_m - 20.0, 16.0));
+    bench.step();
+    bench.offer(late, traffic::StopAtLine{});
+    bench.offer(early, traffic::StopAtLine{});
+    const auto stops = bench.only<traffic::StopOnLane>(bench.step());
+    ASSERT_EQ(stops.size(), 1U);
+    EXPECT_EQ(stops[0].vehicle, early) << "16 m pass before the other one brakes";
+}
+
 TEST(StopAtLineLease, of_a_vehicle_that_pulls_aside_waits_until_it_is_back) {
     ActuationBench bench;
     const auto vehicle = bench.add(automated("a", 300.0, 16.0));

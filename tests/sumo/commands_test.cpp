@@ -164,6 +164,40 @@ TEST(Commands, StopThatIsResumedBeforeItIsReachedNeverHappens) {
     EXPECT_GT(session.snapshot().x_m[0], 600.0F) << "on the next edge";
 }
 
+/// A vehicle that stops by itself at 100 m for 20 s.
+std::string vehicle_with_a_stop() {
+    return R"(<vehicle id="a" type="hv" depart="0" departSpeed="10" departLane="0"><route edges="in out"/>)"
+           R"(<stop lane="in_0" endPos="100" duration="20"/></vehicle>)";
+}
+
+TEST(Commands, AStopOfItsOwnIsKeptAndOursIsCancelled) {
+    const Scene scene;
+    Session session(scene.config(scene.straight_road(), vehicle_with_a_stop()));
+    session.step();
+    apply(session, traffic::StopOnLane{key("a"), core::Metres(300.0), core::Seconds(500.0)});
+    step_until(session, 20.0);
+    EXPECT_NEAR(place(session, "a"), 100.0F, 1.0F) << "at its own";
+    EXPECT_TRUE(session.snapshot().commanded_stops.empty()) << "nobody commanded that";
+    apply(session, traffic::ResumeFromStop{key("a")});
+    step_until(session, 22.0);
+    EXPECT_EQ(speed(session, "a"), 0.0F);
+    step_until(session, 70.0);
+    EXPECT_GT(session.snapshot().x_m[0], 350.0F) << "it drove on past ours";
+}
+
+TEST(Commands, OurStopAfterAStopOfItsOwnIsMadeAndEnds) {
+    const Scene scene;
+    Session session(scene.config(scene.straight_road(), vehicle_with_a_stop()));
+    session.step();
+    apply(session, traffic::StopOnLane{key("a"), core::Metres(300.0), core::Seconds(500.0)});
+    step_until(session, 70.0);
+    EXPECT_NEAR(place(session, "a"), 300.0F, 1.0F);
+    EXPECT_EQ(session.snapshot().commanded_stops, std::vector{key("a")});
+    apply(session, traffic::ResumeFromStop{key("a")});
+    step_until(session, 80.0);
+    EXPECT_GT(place(session, "a"), 320.0F);
+}
+
 TEST(Commands, StopTooNearIsMadeAsSoonAsBrakingAllows) {
     for (const double step_s : {0.1, 0.25, 1.0}) {
         const Scene scene;

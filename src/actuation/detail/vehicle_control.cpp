@@ -27,6 +27,12 @@ bool is_best_or_long(const truth::LaneOutlook& outlook) {
     return outlook.best_offset == 0 || outlook.drivable_m > roads::worth_following.value;
 }
 
+/// Way to a stop with the usual deceleration that begins in the next step, m.
+double braking_m(const VehicleContext& around, core::VehicleIndex row, const traffic::VehicleInfo& info) {
+    const double speed_mps = around.snapshot.speed_mps[row];
+    return speed_mps * speed_mps / (2.0 * info.deceleration_mps2) + speed_mps * around.step.value;
+}
+
 }  // namespace
 
 bool VehicleSettings::is_default() const {
@@ -147,18 +153,24 @@ bool VehicleControl::has_left_edge(const VehicleContext& around, const Place& pl
     return held.edge != edge;
 }
 
-/// A stop at the line. One that needs more than the usual deceleration is refused.
+/// A stop at the line. One that needs more than the usual deceleration is refused, and one on a lane that the
+/// vehicle has to leave first.
 void VehicleControl::judge_line(const VehicleContext& around, const Place& place, VehicleSettings& settings,
-                                HeldLease& held, Ledger& ledger) {
+                                HeldLease& held, Ledger& ledger) const {
     const core::LaneIndex index = around.snapshot.lane[place.row];
     const roads::Lane& lane = around.network.lane(index);
     if (around.network.edge(lane.edge).internal) return LeaseQueue::refuse(held, "on_a_junction", ledger);
-    const double room = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
-    const double now_mps = around.snapshot.speed_mps[place.row];
-    const bool fits =
-        now_mps <= speed_tolerance_mps || now_mps * now_mps <= 2.0 * place.info.deceleration_mps2 * room;
-    if (held.granted_on != lane.edge && !fits)
-        return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+    if (held.granted_on != lane.edge) {
+        const double line_m = lane.length_m - stop_line_gap_m;
+        const double room_m = line_m - around.snapshot.lane_position_m[place.row];
+        if (line_m < 0.0 || braking_m(around, place.row, place.info) > std::max(0.0, room_m))
+            return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+        const auto outlook = around.self.lane_outlook(vehicle_);
+        if (!outlook || lane.number >= outlook->size())
+            return LeaseQueue::refuse(held, "vehicle_does_not_answer", ledger);
+        if (!is_best_or_long((*outlook)[lane.number]))
+            return LeaseQueue::refuse(held, "lane_does_not_continue", ledger);
+    }
     held.granted_on = lane.edge;
     settings.line = LineStop{index, lane.length_m - stop_line_gap_m};
     LeaseQueue::act(held, ledger);
@@ -193,13 +205,10 @@ void VehicleControl::judge_aside(const VehicleContext& around, const Place& plac
         return LeaseQueue::act(held, ledger);
     }
     const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
-    const double speed_mps = around.snapshot.speed_mps[place.row];
     const double room_m = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
-    const double braking_m =
-        speed_mps * speed_mps / (2.0 * place.info.deceleration_mps2) + speed_mps * around.step.value;
     if (!applied_.beside_road && around.network.edge(lane.edge).internal)
         return LeaseQueue::refuse(held, "on_a_junction", ledger);
-    if (!applied_.beside_road && braking_m > room_m)
+    if (!applied_.beside_road && braking_m(around, place.row, place.info) > room_m)
         return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
     settings.beside_road = true;
     LeaseQueue::act(held, ledger);

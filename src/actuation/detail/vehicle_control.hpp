@@ -85,8 +85,8 @@ class VehicleControl {
     void judge_speed(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                      Ledger& ledger);
     static bool has_left_edge(const VehicleContext& around, const Place& place, HeldLease& held);
-    static void judge_line(const VehicleContext& around, const Place& place, VehicleSettings& settings,
-                           HeldLease& held, Ledger& ledger);
+    void judge_line(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                    HeldLease& held, Ledger& ledger) const;
     void judge_lateral(const VehicleContext& around, const Place& place, VehicleSettings& settings,
                        Ledger& ledger);
     void judge_aside(const VehicleContext& around, const Place& place, VehicleSettings& settings,

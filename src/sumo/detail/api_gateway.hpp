@@ -291,11 +291,12 @@ class ApiGateway : public Sumo {
         return call([&] { return (api::Vehicle::getStopState(vehicle) & stopped_flag) != 0; });
     }
 
-    std::optional<std::pair<std::string, double>> next_stop(const std::string& vehicle) override {
-        return call([&]() -> std::optional<std::pair<std::string, double>> {
-            const auto stops = api::Vehicle::getStops(vehicle, 1);
-            if (stops.empty()) return std::nullopt;
-            return std::pair{stops.front().lane, stops.front().endPos};
+    std::vector<StopPoint> stops(const std::string& vehicle) override {
+        return call([&] {
+            std::vector<StopPoint> points;
+            for (const auto& stop : api::Vehicle::getStops(vehicle))
+                points.emplace_back(stop.lane, stop.endPos);
+            return points;
         });
     }
 
@@ -303,8 +304,8 @@ class ApiGateway : public Sumo {
         call([&] { api::Vehicle::resume(vehicle); });
     }
 
-    void cancel_next_stop(const std::string& vehicle) override {
-        call([&] { api::Vehicle::replaceStop(vehicle, 0, ""); });
+    void cancel_stop(const std::string& vehicle, int number) override {
+        call([&] { api::Vehicle::replaceStop(vehicle, number, ""); });
         // Without this SUMO goes on with lanes that end at the stop, and the vehicle stands there until it is
         // teleported.
         call([&] { api::Vehicle::updateBestLanes(vehicle); });

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,6 +20,8 @@ constexpr int lane_change_strategic_only = 1537;
 constexpr int lane_change_none = 1536;
 constexpr int mode_without_checks = 0;
 constexpr double released_speed = -1.0;
+/// A stop nearer than this to the place that was asked for is that one, m.
+constexpr double same_place_m = 0.01;
 constexpr std::string_view signal_letters = "GgyruosO";
 
 void require(bool holds, const std::string& otherwise) {
@@ -172,19 +176,24 @@ void Commander::run(const traffic::StopOnLane& command) {
                              .position_m = position_m,
                              .duration_s = command.duration.value,
                              .place = command.place});
-    vehicle->controls.own_stop = sumo_.next_stop(vehicle->id);
+    // SUMO sorts stops along the route, and the vehicle may have others.
+    for (const gateway::StopPoint& stop : sumo_.stops(vehicle->id))
+        if (stop.first == vehicle->lane_id && std::abs(stop.second - position_m) < same_place_m)
+            vehicle->controls.own_stop = stop;
+    if (!vehicle->controls.own_stop) ++refused_;
 }
 
 void Commander::run(const traffic::ResumeFromStop& command) {
     Vehicle* vehicle = present(command.vehicle);  // one beside the road is not on it
     if (vehicle == nullptr || !vehicle->controls.own_stop) return;
-    const bool is_ours = sumo_.next_stop(vehicle->id) == vehicle->controls.own_stop;
-    vehicle->controls.own_stop.reset();
-    if (!is_ours) return;
-    if (sumo_.is_stopped(vehicle->id))
+    const gateway::StopPoint own = *std::exchange(vehicle->controls.own_stop, std::nullopt);
+    const std::vector<gateway::StopPoint> stops = sumo_.stops(vehicle->id);
+    const auto found = std::ranges::find(stops, own);
+    if (found == stops.end()) return;
+    if (found == stops.begin() && sumo_.is_stopped(vehicle->id))
         sumo_.resume(vehicle->id);
     else
-        sumo_.cancel_next_stop(vehicle->id);
+        sumo_.cancel_stop(vehicle->id, static_cast<int>(found - stops.begin()));
 }
 
 const std::string& Commander::signal_name(core::SignalIndex signal) const {

@@ -64,6 +64,9 @@ struct Insertion {
     std::string depart_speed;
 };
 
+/// Where a stop is: its lane and the end position on it, m.
+using StopPoint = std::pair<std::string, double>;
+
 struct Stop {
     std::string edge;
     int lane_number = 0;
@@ -147,10 +150,11 @@ class Sumo {
     virtual void change_sublane(const std::string& vehicle, double shift_m) = 0;
     virtual void stop(const std::string& vehicle, const Stop& stop) = 0;
     virtual bool is_stopped(const std::string& vehicle) = 0;
-    /// Lane and end position of the next planned or running stop.
-    virtual std::optional<std::pair<std::string, double>> next_stop(const std::string& vehicle) = 0;
+    /// Planned stops and the running one, in the order of the route.
+    virtual std::vector<StopPoint> stops(const std::string& vehicle) = 0;
     virtual void resume(const std::string& vehicle) = 0;
-    virtual void cancel_next_stop(const std::string& vehicle) = 0;
+    /// By its number in `stops`, not for the one at which it stands.
+    virtual void cancel_stop(const std::string& vehicle, int number) = 0;
 
     // --- Signals ---
     virtual std::string signal_state(const std::string& signal) = 0;

@@ -209,12 +209,15 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
 
 void Observer::list_commanded_stops(truth::Snapshot& snapshot) {
     snapshot.commanded_stops.clear();
+    const auto stands_at_own = [&](const Vehicle& vehicle) {
+        if (!vehicle.controls.own_stop || !sumo_.is_stopped(vehicle.id)) return false;
+        return sumo_.stops(vehicle.id).front() == *vehicle.controls.own_stop;
+    };
     for (const Vehicle* vehicle : fleet_.rows())
-        if (vehicle->controls.own_stop && sumo_.is_stopped(vehicle->id))
-            snapshot.commanded_stops.push_back(vehicle->key);
+        if (stands_at_own(*vehicle)) snapshot.commanded_stops.push_back(vehicle->key);
     for (const auto& [key, parked] : parked_) {
         const Vehicle* const vehicle = fleet_.find(key);
-        if (vehicle != nullptr && vehicle->controls.own_stop) snapshot.commanded_stops.push_back(key);
+        if (vehicle != nullptr && stands_at_own(*vehicle)) snapshot.commanded_stops.push_back(key);
     }
 }
 
