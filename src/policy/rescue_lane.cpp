@@ -36,16 +36,16 @@ class Rescue {
           place_(place),
           write_(write),
           audience_(view.belief(), emergency.key, config) {
-        for (const VehicleAhead& other : view.vehicles_ahead(emergency, core::Metres(config.horizon_m))) {
-            const bool is_slow = other.vehicle->state.speed_mps < config.slow_mps;
-            if (is_slow && !view.network().edge(*view.edge_of(*other.vehicle)).internal)
-                ahead_.push_back(other);
-        }
+        std::vector<VehicleAhead> behind = view.vehicles_behind(emergency, core::Metres(config.behind_m));
+        std::ranges::reverse(behind);
+        take(behind);
+        take(view.vehicles_ahead(emergency, core::Metres(config.horizon_m)));
     }
 
     void open() {
+        if (!is_needed()) return;
         choose_place();
-        for (const VehicleAhead& other : ahead_) {
+        for (const VehicleAhead& other : around_) {
             const auto from_left = lanes_from_left(*other.vehicle);
             if (!from_left || !audience_.has(*other.vehicle)) continue;
             const traffic::Side side = *from_left <= place_ ? traffic::Side::left : traffic::Side::right;
@@ -55,6 +55,20 @@ class Rescue {
     }
 
   private:
+    void take(const std::vector<VehicleAhead>& others) {
+        std::ranges::copy_if(others, std::back_inserter(around_), [&](const VehicleAhead& other) {
+            return !view_.network().edge(*view_.edge_of(*other.vehicle)).internal;
+        });
+    }
+
+    /// Whether there is slow traffic ahead. Who still drives fast there is asked, too: it would take the
+    /// rescue lane to pass the others.
+    bool is_needed() const {
+        return std::ranges::any_of(around_, [&](const VehicleAhead& other) {
+            return other.distance_m >= 0.0 && other.vehicle->state.speed_mps < config_.slow_mps;
+        });
+    }
+
     /// How many lanes are left of the vehicle's; nothing where there is only one lane.
     std::optional<std::uint32_t> lanes_from_left(const traffic::BelievedVehicle& vehicle) const {
         const std::vector<std::uint32_t> numbers = driven_lanes(view_.network(), *view_.edge_of(vehicle));
@@ -65,9 +79,9 @@ class Rescue {
 
     /// Vehicles that are not asked in the two lanes beside a place.
     double strangers_beside(std::uint32_t place) const {
-        return static_cast<double>(std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
+        return static_cast<double>(std::ranges::count_if(around_, [&](const VehicleAhead& other) {
             const auto from_left = lanes_from_left(*other.vehicle);
-            return from_left && !audience_.has(*other.vehicle) &&
+            return other.distance_m >= 0.0 && from_left && !audience_.has(*other.vehicle) &&
                    (*from_left == place || *from_left == place + 1);
         }));
     }
@@ -107,26 +121,34 @@ class Rescue {
         return road_m - reach_m(left) - reach_m(right) >= info_of(emergency_).width_m + config_.room_m;
     }
 
-    /// Whether less than `apart_m` lies between the two along the road.
+    /// Whether less than `apart_m` lies between the two along the road; while the emergency vehicle is beside
+    /// the rear one or just ahead of it, its own length more, so that it can steer.
     bool are_abreast(const VehicleAhead& rear, const VehicleAhead& front) const {
-        return front.distance_m - info_of(*front.vehicle).length_m - rear.distance_m < config_.apart_m;
+        const double between_m = front.distance_m - info_of(*front.vehicle).length_m - rear.distance_m;
+        const double own_m = rear.distance_m < 0.0 ? info_of(emergency_).length_m : 0.0;
+        return between_m < config_.apart_m + own_m;
     }
 
     /// The nearest two that block the rescue lane: the rear one slows down, or the front one, or who drives
     /// ahead of them.
     void move_apart() {
-        for (const VehicleAhead& left : ahead_) {
+        for (const VehicleAhead& left : around_) {
             if (left.distance_m > config_.stagger_m) return;
             if (lanes_from_left(*left.vehicle) != place_) continue;
-            for (const VehicleAhead& right : ahead_) {
+            for (const VehicleAhead& right : around_) {
                 if (lanes_from_left(*right.vehicle) != place_ + 1 || leave_room(left, right)) continue;
                 const bool left_is_rear = left.distance_m < right.distance_m;
                 const VehicleAhead& rear = left_is_rear ? left : right;
                 const VehicleAhead& front = left_is_rear ? right : left;
-                if (!are_abreast(rear, front)) continue;
+                if (is_passed(front) || !are_abreast(rear, front)) continue;
                 if (slow_down(rear) || slow_down(front) || slow_leader(rear) || slow_leader(front)) return;
             }
         }
+    }
+
+    /// Whether the front of the emergency vehicle is beside the vehicle or ahead of it.
+    bool is_passed(const VehicleAhead& other) const {
+        return other.distance_m < info_of(*other.vehicle).length_m;
     }
 
     bool slow_down(const VehicleAhead& other) {
@@ -139,11 +161,11 @@ class Rescue {
 
     /// Asks the vehicle next ahead on the lane of `follower` to slow down, if it can be asked.
     bool slow_leader(const VehicleAhead& follower) {
-        const auto leader = std::ranges::find_if(ahead_, [&](const VehicleAhead& other) {
+        const auto leader = std::ranges::find_if(around_, [&](const VehicleAhead& other) {
             return other.distance_m > follower.distance_m &&
                    other.vehicle->state.lane == follower.vehicle->state.lane;
         });
-        return leader != ahead_.end() && slow_down(*leader);
+        return leader != around_.end() && slow_down(*leader);
     }
 
     const View& view_;
@@ -152,7 +174,7 @@ class Rescue {
     std::uint32_t& place_;
     LeaseWriter& write_;
     Audience audience_;
-    std::vector<VehicleAhead> ahead_;
+    std::vector<VehicleAhead> around_;  ///< From the rear.
 };
 
 }  // namespace

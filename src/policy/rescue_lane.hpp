@@ -12,6 +12,7 @@ namespace clearway::policy {
 /// Settings of RescueLane.
 struct RescueLaneConfig : AskSettings {
     double horizon_m = 300.0;
+    double behind_m = 50.0;
     double slow_mps = 14.0;
     double stagger_m = 60.0;
     double apart_m = 12.0;
@@ -26,14 +27,19 @@ struct RescueLaneConfig : AskSettings {
         const auto own = std::make_tuple(
             Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "The lane is opened this far ahead",
                   "as vacate_lane"},
-            Field{"slow_mps", "m/s", &C::slow_mps, 0.1, 60.0, "Where traffic is slower than this",
+            Field{"behind_m", "m", &C::behind_m, 0.0, 200.0,
+                  "Vehicles whose fronts are up to this far behind the emergency vehicle's are asked, too",
+                  "assumed: its own length, a truck that catches up beside it, and as much again"},
+            Field{"slow_mps", "m/s", &C::slow_mps, 0.1, 60.0,
+                  "Where somebody ahead is slower than this, all are asked",
                   "50 km/h, assumed: faster traffic leaves a lane instead"},
             Field{"stagger_m", "m", &C::stagger_m, 0.0, 500.0,
                   "Two abreast between which the emergency vehicle does not fit are moved apart within this "
                   "distance; 0: never",
                   "assumed: it takes ten seconds"},
             Field{"apart_m", "m", &C::apart_m, 0.0, 50.0,
-                  "They are apart when there is this much between them along the road",
+                  "They are apart when there is this much between them along the road; with the emergency "
+                  "vehicle beside the rear one, its own length more",
                   "assumed: an ambulance of 6.5 m that steers round one after the other"},
             Field{"stagger_share", "1", &C::stagger_share, 0.0, 1.0,
                   "One of them, or else who drives ahead of one, then drives at this share of its speed",
@@ -51,10 +57,12 @@ struct RescueLaneConfig : AskSettings {
     }
 };
 
-/// In slow traffic on several lanes the vehicles of the leftmost lanes keep to the left edge of their lanes
-/// and the others to the right edge, so that the emergency vehicle can drive between them
+/// Before slow traffic on several lanes the vehicles of the leftmost lanes keep to the left edge of their
+/// lanes and the others to the right edge, so that the emergency vehicle can drive between them
 /// (privilege.between_lanes). It lies between the two leftmost lanes, or where fewer vehicles that are not
-/// asked stand beside it. Two abreast that leave too little room, such as two trucks or two that are not
+/// asked stand beside it. Who is beside the emergency vehicle or shortly behind it keeps to its edge too, or
+/// it would hold the vehicle where it is; so does who still drives fast towards the slow ones, or it would
+/// drive on between the lanes. Two abreast that leave too little room, such as two trucks or two that are not
 /// asked, would block it: one of them slows down, or else who drives ahead of one, until they are apart.
 /// Needs the sublane model.
 class RescueLane : public Policy {

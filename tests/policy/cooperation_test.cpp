@@ -186,6 +186,38 @@ TEST(RescueLane, leaves_flowing_traffic_alone) {
     EXPECT_TRUE(road.act(policy).empty());
 }
 
+TEST(RescueLane, is_formed_by_who_is_beside_the_emergency_vehicle_too_and_just_behind) {
+    StraightRoad road(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        ....a...a....
+        a....e....a..
+    )");
+    policy::RescueLane policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_EQ(road.asked<traffic::PullAside>("a1").value().side, Side::left)
+        << "its front is 5 m behind the other's: in the middle of its lane it would hold the other there";
+    EXPECT_TRUE(road.asked<traffic::PullAside>("a3")) << "25 m behind";
+    policy::RescueLaneConfig config;
+    config.behind_m = 0.0;
+    policy::RescueLane blind({road.scene.network()}, config);
+    road.act(blind);
+    EXPECT_FALSE(road.asked<traffic::PullAside>("a1"));
+    EXPECT_TRUE(road.asked<traffic::PullAside>("a2"));
+}
+
+TEST(RescueLane, is_not_for_those_who_come_fast_towards_the_jam) {
+    StraightRoad road(R"(
+        10 m per cell, limit 30 m/s, speed 2 m/s
+        .....a......a.
+        .e..........a.
+    )");
+    road.scene.set_speed("a1", core::MetresPerSecond(20.0));
+    policy::RescueLane policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_EQ(road.asked<traffic::PullAside>("a1").value().side, Side::left)
+        << "it would drive into the jam between the lanes";
+}
+
 TEST(RescueLane, lies_where_fewer_stand_who_are_not_asked) {
     StraightRoad road(R"(
         5 m per cell, limit 30 m/s, speed 2 m/s
@@ -222,6 +254,24 @@ TEST(RescueLane, moves_two_abreast_apart_who_leave_too_little_room) {
     apart.act(again);
     EXPECT_FALSE(apart.asked_speed("a1")) << "20 m lie between them";
     EXPECT_FALSE(apart.asked_speed("a2"));
+}
+
+TEST(RescueLane, keeps_one_beside_the_emergency_vehicle_back_until_that_has_room_to_steer) {
+    StraightRoad road(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        .......h..
+        ...ae.....
+    )");
+    policy::RescueLane policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_TRUE(road.asked_speed("a1")) << "who is ahead of it cannot be asked";
+    StraightRoad passed(R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        ....h......a
+        ...ae.....a.
+    )");
+    passed.act(policy);
+    EXPECT_FALSE(passed.asked_speed("a1")) << "the other is level";
 }
 
 TEST(HoldCross, stops_cross_traffic_that_has_green_and_only_shortly_before_the_arrival) {

@@ -64,6 +64,28 @@ std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& v
     return ahead;
 }
 
+std::vector<VehicleAhead> View::vehicles_behind(const traffic::BelievedVehicle& vehicle,
+                                                core::Metres reach) const {
+    std::vector<VehicleAhead> behind;
+    const roads::Route route = route_of(vehicle.key);
+    const auto near = static_cast<float>(reach.value);
+    for (const traffic::BelievedVehicle& other : belief_.vehicles) {
+        if (std::abs(other.state.x_m - vehicle.state.x_m) > near ||
+            std::abs(other.state.y_m - vehicle.state.y_m) > near)
+            continue;
+        if (other.key == vehicle.key || !other.state.lane.exists()) continue;
+        const auto passed = route.first(std::min<std::size_t>(route.size(), vehicle.state.route_edge + 1));
+        const auto edge = std::ranges::find(passed, network_.lane(other.state.lane).edge);
+        if (edge == passed.end()) continue;
+        traffic::MotionState on_route = other.state;
+        on_route.route_edge = static_cast<std::uint32_t>(std::distance(passed.begin(), edge));
+        const auto distance = roads::distance_ahead(network_, route, on_route, vehicle.state, reach);
+        if (distance && distance->value > 0.0) behind.push_back({&other, -distance->value});
+    }
+    std::ranges::stable_sort(behind, std::ranges::greater{}, &VehicleAhead::distance_m);
+    return behind;
+}
+
 bool View::may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const {
     if (!is_on_route(vehicle)) return false;
     const core::EdgeIndex edge_index = network_.lane(vehicle.state.lane).edge;

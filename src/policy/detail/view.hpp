@@ -18,7 +18,7 @@ namespace clearway::policy::detail {
 /// A vehicle believed ahead of another on its route.
 struct VehicleAhead {
     const traffic::BelievedVehicle* vehicle = nullptr;
-    double distance_m = 0.0;  ///< Front to front, along the route.
+    double distance_m = 0.0;  ///< Front to front, along the route; negative for one behind.
 };
 
 /// Questions that several policies ask of a belief. Refers to the belief and the network; use it within one
@@ -50,6 +50,12 @@ class View {
     /// Vehicles believed ahead on the route of `vehicle`, nearest first, itself left out.
     std::vector<VehicleAhead> vehicles_ahead(const traffic::BelievedVehicle& vehicle,
                                              core::Metres horizon) const;
+
+    /// Vehicles believed behind on the edges of the route that `vehicle` has passed, whose fronts are up to
+    /// `reach` behind its own, nearest first; one beside it whose front is level or further ahead is left
+    /// out.
+    std::vector<VehicleAhead> vehicles_behind(const traffic::BelievedVehicle& vehicle,
+                                              core::Metres reach) const;
 
     /// Whether a place lies ahead on the route of `vehicle`, within `horizon`.
     bool is_ahead(const traffic::BelievedVehicle& vehicle, const traffic::MotionState& place,
