@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/units.hpp"
+#include "scenario/detail/network_sources.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/preemption.hpp"
 
@@ -18,7 +19,6 @@ namespace clearway::scenario {
 namespace {
 
 constexpr const char* network_name = "network.net.xml";
-constexpr int shown_log_lines = 8;
 
 /// The key that messages about the network's sources point to.
 std::string source_place(const ScenarioConfig& config) {
@@ -37,12 +37,9 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
     if (exit.code == not_found)
         throw core::EnvironmentError("netconvert does not start. Install the package sumo");
     if (!exit.ok())
-        throw core::InputError(core::Problem{
-            source_place(config),
-            fmt::format("netconvert refuses this network ({}):\n{}", exit.describe(),
-                        core::tail(command.output, shown_log_lines)),
-            "",
-            fmt::format("correct the file that it names; the whole log is in {}", command.output.string())});
+        throw core::InputError(detail::refusal(
+            config, exit.describe(),
+            detail::complaint_in(command.output, folder, resolve(config, config.network.file).string())));
 }
 
 std::vector<std::string> plain_arguments(const ScenarioConfig& config) {
@@ -79,7 +76,7 @@ void restrict_network(const ScenarioConfig& config, const std::filesystem::path&
     const std::filesystem::path kept = folder / "kept_edges.txt";
     const std::filesystem::path whole = folder / "whole.net.xml";
     std::filesystem::rename(raw, whole);
-    core::write_atomically(kept, kept_edges(config, roads::Network::read(whole)));
+    core::write_atomically(kept, kept_edges(config, detail::read_made(config, whole)));
     run_netconvert(config,
                    {"--sumo-net-file", whole.string(), "--keep-edges.input-file", kept.string(),
                     "--output-file", raw.string()},
@@ -134,6 +131,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
     const std::filesystem::path raw = folder / "raw.net.xml";
     const bool is_taken_whole = !config.network.plain() && config.network.restrict == Restriction::none;
     if (config.network.plain()) {
+        detail::check_signal_programs(config);
         std::vector<std::string> arguments = plain_arguments(config);
         arguments.insert(arguments.end(), {"--output-file", raw.string()});
         run_netconvert(config, arguments, folder);
@@ -145,6 +143,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
     // Large networks are parsed once where that is enough.
     NetworkDocument document(is_taken_whole ? resolve(config, config.network.file) : raw);
     if (is_taken_whole) document.without_newer_classes();
+    document.name_controllers();
     if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
     if (config.road.changes_limits()) slow_down(config, document);
     core::write_atomically(folder / network_name, document.text());
@@ -154,7 +153,8 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
 
 BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / network_name;
-    BuiltNetwork built{file, roads::Network::read(file, additional_files(config)), hash_of_inputs(config)};
+    BuiltNetwork built{file, detail::read_made(config, file, additional_files(config)),
+                       hash_of_inputs(config)};
     if (config.network.preemption.empty()) return built;
     const std::filesystem::path parameters = resolve(config, config.network.preemption);
     std::vector<core::Problem> problems;

@@ -141,6 +141,11 @@ std::string NetworkDocument::attribute(const char* name) const {
     return document_.document_element().attribute(name).value();
 }
 
+void NetworkDocument::name_controllers() {
+    for (pugi::xml_node program : document_.document_element().children("tlLogic"))
+        if (!program.attribute("type")) program.append_attribute("type").set_value("static");
+}
+
 void NetworkDocument::limit_speed(core::MetresPerSecond limit) {
     walk(document_, [&](pugi::xml_node node) {
         if (std::string_view(node.name()) != "lane") return;

@@ -34,6 +34,9 @@ class NetworkDocument {
     bool has_edges() const;
     /// Attribute of the root element, such as `version`; empty if there is none.
     std::string attribute(const char* name) const;
+    /// Gives signal programs without `type` the one that netconvert and this project assume, `static`:
+    /// SUMO 1.15 does not know their signals.
+    void name_controllers();
     /// Lowers the speed limit of each faster lane to `limit`.
     void limit_speed(core::MetresPerSecond limit);
     /// Ids of the edges outside junctions.

@@ -1,8 +1,10 @@
 // The signals of a scenario, and their preemption parameters.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <regex>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -93,14 +95,32 @@ TEST_F(SignalsTest, with_parameters_for_one_that_does_not_exist_are_refused_befo
     EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "manifest.json"));
 }
 
-TEST_F(SignalsTest, under_a_controller_that_sumo_does_not_know_are_refused) {
+TEST_F(SignalsTest, under_a_controller_that_sumo_does_not_know_are_refused_in_the_file_of_the_user) {
+    const std::string network = read("crossings/net.net.xml");
+    const std::size_t at = network.find("type=\"static\"");
+    const auto line =
+        1 + std::count(network.begin(), network.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    write("crossings/net.net.xml", std::string(network).replace(at, 13, "type=\"actuatd\""));
+    const std::string place =
+        fmt::format("./crossings/net.net.xml:{}: type=\"actuatd\" of signal \"A\"", line);
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"signals", "./crossings"},
+                                                  {"run", "./crossings", "--seeds", "1", "--out", "out"},
+                                                  {"check", "./crossings"}}) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3);
+        EXPECT_THAT(ended.err, AllOf(HasSubstr(place), HasSubstr("Did you mean 'actuated'?"),
+                                     Not(HasSubstr("network.net.xml"))))
+            << words.front();
+    }
+}
+
+TEST_F(SignalsTest, whose_programs_have_no_type_are_run_as_fixed_time_ones) {
     std::string network = read("crossings/net.net.xml");
-    network.replace(network.find("type=\"static\""), 13, "type=\"actuatd\"");
+    network.erase(network.find("type=\"static\""), 13);
     write("crossings/net.net.xml", network);
-    const Ended ended = clearway({"signals", "./crossings"});
-    EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr(".net.xml:"), HasSubstr("type=\"actuatd\" of signal \"A\""),
-                                 HasSubstr("Did you mean 'actuated'?")));
+    const Ended run =
+        clearway({"run", "./crossings", "--policy", "none", "--seeds", "1", "--no-solo", "--out", "out"});
+    EXPECT_EQ(run.code, 0) << run.err;
 }
 
 }  // namespace

@@ -252,17 +252,47 @@ TEST_F(NetworkTest, KnowsTheControllersOfSumoAndRefusesOthersWithTheNearest) {
         return network.signals()[0].controller;
     };
     EXPECT_EQ(Network::read(file).signals()[0].controller, "static");
-    for (const char* type : {"actuated", "delay_based", "NEMA", "sotl_phase"})
+    for (const char* type : {"actuated", "delay_based", "NEMA"})
         EXPECT_EQ(controller_of(type), type);
     try {
         controller_of("actuatd");
         FAIL() << "no InputError";
     } catch (const core::InputError& error) {
-        EXPECT_THAT(
-            core::format_problem(error.problems().front()),
-            AllOf(HasSubstr("tls.add.xml:2"), HasSubstr("type=\"actuatd\" of signal \"J\""),
-                  HasSubstr("static, actuated, delay_based, NEMA"), HasSubstr("Did you mean 'actuated'?")));
+        EXPECT_THAT(core::format_problem(error.problems().front()),
+                    AllOf(HasSubstr("tls.add.xml:2"), HasSubstr("type=\"actuatd\" of signal \"J\""),
+                          HasSubstr("static, actuated, delay_based, NEMA, sotl_phase"),
+                          HasSubstr("Did you mean 'actuated'?")));
     }
+}
+
+TEST_F(NetworkTest, RefusesControllersThatSumoReadsButCannotRun) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto read_with = [&](const std::string& type, const std::string& phase) {
+        const auto programs =
+            folder_.write("tls.add.xml", "<additional>\n    <tlLogic id=\"J\" " + type + R"( programID="p">
+    <phase duration="9" )" + phase + R"(state="GGrr"/></tlLogic></additional>)");
+        return Network::read(file, {programs}).signals()[0].controller;
+    };
+    const auto refusal = [&](const std::string& type, const std::string& phase = "") -> std::string {
+        try {
+            read_with(type, phase);
+            return "";
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+    };
+    EXPECT_EQ(read_with(R"(type="sotl_platoon")", R"(type="target" targetLanes="west_0" )"), "sotl_platoon");
+    EXPECT_THAT(refusal(R"(type="sotl_platoon")"),
+                AllOf(HasSubstr("tls.add.xml:2: type=\"sotl_platoon\" of signal \"J\" has no phase with"),
+                      HasSubstr("write type=\"static\"")));
+    EXPECT_THAT(refusal(R"(type="sotl_platoon")", R"(type="target" )"), HasSubstr("targetLanes"));
+    EXPECT_THAT(refusal(R"(type="off")"),
+                AllOf(HasSubstr("tls.add.xml:2: type=\"off\" of signal \"J\" cannot be"),
+                      HasSubstr("--tls.unset J")));
+    EXPECT_THAT(refusal(""),
+                AllOf(HasSubstr("tls.add.xml:2: a program of signal \"J\" lacks the attribute type"),
+                      HasSubstr("Write type=\"static\"")))
+        << "SUMO takes it for another offset of a known program";
 }
 
 TEST_F(NetworkTest, TakesAProgramWithIdleLettersAsSumoDoes) {

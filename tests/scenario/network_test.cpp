@@ -8,11 +8,13 @@
 
 #include "core/files.hpp"
 #include "roads/crossings.hpp"
+#include "scenario/detail/library.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -274,6 +276,52 @@ TEST_F(BuiltNetworks, missing_netconvert_is_said_so) {
 TEST_F(BuiltNetworks, a_folder_that_cannot_be_made_is_an_environment_error) {
     write("blocked", "a file where a folder should be");
     EXPECT_THROW(build_network(load("merge"), folder() / "blocked" / "net"), core::EnvironmentError);
+}
+
+/// A copy of the intersection, which is made of plain XML, to be damaged.
+class PlainNetworks : public BuiltNetworks {
+  protected:
+    void SetUp() override {
+        const std::filesystem::path file = detail::scenario_file("intersection");
+        std::filesystem::copy(file.parent_path(), folder() / "mine");
+    }
+    std::string refusal_of(const std::string& name, const std::string& old, const std::string& now) const {
+        const std::filesystem::path file = folder() / "mine" / name;
+        const std::string text = core::read_file(file);
+        core::write_atomically(file, std::string(text).replace(text.find(old), old.size(), now));
+        std::string refusal;
+        try {
+            build_network(load((folder() / "mine").string()), folder() / "built");
+        } catch (const core::InputError& error) {
+            refusal = error.what();
+        }
+        core::write_atomically(file, text);
+        EXPECT_THAT(refusal, Not(HasSubstr((folder() / "built").string()))) << "which does not stay";
+        return refusal;
+    }
+};
+
+TEST_F(PlainNetworks, with_programs_that_sumo_cannot_run_are_refused_with_file_and_line) {
+    const std::string name = "intersection.tll.xml";
+    const std::string place = (folder() / "mine" / name).string() + ":4: ";
+    EXPECT_THAT(refusal_of(name, "static", "fancy"),
+                AllOf(HasSubstr(place + "type=\"fancy\" of signal \"center\""),
+                      HasSubstr("allowed: static, actuated, delay_based, NEMA, ")));
+    EXPECT_THAT(refusal_of(name, "static", "sotl_wave"),
+                AllOf(HasSubstr(place + "type=\"sotl_wave\""), HasSubstr("netconvert does not keep"),
+                      HasSubstr("allowed: static, actuated, delay_based, NEMA, railCrossing)")));
+    EXPECT_THAT(refusal_of(name, "static", "off"), HasSubstr(place + "type=\"off\""));
+    EXPECT_EQ(refusal_of(name, " type=\"static\"", ""), "") << "netconvert makes it static";
+}
+
+TEST_F(PlainNetworks, that_netconvert_refuses_are_told_with_its_words_and_the_key_at_fault) {
+    EXPECT_THAT(refusal_of("intersection.tll.xml", "GGGgrrrr", "GGG"),
+                AllOf(HasSubstr("scenario.toml:10:1: network.signals: netconvert refuses this network"),
+                      HasSubstr("state length of"), HasSubstr("Correct"), HasSubstr("intersection.tll.xml"),
+                      Not(HasSubstr("Quitting")), Not(HasSubstr("Warning"))));
+    EXPECT_THAT(refusal_of("intersection.edg.xml", "<edge ", "<edge <"),
+                AllOf(HasSubstr("network.edges: "), HasSubstr("intersection.edg.xml")));
+    EXPECT_THAT(refusal_of("intersection.nod.xml", "id=\"center\"", ""), HasSubstr("network.nodes: "));
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "roads/detail/network_builder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "roads/controllers.hpp"
 #include "roads/detail/numbers.hpp"
 #include "roads/detail/permissions.hpp"
 
@@ -15,17 +15,6 @@ namespace {
 
 constexpr std::size_t most_problems = 20;
 constexpr double any = std::numeric_limits<double>::max();
-
-/// What runs a program: SUMO 1.15, SUMOXMLDefinitions. The last ones are experiments of SUMO, or railways.
-constexpr std::array<std::string_view, 16> controllers = {
-    "static",       "actuated",     "delay_based", "NEMA",          "off",   "sotl_phase",
-    "sotl_platoon", "sotl_request", "sotl_wave",   "sotl_marching", "swarm", "deterministic",
-    "railSignal",   "railCrossing", "rail_signal", "rail_crossing"};
-
-std::string nearest_controller(const std::string& word) {
-    const std::string near = core::nearest(word, {controllers.begin(), controllers.end()});
-    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
-}
 
 bool is_inside_junction(std::string_view function) {
     return function == "internal" || function == "crossing" || function == "walkingarea";
@@ -95,8 +84,11 @@ void NetworkBuilder::end(std::string_view) {
 }
 
 void NetworkBuilder::add_problem(std::string what, std::string allowed, std::string cure) {
-    problems_.push_back(
-        {fmt::format("{}:{}", file_, line_), std::move(what), std::move(allowed), std::move(cure)});
+    add_problem({fmt::format("{}:{}", file_, line_), std::move(what), std::move(allowed), std::move(cure)});
+}
+
+void NetworkBuilder::add_problem(core::Problem problem) {
+    problems_.push_back(std::move(problem));
     if (problems_.size() < most_problems) return;
     problems_.push_back({file_, "has more problems, which are not listed", "",
                          "Make the network with netconvert and do not edit it by hand"});
@@ -233,11 +225,12 @@ void NetworkBuilder::read_program(const core::XmlAttributes& attributes) {
     program_id_ = attributes.find("programID").value_or("");
     program_offset_s_.reset();
     if (attributes.find("offset")) program_offset_s_ = number_or(attributes, "offset", -any, any, 0.0);
+    has_type_ = attributes.find("type").has_value();
     controller_ = attributes.find("type").value_or("static");
     is_fixed_time_ = controller_ == "static";
-    if (std::ranges::find(controllers, controller_) == controllers.end())
-        add_problem(fmt::format("type=\"{}\" of signal \"{}\" is no controller of SUMO", controller_, id),
-                    "static, actuated, delay_based, NEMA", nearest_controller(controller_));
+    has_target_phase_ = false;
+    program_place_ = fmt::format("{}:{}", file_, line_);
+    if (auto problem = controller_problem(program_place_, id, controller_)) add_problem(std::move(*problem));
     phases_.clear();
 }
 
@@ -249,6 +242,8 @@ void NetworkBuilder::read_phase(const core::XmlAttributes& attributes) {
         read.red_s = number_or(attributes, "red", 0, any, 0.0);
     }
     read.name = attributes.find("name").value_or("");
+    has_target_phase_ = has_target_phase_ || is_target_phase(attributes.find("type").value_or(""),
+                                                             attributes.find("targetLanes").value_or(""));
     phases_.push_back(std::move(read));
     const Phase& phase = phases_.back();
     if (phase.state.size() != phases_.front().state.size()) {
@@ -268,6 +263,16 @@ std::size_t NetworkBuilder::letters_in_use(const Signal& signal) const {
     return letters;
 }
 
+/// SUMO takes a program of an additional file without `type` for another offset of a known program.
+void NetworkBuilder::check_controller(const std::string& signal) {
+    if (in_additional_ && !has_type_)
+        add_problem({program_place_,
+                     fmt::format("a program of signal \"{}\" lacks the attribute type", signal),
+                     core::listed(controllers()), "Write type=\"static\" for fixed times"});
+    if (needs_target_phase(controller_) && !has_target_phase_)
+        add_problem(target_phase_problem(program_place_, signal, controller_));
+}
+
 void NetworkBuilder::end_program() {
     in_program_ = false;
     Signal& signal = *program_signal_;
@@ -279,6 +284,7 @@ void NetworkBuilder::end_program() {
         add_problem(fmt::format("signal \"{}\" has a program without phases", signal.id));
         return;
     }
+    check_controller(signal.id);
     const std::size_t letters = phases_.front().state.size();
     const std::size_t in_use = in_additional_ ? letters_in_use(signal) : 0;
     if (letters < in_use) {

@@ -44,6 +44,7 @@ class NetworkBuilder : public core::XmlHandler {
 
     bool is_known_program(std::string_view element, const core::XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
+    void add_problem(core::Problem problem);
     /// A required number; reports a missing, malformed or out-of-range one and returns 0.
     double number(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum);
     double number_or(const core::XmlAttributes& attributes, const char* name, double minimum, double maximum,
@@ -57,6 +58,7 @@ class NetworkBuilder : public core::XmlHandler {
     void end_edge();
     void read_program(const core::XmlAttributes& attributes);
     void read_phase(const core::XmlAttributes& attributes);
+    void check_controller(const std::string& signal);
     void end_program();
     std::size_t letters_in_use(const Signal& signal) const;
     void read_junction(const core::XmlAttributes& attributes);
@@ -91,7 +93,10 @@ class NetworkBuilder : public core::XmlHandler {
     Signal* program_signal_ = nullptr;
     std::string program_id_;
     std::optional<double> program_offset_s_;
+    std::string program_place_;  ///< File and line.
     std::string controller_;
+    bool has_type_ = false;
+    bool has_target_phase_ = false;
     bool is_fixed_time_ = false;
     std::vector<Phase> phases_;
     std::vector<Junction> junctions_;
