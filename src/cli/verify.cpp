@@ -118,6 +118,11 @@ Chosen chosen_runs(const Arguments& arguments) {
     if (is_folder && !wants_many)
         throw core::InputError({"RUN", fmt::format("{} is a whole run folder", arguments.what),
                                 results::run_name_form, "Name one of its runs, or add --all or --sample N"});
+    if (arguments.signals && !is_folder && !results::names_a_run(arguments.what))
+        throw core::InputError(
+            {"RUN|DIR", fmt::format("{} is not a run folder", arguments.what),
+             fmt::format("a folder written with --out, or one run of it, {}", results::run_name_form),
+             "It holds a manifest.json"});
     if (!wants_many) return chosen_run(arguments.what);
     if (!is_folder)
         throw core::InputError({"RUN", fmt::format("{} is not a run folder", arguments.what),
@@ -329,6 +334,8 @@ core::ExitCode audit(const Arguments& arguments) {
         });
     if (is_interrupted(ended)) return ended;
     print_audit(report, arguments.printing);
+    if (nothing_audited(report))
+        throw core::Error(core::ExitCode::incomplete, nothing_audited_text(report, arguments.what));
     return code_of(report);
 }
 
@@ -375,7 +382,8 @@ Action configure_verify(CLI::App& app) {
         "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
         "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
         "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.\n\n"
-        "With --signals nothing is repeated that kept an event log, and exit code 1 tells findings.");
+        "With --signals nothing is repeated that kept an event log; exit code 1 tells findings, and 5 also\n"
+        "that there was nothing to audit.");
     return [arguments](const Invocation&) { return verify_runs(*arguments); };
 }
 

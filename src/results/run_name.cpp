@@ -72,6 +72,11 @@ std::string run_name(const fs::path& folder, const experiment::RunKey& key) {
     return (folder / experiment::to_text(key)).lexically_normal().string();
 }
 
+bool names_a_run(const std::string& text) {
+    const std::optional<Parts> parts = parts_of(text);
+    return parts && is_run_folder(parts->folder);
+}
+
 NamedRun run_named(const std::string& name, const std::string& where) {
     const std::optional<Parts> parts = parts_of(name);
     if (!parts || !is_run_folder(parts->folder))

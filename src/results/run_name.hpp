@@ -15,6 +15,9 @@ inline constexpr const char* run_name_form = "FOLDER/SCENARIO/CONDITION/N";
 /// `runs/mine/city/corridor/7`.
 std::string run_name(const std::filesystem::path& folder, const experiment::RunKey& key);
 
+/// Whether the text has the form of a run's name and its folder is a run folder.
+bool names_a_run(const std::string& text);
+
 /// A run of a study in its run folder; it need not be complete.
 struct NamedRun {
     Store store;

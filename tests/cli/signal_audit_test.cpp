@@ -129,11 +129,14 @@ TEST_F(SignalAuditTest, repeats_runs_that_kept_no_event_log) {
     write(run, text.erase(at, text.find('\n', at) + 1 - at));
     const Ended ended = clearway({"verify", "--signals", "out"});
     EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("1 runs audited"));
+    EXPECT_THAT(ended.out, HasSubstr("1 run audited, 1 without"));
 }
 
 TEST_F(SignalAuditTest, refuses_what_is_no_run_folder_and_a_damaged_log) {
-    EXPECT_EQ(clearway({"verify", "--signals", "nowhere"}).code, 3);
+    const Ended nowhere = clearway({"verify", "--signals", "nowhere"});
+    EXPECT_EQ(nowhere.code, 3);
+    EXPECT_THAT(nowhere.err,
+                HasSubstr("nowhere is not a run folder (allowed: a folder written with --out, or"));
     make("intersection", "out", {"--seeds", "1"});
     const std::string log = "out/runs/intersection/mine/00000/signal_events.csv";
     write(log, read(log) + "yesterday,J,1,1,0,,Phase Begin Green\n");
@@ -141,6 +144,20 @@ TEST_F(SignalAuditTest, refuses_what_is_no_run_folder_and_a_damaged_log) {
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("signal_events.csv:"), HasSubstr("\"yesterday\" is not a number"),
                                  HasSubstr("makes it again")));
+}
+
+TEST_F(SignalAuditTest, of_runs_that_show_nothing_to_audit_says_so) {
+    make("rural", "rural", {"--seeds", "1", "--density", "0.1"});
+    const Ended rural = clearway({"verify", "--signals", "rural"});
+    EXPECT_EQ(rural.code, 5) << rural.out;
+    EXPECT_THAT(rural.out, HasSubstr("0 yellows, 0 red clearances and 0 greens checked"));
+    EXPECT_THAT(rural.err, HasSubstr("rural: nothing to audit: no signal showed a whole colour"));
+    make("intersection", "out", {"--seeds", "1"});
+    const Ended baseline = clearway({"verify", "--signals", "out/intersection/baseline/0", "--json"});
+    EXPECT_EQ(baseline.code, 5);
+    EXPECT_EQ(nlohmann::json::parse(baseline.out)["audited"], 0);
+    EXPECT_THAT(baseline.err, HasSubstr("none of its complete runs asks a signal"));
+    EXPECT_EQ(clearway({"verify", "--signals", "out/intersection/mine/0"}).code, 0);
 }
 
 TEST_F(SignalAuditTest, and_the_tables_of_a_study_are_made_from_its_logs) {

@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/text.hpp"
 #include "results/run_name.hpp"
 #include "roads/program_times.hpp"
 #include "scenario/network.hpp"
 
 namespace clearway::cli {
 namespace {
+
+using report::counted;
 
 /// Findings of a run that are printed in words; --json has all.
 constexpr std::size_t shown_findings = 5;
@@ -136,11 +139,26 @@ void print_audit(const AuditReport& report, Printing printing) {
     for (const std::string& failed : report.failed)
         fmt::print("failed     {}\n", failed);
     const Totals totals = totals_of(report);
-    fmt::print(
-        "{} runs audited, {} without requests to signals: {} yellows, {} red clearances and {} greens "
-        "checked, {} too short\n",
-        report.runs.size(), report.without_requests, totals.yellows, totals.reds, totals.greens,
-        totals.findings);
+    fmt::print("{} audited, {} without requests to signals: {}, {} and {} checked, {} too short\n",
+               counted(report.runs.size(), "run"), report.without_requests, counted(totals.yellows, "yellow"),
+               counted(totals.reds, "red clearance"), counted(totals.greens, "green"), totals.findings);
+}
+
+bool nothing_audited(const AuditReport& report) {
+    const Totals totals = totals_of(report);
+    return report.failed.empty() && totals.yellows + totals.reds + totals.greens == 0;
+}
+
+std::string nothing_audited_text(const AuditReport& report, const std::string& what) {
+    if (report.runs.empty())
+        return fmt::format(
+            "{}: nothing to audit: none of its complete runs asks a signal for anything. Audit "
+            "runs of a policy for signals, as corridor",
+            what);
+    return fmt::format(
+        "{}: nothing to audit: no signal showed a whole colour that its program states in {}. "
+        "`clearway signals SCENARIO` lists the signals of a scenario",
+        what, counted(report.runs.size(), "run"));
 }
 
 core::ExitCode code_of(const AuditReport& report) {

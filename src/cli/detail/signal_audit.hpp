@@ -35,6 +35,10 @@ AuditReport audit_runs(const results::Store& store, const std::vector<experiment
                        const Repeat& repeat);
 
 void print_audit(const AuditReport& report, Printing printing);
+/// Whether no run failed and yet not one colour was checked, so that the audit says nothing of any signal.
+bool nothing_audited(const AuditReport& report);
+/// Why, and what to do. `what` is the folder or run that was named.
+std::string nothing_audited_text(const AuditReport& report, const std::string& what);
 /// 1 with findings and for runs that failed, else 0.
 core::ExitCode code_of(const AuditReport& report);
 
