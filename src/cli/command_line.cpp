@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/verb.hpp"
+#include "core/build_stamp.hpp"
 #include "core/process.hpp"
 #include "core/usage.hpp"
 
@@ -128,7 +129,8 @@ std::optional<std::string> verb_problem(int argument_count, const char* const* a
 void declare(CLI::App& app, Action& action) {
     app.name("clearway");
     app.footer(footer);
-    app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
+    app.set_version_flag("--version",
+                         fmt::format("clearway " CLEARWAY_VERSION "\nbuild {}", core::build_stamp()));
     app.formatter(std::make_shared<core::HelpFormatter>());
     app.require_subcommand(1);
     for (const Verb& verb : all_verbs) {

@@ -15,6 +15,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/programs.hpp"
 #include "cli/verb.hpp"
+#include "core/build_stamp.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -24,68 +25,81 @@ const std::string supported_sumo = "1.15";
 
 enum class Severity { required, optional };
 
+/// Of what was looked for.
+enum class Finding { fit, missing, unfit };
+
 struct Check {
     std::string name;
-    bool passed = false;
+    Finding finding = Finding::missing;
     Severity severity = Severity::required;
     std::string found;
     std::string cure;
+
+    bool passed() const { return finding == Finding::fit; }
 };
+
+Finding fit_if(bool condition, Finding otherwise = Finding::unfit) {
+    return condition ? Finding::fit : otherwise;
+}
 
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find('\n'));
 }
 
 Check check_sumo(const std::string& program) {
-    Check check{program, false, Severity::required, "missing", "Install the packages sumo and sumo-tools"};
+    Check check{program, Finding::missing, Severity::required, "missing",
+                "Install the packages sumo and sumo-tools"};
     const std::string text = first_line(output_of(program, {"--version"}).value_or(""));
     if (text.empty()) return check;
     check.found = text;
-    check.passed = text.find(" " + supported_sumo + ".") != std::string::npos;
+    check.finding = fit_if(text.find(" " + supported_sumo + ".") != std::string::npos);
     check.cure = fmt::format("Clearway is made for SUMO {}.x; install that version", supported_sumo);
     return check;
 }
 
 Check check_sumo_home() {
     const char* const home = std::getenv("SUMO_HOME");
-    Check check{"SUMO_HOME", false, Severity::required, home == nullptr ? "not set" : home,
+    Check check{"SUMO_HOME", Finding::missing, Severity::required, home == nullptr ? "not set" : home,
                 "Start through ./clearway, or set SUMO_HOME to the folder that holds tools/ and data/"};
-    check.passed = home != nullptr && std::filesystem::is_directory(std::filesystem::path(home) / "tools");
+    if (home != nullptr)
+        check.finding = fit_if(std::filesystem::is_directory(std::filesystem::path(home) / "tools"));
     return check;
 }
 
 /// One of Clearway's own programs. It starts only if all of its libraries are found.
 Check check_sister(const std::string& program, const std::string& purpose) {
-    Check check{program, false, Severity::required, "cannot be started",
+    Check check{program, Finding::missing, Severity::required, "cannot be started",
                 fmt::format("Build it ({}). A missing shared library also causes this", purpose)};
     const std::optional<std::string> text = output_of(sister_program(program), {"--version"});
-    check.passed = text.has_value();
-    if (check.passed) check.found = first_line(*text);
+    check.finding = fit_if(text.has_value(), Finding::missing);
+    if (text) check.found = first_line(*text);
     return check;
 }
 
 /// The worker must also be of the same build as this program.
 Check check_worker() {
     Check check = check_sister("clearway-run", "the worker that holds SUMO");
-    if (!check.passed) return check;
+    if (!check.passed()) return check;
     const auto worker = identity_from(output_of(sister_program("clearway-run"), {"--version"}).value_or(""));
-    check.passed = worker && is_of_this_build(*worker);
-    if (check.passed) return check;
-    check.found += ", of another build than this clearway";
+    check.finding = fit_if(worker && is_of_this_build(*worker));
+    if (check.passed()) return check;
+    const bool has_build = worker && !worker->build.empty();
+    check.found += fmt::format(", of another build than this clearway: {}, not {}",
+                               has_build ? worker->build : "an older one", core::build_stamp());
     check.cure = cure_of_another_build;
     return check;
 }
 
 Check check_osmium() {
     const std::string text = first_line(output_of("osmium", {"--version"}).value_or(""));
-    return {"osmium", !text.empty(), Severity::optional, text.empty() ? "missing" : text,
-            "Install the package osmium-tool to import .osm.pbf files"};
+    return {"osmium", fit_if(!text.empty(), Finding::missing), Severity::optional,
+            text.empty() ? "missing" : text, "Install the package osmium-tool to import .osm.pbf files"};
 }
 
 Check check_rasteriser() {
     const std::string text = first_line(output_of("rsvg-convert", {"--version"}).value_or(""));
-    return {"rsvg-convert", !text.empty(), Severity::optional, text.empty() ? "missing" : text,
-            "Install the package librsvg2-bin to write figures as PNG"};
+    return {"rsvg-convert", fit_if(!text.empty(), Finding::missing), Severity::optional,
+            text.empty() ? "missing" : text, "Install the package librsvg2-bin to write figures as PNG"};
 }
 
 Check check_folder() {
@@ -93,42 +107,45 @@ Check check_folder() {
     const bool writable = ::access(here.c_str(), W_OK) == 0;
     std::error_code error;
     const double free_gb = static_cast<double>(std::filesystem::space(here, error).available) / 1e9;
-    return {"current folder", writable && free_gb > 1.0, Severity::required,
+    return {"current folder", fit_if(writable && free_gb > 1.0), Severity::required,
             fmt::format("{}, {:.1f} GB free", writable ? "writable" : "not writable", free_gb),
             "Runs are written below the current folder; choose another with --out"};
 }
 
 std::vector<Check> all_checks() {
-    return {
-        check_sumo("sumo"),
-        check_sumo("netconvert"),
-        check_sumo_home(),
-        check_worker(),
-        check_sister("clearway-train", "training, holds libtorch"),
-        check_osmium(),
-        check_rasteriser(),
-        check_folder(),
-        {"processors", true, Severity::optional, std::to_string(std::thread::hardware_concurrency()), ""}};
+    return {check_sumo("sumo"),
+            check_sumo("netconvert"),
+            check_sumo_home(),
+            check_worker(),
+            check_sister("clearway-train", "training, holds libtorch"),
+            check_osmium(),
+            check_rasteriser(),
+            check_folder(),
+            {"processors", Finding::fit, Severity::optional,
+             std::to_string(std::thread::hardware_concurrency()), ""}};
 }
 
 void print_json(const std::vector<Check>& checks) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& check : checks) {
         list.push_back({{"check", check.name},
-                        {"passed", check.passed},
+                        {"passed", check.passed()},
                         {"required", check.severity == Severity::required},
                         {"found", check.found}});
     }
     fmt::print("{}\n", list.dump(2));
 }
 
+const char* mark_of(const Check& check) {
+    if (check.passed()) return "ok";
+    if (check.finding == Finding::unfit) return "UNFIT";
+    return check.severity == Severity::required ? "MISSING" : "missing";
+}
+
 void print_text(const std::vector<Check>& checks) {
     for (const Check& check : checks) {
-        const char* const mark = check.passed                           ? "ok"
-                                 : check.severity == Severity::required ? "MISSING"
-                                                                        : "missing";
-        fmt::print("{:8} {:15} {}\n", mark, check.name, check.found);
-        if (!check.passed) fmt::print("{:8} {:15} {}\n", "", "", check.cure);
+        fmt::print("{:8} {:15} {}\n", mark_of(check), check.name, check.found);
+        if (!check.passed()) fmt::print("{:8} {:15} {}\n", "", "", check.cure);
     }
 }
 
@@ -140,8 +157,9 @@ Action configure_doctor(CLI::App& app) {
     return [printing](const Invocation&) {
         const std::vector<Check> checks = all_checks();
         *printing == Printing::json ? print_json(checks) : print_text(checks);
-        const bool healthy = std::ranges::all_of(
-            checks, [](const Check& check) { return check.passed || check.severity == Severity::optional; });
+        const bool healthy = std::ranges::all_of(checks, [](const Check& check) {
+            return check.passed() || check.severity == Severity::optional;
+        });
         return healthy ? core::ExitCode::ok : core::ExitCode::environment;
     };
 }

@@ -51,6 +51,12 @@ std::string end_sentence(const EquipmentFacts& facts) {
                        next.gain->interval->high);
 }
 
+std::string budget_sentence(const EquipmentFacts& facts) {
+    if (facts.budget <= facts.signals) return "";
+    return fmt::format("The budget is {}, and the scenario has only {}.\n", facts.budget,
+                       counted(facts.signals, "signal"));
+}
+
 std::string left_out_sentence(const EquipmentFacts& facts) {
     std::string text;
     if (facts.not_passed > 0)
@@ -159,7 +165,8 @@ std::string equipment_text(const EquipmentFacts& facts) {
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
         text += row_text(std::to_string(rank + 1), facts, facts.ranked[rank]);
     text += row_text("", facts, all_of(facts));
-    text += "\n" + end_sentence(facts) + left_out_sentence(facts) + share_sentence(facts);
+    text += "\n" + budget_sentence(facts) + end_sentence(facts) + left_out_sentence(facts) +
+            share_sentence(facts);
     text +=
         fmt::format("EV time s: baseline {}, no signal equipped {},\n           all signals {}, alone {}.\n",
                     estimate(facts.baseline_s, {}), estimate(facts.none_s, {}), estimate(facts.all_s, {}),

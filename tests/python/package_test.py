@@ -38,7 +38,7 @@ class ImportTest(FolderCase):
         self.assertIn(f"EnvironmentFault: Clearway's programs are not in {self.folder}", ended.stderr)
 
     def test_has_the_version_of_the_programs(self) -> None:
-        self.assertEqual(program("--version").split()[-1], clearway.__version__)
+        self.assertEqual(program("--version").split()[1], clearway.__version__)
 
 
 class InstallTest(FolderCase):

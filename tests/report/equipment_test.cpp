@@ -56,6 +56,15 @@ TEST(Equipment, HasARowForEachRankAndSaysWhatItFound) {
         EXPECT_LE(line.size(), 100U) << line;
 }
 
+TEST(Equipment, SaysThatTheBudgetIsMoreThanThereAreSignals) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.budget = 12;
+    EXPECT_THAT(equipment_text(facts), Not(HasSubstr("The budget is")));
+    facts.budget = 13;
+    EXPECT_THAT(equipment_text(facts),
+                HasSubstr("The budget is 13, and the scenario has only 12 signals.\n"));
+}
+
 TEST(Equipment, HasNoShareOfAGainThatIsNotShown) {
     EquipmentFacts facts = two_of_twelve();
     facts.all_gain = about(50.0, 51.0);
