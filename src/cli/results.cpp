@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/verb.hpp"
+#include "core/error.hpp"
 #include "results/table_reader.hpp"
 #include "results/table_writer.hpp"
 
@@ -21,9 +22,23 @@ struct Arguments {
     results::TableFormat format = results::TableFormat::csv;
 };
 
+/// Folders of others and archives may be read-only. Then what there is is printed, with a warning.
+void update_tables(const results::Store& store) {
+    if (results::tables_are_current(store)) return;
+    try {
+        results::write_tables(store);
+    } catch (const core::EnvironmentError& error) {
+        const std::filesystem::path database = store.folder() / "results.sqlite";
+        if (!std::filesystem::exists(database)) throw;
+        fmt::print(stderr,
+                   "clearway: warning: {}. Rows are those of {} as it is; it may not be of all runs\n",
+                   error.what(), database.string());
+    }
+}
+
 core::ExitCode print_results(const Arguments& arguments) {
     const results::Store store = results::Store::open(arguments.folder);
-    if (!results::tables_are_current(store)) results::write_tables(store);
+    update_tables(store);
     if (arguments.asked == Asked::names) {
         for (const std::string& name : results::table_names(store))
             fmt::print("{}\n", name);

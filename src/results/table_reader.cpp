@@ -126,7 +126,8 @@ void print_json(const Database& database, const std::string& table, std::ostream
 }  // namespace
 
 bool tables_are_current(const Store& store) {
-    if (!std::filesystem::exists(store.folder() / "results.sqlite")) return false;
+    for (const char* const table : {"results.sqlite", "runs.csv", "vehicles.csv", "leases.csv"})
+        if (!std::filesystem::exists(store.folder() / table)) return false;
     const Database database = open_database(store);
     return study_value(database, "manifest_hash") == manifest_hash(store.manifest()) &&
            study_value(database, "runs_hash") == detail::runs_hash(store);

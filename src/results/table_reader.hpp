@@ -15,8 +15,8 @@ enum class TableFormat : std::uint8_t {
     json,  ///< One array with an object per row, one row per line; null for missing values.
 };
 
-/// Whether the run folder's `results.sqlite` belongs to its study and was written from the runs and errors
-/// that are there now. Reads every record: 0.03 ms for one of 100 KB.
+/// Whether the run folder has all tables, and its `results.sqlite` belongs to its study and was written from
+/// the runs and errors that are there now. Reads every record: 0.03 ms for one of 100 KB.
 /// Throws core::InputError for a database of another version and for a file that is not a database.
 bool tables_are_current(const Store& store);
 

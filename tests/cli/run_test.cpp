@@ -181,6 +181,28 @@ TEST_F(RunTest, results_prints_every_table_it_lists) {
     EXPECT_THAT(unknown.err, AllOf(HasSubstr("`vehicle`"), HasSubstr("vehicles")));
 }
 
+TEST_F(RunTest, results_of_a_folder_that_cannot_be_written_are_those_that_are_there) {
+    ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
+    const std::string errors = clearway({"results", "out", "errors"}).out;
+    const std::string runs = read("out/runs.csv");
+    std::filesystem::remove(folder() / "out/runs.csv");
+    // Rights do not hold back the user of the tests, who may be root.
+    const Environment cannot_write = {.before = "trap '' XFSZ && ulimit -f 1"};
+    const Ended kept = clearway({"results", "out", "errors"}, cannot_write);
+    EXPECT_EQ(kept.code, 0) << kept.err;
+    EXPECT_EQ(kept.out, errors);
+    EXPECT_THAT(kept.err, AllOf(HasSubstr("warning: "), HasSubstr("cannot write"),
+                                HasSubstr("out/results.sqlite as it is")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out/runs.csv"));
+    std::filesystem::rename(folder() / "out/results.sqlite", folder() / "aside");
+    EXPECT_EQ(clearway({"results", "out", "errors"}, cannot_write).code, 4) << "there is nothing to print";
+    std::filesystem::rename(folder() / "aside", folder() / "out/results.sqlite");
+    const Ended again = clearway({"results", "out", "errors"});
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.err, IsEmpty());
+    EXPECT_EQ(read("out/runs.csv"), runs) << "a deleted table is written again";
+}
+
 TEST_F(RunTest, without_out_the_same_command_finds_its_folder_again) {
     const std::vector<std::string> words = {"run", "line", "--seeds", "1", "--condition", "baseline"};
     ASSERT_EQ(clearway(words).code, 0);

@@ -92,6 +92,15 @@ TEST_F(TableReader, KnowsWhetherTheTablesHoldEveryRun) {
     EXPECT_FALSE(tables_are_current(store));
 }
 
+TEST_F(TableReader, KnowsWhetherAllTablesAreThere) {
+    for (const char* const table : {"runs.csv", "vehicles.csv", "leases.csv"}) {
+        std::filesystem::remove(folder.path() / table);
+        EXPECT_FALSE(tables_are_current(store)) << table;
+        write_tables(store);
+        EXPECT_TRUE(tables_are_current(store));
+    }
+}
+
 TEST_F(TableReader, SeesThatARunWasMadeAnewWithAnotherResult) {
     const experiment::RunKey key{"alpha", "baseline", 0};
     RunRecord record = synthetic::record(key);
