@@ -181,7 +181,10 @@ core::ExitCode show(const Arguments& arguments) {
         print_text(sheets);
     if (!arguments.picture.empty())
         fmt::print(stderr, "clearway: map of the signals in {}\n", arguments.picture.string());
-    if (!arguments.parameters.empty())
+    if (!arguments.parameters.empty() && sheets.empty())
+        fmt::print(stderr, "clearway: {} has no signals; {} holds the names of the columns and no row\n",
+                   config.name, arguments.parameters.string());
+    else if (!arguments.parameters.empty())
         fmt::print(stderr,
                    "clearway: preemption parameters in {}; name it in scenario.toml: [network] preemption = "
                    "\"FILE\"\n",

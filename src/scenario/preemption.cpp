@@ -1,6 +1,7 @@
 #include "scenario/preemption.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -52,14 +53,13 @@ class Reading {
 
     /// Where each column stands; empty after a header that does not fit.
     void read_header(const std::vector<std::string_view>& cells) {
+        if (cells.size() == 1 && refuse_separator(cells.front())) return;
         const std::vector<std::string> known = column_names();
         const std::size_t before = problems_.size();
         for (const std::string_view cell : cells) {
             const std::string name(cell);
             if (std::ranges::find(known, name) == known.end())
-                refuse(
-                    1, name, "is no column of this file", header_line(),
-                    name.find(';') != std::string::npos ? "separate columns by commas" : hint(name, known));
+                refuse(1, name, "is no column of this file", header_line(), hint(name, known));
             else if (std::ranges::find(columns_, name) != columns_.end())
                 refuse(1, name, "is there twice", "each column once", "remove one");
             columns_.push_back(name);
@@ -78,14 +78,16 @@ class Reading {
                                  fmt::format("{}, as in the header", columns_.size()), ""});
             return;
         }
-        std::string id;
+        const auto name_at = std::ranges::find(columns_, name_column) - columns_.begin();
+        const std::string id(cells[static_cast<std::size_t>(name_at)]);
+        signal_ = id.empty() ? "" : fmt::format(" for signal '{}'", id);
         PreemptionRow row{{}, line};
         for (std::size_t column = 0; column < cells.size(); ++column) {
-            if (columns_[column] == name_column) id = cells[column];
             core::for_each_field<Preemption>([&](const auto& field) {
                 if (columns_[column] == field.name) read_value(line, cells[column], field, row.values);
             });
         }
+        check_times(line, row.values);
         if (id.empty()) return refuse(line, name_column, "is empty", "id of a signal", "");
         const auto [first, is_new] = rows.emplace(id, row);
         if (!is_new)
@@ -94,6 +96,31 @@ class Reading {
     }
 
   private:
+    /// Whether the header is not separated by commas: one cause, one problem.
+    bool refuse_separator(std::string_view header) {
+        const bool is_semicolon = header.find(';') != std::string_view::npos;
+        if (!is_semicolon && header.find('\t') == std::string_view::npos) return false;
+        problems_.push_back({fmt::format("{}:1", file_),
+                             fmt::format("is separated by {}, not by commas", is_semicolon ? ";" : "tabs"),
+                             header_line(),
+                             "Save it with commas, and with points in numbers: many spreadsheets follow the "
+                             "language of the system"});
+        return true;
+    }
+
+    /// What a controller cannot do: stay longer than it may be away from its program at most.
+    void check_times(std::size_t line, const Preemption& values) {
+        const double longest_s = values.maximum_presence_s.value_or(0.0);
+        if (longest_s <= 0.0) return;
+        for (const auto& [name, value] : {std::pair{"dwell_s", values.dwell_s},
+                                          std::pair{"minimum_duration_s", values.minimum_duration_s}}) {
+            if (value && *value > longest_s)
+                refuse(line, name, fmt::format("{}{} is above its maximum_presence_s", *value, signal_),
+                       fmt::format("up to {} s", longest_s),
+                       "Lower it, or raise maximum_presence_s (0: no limit)");
+        }
+    }
+
     template <class Field>
     void read_value(std::size_t line, std::string_view cell, const Field& field, Preemption& values) {
         auto& target = values.*field.member;
@@ -101,17 +128,24 @@ class Reading {
             core::read_cell(cell, target);
         } catch (const std::runtime_error&) {
             target.reset();
-            return refuse_value(line, cell, field, "is no number");
+            return refuse_value(line, cell, field, is_number(cell) ? "is no whole number" : "is no number");
         }
-        if (target && !(*target >= field.minimum && *target <= field.maximum))
-            refuse_value(line, cell, field, "is out of range");
+        if (!target || (*target >= field.minimum && *target <= field.maximum)) return;
+        target.reset();
+        refuse_value(line, cell, field, "is out of range");
+    }
+
+    static bool is_number(std::string_view cell) {
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+        return error == std::errc() && end == cell.data() + cell.size();
     }
 
     template <class Field>
     void refuse_value(std::size_t line, std::string_view cell, const Field& field, const char* what) {
         constexpr bool is_whole = std::is_same_v<std::decay_t<decltype(*(Preemption{}.*field.member))>, int>;
         refuse(
-            line, field.name, fmt::format("\"{}\" {}", cell, what),
+            line, field.name, fmt::format("\"{}\"{} {}", cell, signal_, what),
             fmt::format("{}{} to {}{}{}, or nothing", is_whole ? "a whole number from " : "", field.minimum,
                         field.maximum, *field.unit == '1' ? "" : " ", *field.unit == '1' ? "" : field.unit),
             "");
@@ -126,6 +160,7 @@ class Reading {
     std::string file_;
     std::vector<Problem>& problems_;
     std::vector<std::string> columns_;
+    std::string signal_;  ///< Words about that of the row; empty where it has none.
 };
 
 double cycle_s(const roads::Signal& signal) {

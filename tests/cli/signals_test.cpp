@@ -82,6 +82,14 @@ TEST_F(SignalsTest, never_have_a_file_written_over) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "map.svg")) << "nothing half done";
 }
 
+TEST_F(SignalsTest, that_a_scenario_does_not_have_are_said_to_be_missing) {
+    const Ended ended = clearway({"signals", "rural", "--out", "r.csv"});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_THAT(ended.err,
+                HasSubstr("rural has no signals; r.csv holds the names of the columns and no row"));
+    EXPECT_THAT(ended.err, Not(HasSubstr("name it in scenario.toml")));
+}
+
 TEST_F(SignalsTest, with_parameters_for_one_that_does_not_exist_are_refused_before_anything_is_written) {
     ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
     write("crossings/p.csv", header() + "C,1,,,,,,9,,,,\nA,,,100,,,,,,,,\n");

@@ -1,5 +1,7 @@
 #include "scenario/preemption.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "core/files.hpp"
@@ -78,15 +80,18 @@ TEST_F(PreemptionFile, with_a_minimum_green_above_the_cycle_is_refused) {
 }
 
 TEST_F(PreemptionFile, with_a_dwell_of_zero_is_refused) {
-    EXPECT_THAT(refusal("A,,,,,,,0,,,,\n"),
-                AllOf(HasSubstr("preemption.csv:2: dwell_s"), HasSubstr("\"0\" is out of range"),
-                      HasSubstr("1 to 255 s, or nothing")));
+    EXPECT_THAT(refusal("A,,,,,,,0,,,,\n"), AllOf(HasSubstr("preemption.csv:2: dwell_s"),
+                                                  HasSubstr("\"0\" for signal 'A' is out of range"),
+                                                  HasSubstr("1 to 255 s, or nothing")));
 }
 
 TEST_F(PreemptionFile, with_something_else_than_a_number_is_refused) {
-    EXPECT_THAT(refusal("A,,soon,,,,,,,,,\n"), HasSubstr("preemption.csv:2: delay_s: \"soon\" is no number"));
-    EXPECT_THAT(refusal("A,,,,,,,,,1.5,,\n"), HasSubstr("a whole number from 0 to 255"));
-    EXPECT_THAT(refusal("A,,nan,,,,,,,,,\n"), HasSubstr("delay_s: \"nan\" is out of range"));
+    EXPECT_THAT(refusal("A,,soon,,,,,,,,,\n"),
+                HasSubstr("preemption.csv:2: delay_s: \"soon\" for signal 'A' is no number"));
+    EXPECT_THAT(refusal("A,,,,,,,,,1.5,,\n"),
+                AllOf(HasSubstr("exit_phase: \"1.5\" for signal 'A' is no whole number"),
+                      HasSubstr("a whole number from 0 to 255")));
+    EXPECT_THAT(refusal("A,,nan,,,,,,,,,\n"), HasSubstr("delay_s: \"nan\" for signal 'A' is out of range"));
 }
 
 TEST_F(PreemptionFile, with_an_exit_phase_that_is_no_green_of_the_program_is_refused) {
@@ -114,9 +119,25 @@ TEST_F(PreemptionFile, with_a_column_that_is_not_known_names_the_nearest) {
                                            HasSubstr("Did you mean 'dwell_s'?")));
 }
 
-TEST_F(PreemptionFile, with_semicolons_says_what_to_do) {
-    const auto problems = problems_of([&] { read("signal;enabled\nA;1\n"); });
-    EXPECT_THAT(core::format_problem(problems.front()), HasSubstr("separate columns by commas"));
+TEST_F(PreemptionFile, with_another_separator_is_refused_once) {
+    std::string semicolons = header;
+    std::ranges::replace(semicolons, ',', ';');
+    EXPECT_THAT(refusal("A;1\n", semicolons),
+                AllOf(HasSubstr("preemption.csv:1: is separated by ;, not by commas"),
+                      HasSubstr("Save it with commas")));
+    std::string tabs = header;
+    std::ranges::replace(tabs, ',', '\t');
+    EXPECT_THAT(refusal("A\t1\n", tabs), HasSubstr("is separated by tabs, not by commas"));
+}
+
+TEST_F(PreemptionFile, with_a_dwell_or_duration_above_the_longest_presence_is_refused) {
+    EXPECT_THAT(
+        refusal("A,,,,,,,90,60,,,\n"),
+        AllOf(HasSubstr("preemption.csv:2: dwell_s: 90 for signal 'A' is above its maximum_presence_s"),
+              HasSubstr("up to 60 s"), HasSubstr("raise maximum_presence_s")));
+    EXPECT_THAT(refusal("A,,,,,,70,,60,,,\n"), HasSubstr("minimum_duration_s: 70 for signal 'A'"));
+    EXPECT_EQ(read(std::string(header) + "A,,,,,,60,60,60,,,\nB,,,,,,90,90,0,,,\n")[1].dwell_s, 90.0)
+        << "0: no limit";
 }
 
 TEST_F(PreemptionFile, with_several_mistakes_names_them_all) {
