@@ -27,6 +27,11 @@ struct Junction {
     std::set<Turn> prior;  ///< Whom it must yield to and who may be asked.
 };
 
+/// Whether anybody may be asked to stop on a lane.
+bool may_stop_on(const roads::Network& network, const roads::Lane& lane, double fastest_road_mps) {
+    return !network.edge(lane.edge).roundabout && lane.speed_limit_mps <= fastest_road_mps;
+}
+
 class JunctionsAhead {
   public:
     JunctionsAhead(const roads::Network& network, const GiveWayConfig& config)
@@ -58,9 +63,8 @@ class JunctionsAhead {
                 for (const std::uint32_t prior : network_.prior_to(way)) {
                     const roads::Connection& other = network_.connection(prior);
                     const roads::Lane& lane = network_.lane(other.from);
-                    const bool may_stop = !network_.edge(lane.edge).roundabout &&
-                                          lane.speed_limit_mps <= config_.fastest_road_mps;
-                    if (may_stop && lane.edge != from) turns.emplace(lane.edge, network_.lane(other.to).edge);
+                    if (may_stop_on(network_, lane, config_.fastest_road_mps) && lane.edge != from)
+                        turns.emplace(lane.edge, network_.lane(other.to).edge);
                 }
             }
         return turns;
@@ -92,8 +96,7 @@ bool takes_one_of(const detail::View& view, const traffic::BelievedVehicle& vehi
 bool may_stop(const detail::View& view, const traffic::BelievedVehicle& vehicle, double fastest_road_mps) {
     if (!view.is_on_route(vehicle)) return false;
     const roads::Lane& lane = view.network().lane(vehicle.state.lane);
-    const roads::Edge& edge = view.network().edge(lane.edge);
-    return !edge.internal && !edge.roundabout && lane.speed_limit_mps <= fastest_road_mps;
+    return !view.network().edge(lane.edge).internal && may_stop_on(view.network(), lane, fastest_road_mps);
 }
 
 /// Vehicles that drive ahead of an emergency vehicle: none of them may be held.

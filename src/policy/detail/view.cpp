@@ -69,12 +69,12 @@ std::vector<VehicleAhead> View::vehicles_behind(const traffic::BelievedVehicle& 
     std::vector<VehicleAhead> behind;
     const roads::Route route = route_of(vehicle.key);
     const auto near = static_cast<float>(reach.value);
+    const auto passed = route.first(std::min<std::size_t>(route.size(), vehicle.state.route_edge + 1));
     for (const traffic::BelievedVehicle& other : belief_.vehicles) {
         if (std::abs(other.state.x_m - vehicle.state.x_m) > near ||
             std::abs(other.state.y_m - vehicle.state.y_m) > near)
             continue;
         if (other.key == vehicle.key || !other.state.lane.exists()) continue;
-        const auto passed = route.first(std::min<std::size_t>(route.size(), vehicle.state.route_edge + 1));
         const auto edge = std::ranges::find(passed, network_.lane(other.state.lane).edge);
         if (edge == passed.end()) continue;
         traffic::MotionState on_route = other.state;
