@@ -172,6 +172,27 @@ std::string lease_sentence(const ConditionFacts& condition) {
     return fmt::format("{}", fmt::join(found, "; "));
 }
 
+namespace {
+
+/// One sentence for all parts that never acted, those of equally many runs together; empty if every part did.
+std::string idle_sentence(const std::vector<analysis::IdlePart>& parts) {
+    std::vector<std::string> groups;
+    for (auto part = parts.begin(); part != parts.end();) {
+        const auto same = std::find_if(part, parts.end(), [&](const analysis::IdlePart& other) {
+            return other.idle_runs != part->idle_runs || other.runs != part->runs;
+        });
+        std::vector<std::string> names;
+        for (auto one = part; one != same; ++one)
+            names.push_back(one->policy);
+        groups.push_back(fmt::format("{} in {} of {}", fmt::join(names, ", "), part->idle_runs,
+                                     counted(part->runs, "run")));
+        part = same;
+    }
+    return groups.empty() ? "" : fmt::format(" Never acted: {}.", fmt::join(groups, "; "));
+}
+
+}  // namespace
+
 std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::string text;
     if (!condition.failed.empty())
@@ -187,9 +208,7 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
         text += costs(scenario, condition, script);
     }
     text += ".";
-    for (const analysis::IdlePart& part : condition.idle_parts)
-        text += fmt::format(" {} never acted in {} of {}.", part.policy, part.idle_runs,
-                            counted(part.runs, "run"));
+    text += idle_sentence(condition.idle_parts);
     if (condition.safety_checks_off)
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
     return text;
