@@ -11,6 +11,7 @@
 #include "analysis/detail/condition_summary.hpp"
 #include "core/fields.hpp"
 #include "experiment/settings.hpp"
+#include "traffic/lease.hpp"
 
 namespace clearway::analysis {
 namespace {
@@ -206,9 +207,18 @@ std::optional<std::vector<metrics::LeaseRow>> leases_of(const Runs& runs) {
     return total;
 }
 
-bool acts_in(const std::vector<metrics::LeaseRow>& leases, const std::string& policy) {
-    return std::ranges::any_of(
-        leases, [&](const metrics::LeaseRow& row) { return row.policy == policy && row.acted > 0; });
+/// Adds a run to what is known of a part.
+void count_run(const std::vector<metrics::LeaseRow>& leases, IdlePart& part) {
+    bool acts = false;
+    bool acts_on_others = false;
+    for (const metrics::LeaseRow& row : leases) {
+        if (row.policy != part.policy || row.acted == 0) continue;
+        acts = true;
+        acts_on_others = acts_on_others || row.action != traffic::own_change_lane;
+    }
+    ++part.runs;
+    if (!acts) ++part.idle_runs;
+    if (acts && !acts_on_others) ++part.own_runs;
 }
 
 std::vector<IdlePart> idle_parts(const Runs& runs, const ConditionSpec& condition) {
@@ -216,11 +226,9 @@ std::vector<IdlePart> idle_parts(const Runs& runs, const ConditionSpec& conditio
     for (const std::string& policy : experiment::parts_of(condition)) {
         IdlePart part{policy};
         for (const results::RunRecord* run : runs) {
-            if (run == nullptr || !run->leases) continue;
-            ++part.runs;
-            if (!acts_in(*run->leases, policy)) ++part.idle_runs;
+            if (run != nullptr && run->leases) count_run(*run->leases, part);
         }
-        if (part.idle_runs > 0) idle.push_back(std::move(part));
+        if (part.idle_runs + part.own_runs > 0) idle.push_back(std::move(part));
     }
     return idle;
 }

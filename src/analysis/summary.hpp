@@ -86,11 +86,12 @@ struct TravelTimeTail {
     PooledQuantile percentile_95;
 };
 
-/// A policy of a condition that did nothing in some of its runs.
+/// A policy of a condition that did nothing, or nothing to others, in some of its runs.
 struct IdlePart {
     std::string policy;
-    std::size_t idle_runs = 0;  ///< Complete runs in which none of its leases was carried out; at least 1.
+    std::size_t idle_runs = 0;  ///< Complete runs in which none of its leases was carried out.
     std::size_t runs = 0;       ///< Complete runs.
+    std::size_t own_runs = 0;   ///< Complete runs in which it only changed the emergency vehicle's own lane.
 };
 
 struct ConditionSummary {

@@ -84,6 +84,7 @@ const char* words_of(const std::string& action) {
     static const std::map<std::string, const char*> words = {
         {"drive_at", "asked a vehicle for a speed"},
         {"change_lane", "asked a vehicle to change lanes"},
+        {"own_change_lane", "changed the EV's own lane"},
         {"hold_lane", "asked a vehicle to keep its lane"},
         {"pull_aside", "asked a vehicle to pull aside"},
         {"stop_at_line", "asked a vehicle to stop at the line"},
@@ -174,21 +175,22 @@ std::string lease_sentence(const ConditionFacts& condition) {
 
 namespace {
 
-/// One sentence for all parts that never acted, those of equally many runs together; empty if every part did.
-std::string idle_sentence(const std::vector<analysis::IdlePart>& parts) {
-    std::vector<std::string> groups;
-    for (auto part = parts.begin(); part != parts.end();) {
-        const auto same = std::find_if(part, parts.end(), [&](const analysis::IdlePart& other) {
-            return other.idle_runs != part->idle_runs || other.runs != part->runs;
-        });
-        std::vector<std::string> names;
-        for (auto one = part; one != same; ++one)
-            names.push_back(one->policy);
-        groups.push_back(fmt::format("{} in {} of {}", fmt::join(names, ", "), part->idle_runs,
-                                     counted(part->runs, "run")));
-        part = same;
+/// One sentence for all parts of which `runs_of` counts a run, those of equally many runs together.
+std::string sentence_of_parts(const char* what, const std::vector<analysis::IdlePart>& parts,
+                              std::size_t analysis::IdlePart::*runs_of) {
+    std::vector<std::pair<std::string, std::string>> groups;  // `3 of 20 runs`, names.
+    for (const analysis::IdlePart& part : parts) {
+        if (part.*runs_of == 0) continue;
+        std::string runs = fmt::format("{} of {}", part.*runs_of, counted(part.runs, "run"));
+        if (!groups.empty() && groups.back().first == runs)
+            groups.back().second += ", " + part.policy;
+        else
+            groups.emplace_back(std::move(runs), part.policy);
     }
-    return groups.empty() ? "" : fmt::format(" Never acted: {}.", fmt::join(groups, "; "));
+    std::string text;
+    for (const auto& [runs, names] : groups)
+        text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", names, runs);
+    return text.empty() ? text : fmt::format(" {}: {}.", what, text);
 }
 
 }  // namespace
@@ -208,7 +210,8 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
         text += costs(scenario, condition, script);
     }
     text += ".";
-    text += idle_sentence(condition.idle_parts);
+    text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
+    text += sentence_of_parts("Moved nobody but the EV", condition.idle_parts, &analysis::IdlePart::own_runs);
     if (condition.safety_checks_off)
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
     return text;

@@ -18,4 +18,10 @@ std::string_view name(const Action& action) {
     return names[action.index()];
 }
 
+std::string_view counted_as(const Lease& lease) {
+    const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+    const bool is_own = vehicle != nullptr && *vehicle == lease.beneficiary;
+    return is_own && std::holds_alternative<ChangeLane>(lease.action) ? own_change_lane : name(lease.action);
+}
+
 }  // namespace clearway::traffic

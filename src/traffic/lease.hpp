@@ -89,4 +89,10 @@ struct Lease {
 /// `drive_at`, `change_lane`, ...
 std::string_view name(const Action& action);
 
+/// Name under which changes of lane are counted that an emergency vehicle makes for itself.
+inline constexpr std::string_view own_change_lane = "own_change_lane";
+/// The name of the action, or `own_change_lane`: what others do for the emergency vehicle is one thing, which
+/// lane it chooses itself another.
+std::string_view counted_as(const Lease& lease);
+
 }  // namespace clearway::traffic

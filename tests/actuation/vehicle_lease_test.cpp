@@ -146,6 +146,19 @@ TEST(VehicleLease, of_a_vehicle_that_left_is_dropped_and_what_it_set_is_given_ba
     EXPECT_TRUE(bench.run_until(5.0).empty());
 }
 
+TEST(LaneLease, of_an_emergency_vehicle_for_itself_is_counted_apart) {
+    ActuationBench bench;
+    const auto one = bench.add(automated("a"));
+    const auto other = bench.add(automated("b"));
+    bench.offer(one, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
+    bench.offer(other, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
+    bench.offer(other, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
+    EXPECT_EQ(bench.counts("policy/own_change_lane").issued, 1U);
+    EXPECT_EQ(bench.counts("policy/own_change_lane").renewed, 0U);
+    EXPECT_EQ(bench.counts("policy/change_lane").issued, 1U);
+    EXPECT_EQ(bench.counts("policy/change_lane").renewed, 1U);
+}
+
 TEST(LaneLease, requests_the_lane_only_when_there_is_room_and_tries_again) {
     ActuationBench bench;
     const auto vehicle = bench.add(automated("a"));

@@ -180,6 +180,27 @@ TEST_F(SmallStudy, AddsLeasesUpByPartAndAction) {
     EXPECT_FALSE(summary.find("baseline")->leases) << "records without them tell nothing";
 }
 
+TEST_F(SmallStudy, TellsPartsThatNeverActFromThoseThatMoveTheEmergencyVehicleAlone) {
+    results_.manifest.conditions[1].policies = {"vacate_lane", "pull_aside", "geocast"};
+    add_all();
+    for (RunRecord& run : results_.runs) {
+        if (run.key.condition != "treated") continue;
+        run.leases = {{"vacate_lane", "own_change_lane", 3, 0, 2, 1, {}},
+                      {"vacate_lane", "change_lane", 5, 0, run.key.replication == 0 ? 1U : 0U, 4, {}},
+                      {"pull_aside", "pull_aside", 2, 0, 0, 2, {}},
+                      {"geocast", "own_change_lane", 2, 0, 1, 1, {}},
+                      {"geocast", "pull_aside", 2, 0, 1, 1, {}}};
+    }
+    const std::vector<IdlePart> parts = scenario().find("treated")->idle_parts;
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_EQ(parts[0].policy, "vacate_lane");
+    EXPECT_EQ(parts[0].idle_runs, 0U);
+    EXPECT_EQ(parts[0].own_runs, 3U);
+    EXPECT_EQ(parts[1].policy, "pull_aside");
+    EXPECT_EQ(parts[1].idle_runs, 4U);
+    EXPECT_EQ(parts[1].own_runs, 0U);
+}
+
 TEST_F(SmallStudy, ComparesWithTheBaselineByReplication) {
     add_all();
     const ScenarioSummary summary = scenario();

@@ -215,11 +215,12 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
     ScenarioFacts scenario = tests::scenario("merge");
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), Not(HasSubstr("Never acted")));
     scenario.conditions[1].idle_parts = {
-        {"preempt_signals", 20, 20}, {"clear_lane", 20, 20}, {"recover_signals", 3, 20}};
+        {"preempt_signals", 20, 20}, {"clear_lane", 20, 20}, {"recover_signals", 3, 20, 2}};
     EXPECT_THAT(
         verdict(scenario, scenario.conditions[1], Script::plain),
         HasSubstr(
-            ". Never acted: preempt_signals, clear_lane in 20 of 20 runs; recover_signals in 3 of 20 runs."));
+            ". Never acted: preempt_signals, clear_lane in 20 of 20 runs; recover_signals in 3 of 20 runs. "
+            "Moved nobody but the EV: recover_signals in 2 of 20 runs."));
 }
 
 TEST(ConditionLabel, says_who_knows_the_truth) {

@@ -18,7 +18,7 @@ bool same_links(const traffic::Action& one, const traffic::Action& other) {
 LeaseCounts& Ledger::of(const traffic::Lease& lease) {
     std::string key(lease.policy);
     key += '/';
-    key += traffic::name(lease.action);
+    key += traffic::counted_as(lease);
     return counts_[key];
 }
 

@@ -32,7 +32,8 @@ ReferencePage columns() {
                                            "class, kind and outcome"),
              table_of<metrics::LeaseRow>("Leases",
                                          "One row for each policy and action in `run.json`; `leases.csv` "
-                                         "has a row for each outcome"),
+                                         "has a row for each outcome; the action `own_change_lane` is an EV "
+                                         "that changes its lane itself"),
              table_of<metrics::ApproachRow>("Approaches", "Time lost by approach and class, in `run.json`"),
              table_of<metrics::RecoveryRow>("Recovery", "What a signal was like after an EV, in `run.json`"),
              table_of<metrics::JourneyRow>("Journeys",
