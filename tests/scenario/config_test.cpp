@@ -224,6 +224,15 @@ TEST_F(Config, kinds_without_any_weight_are_refused) {
     EXPECT_EQ(problems[0].where, "--emergency-kinds");
 }
 
+TEST_F(Config, kinds_of_emergency_vehicles_are_refused_where_all_are_trips_of_their_own) {
+    Options options;
+    options.emergency_kinds = "fire_engine=1";
+    const auto problems = problems_of([&] { load("motorway_jam", options); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_EQ(problems[0].where, "--emergency-kinds");
+    EXPECT_THAT(problems[0].cure, HasSubstr("[[emergency_trip]]"));
+}
+
 TEST_F(Config, dense_times_density_stays_readable) {
     Options options;
     options.variant = Variant::dense;

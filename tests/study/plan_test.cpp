@@ -142,10 +142,10 @@ TEST(Situation, RefusesAnEmergencyVehicleThatIsWiderThanTheGapBetweenTwoLanes) {
         config.privilege.between_lanes = 1;
         config.emergency_kinds = {.ambulance = 0.0, .fire_engine = 1.0};
     };
-    EXPECT_THAT(
-        problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, engine),
-        testing::AllOf(testing::HasSubstr("a fire_engine of 2.5 m and 0.4 m of margin"),
-                       testing::HasSubstr("at most 2.80 m"), testing::HasSubstr("--emergency-kinds")));
+    EXPECT_THAT(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, engine),
+                testing::AllOf(testing::HasSubstr("2.5 m of fire_engine and 0.4 m of margin"),
+                               testing::HasSubstr("at most 2.80 m"), testing::HasSubstr("--emergency-kinds"),
+                               testing::HasSubstr("[[emergency_trip]]")));
     const auto ambulance = [](scenario::ScenarioConfig& config) { config.privilege.between_lanes = 1; };
     EXPECT_EQ(problems_on_the_road("merge", "rescue_lane", TrafficModel::sublane, ambulance), "none");
 }

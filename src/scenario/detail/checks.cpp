@@ -343,7 +343,15 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
     set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);
     if (!options.traffic_kinds.empty()) config.origins["kinds.traffic"] = "--kinds";
-    if (!options.emergency_kinds.empty()) config.origins["kinds.emergency"] = "--emergency-kinds";
+    if (!options.emergency_kinds.empty()) {
+        config.origins["kinds.emergency"] = "--emergency-kinds";
+        if (config.demand.emergency == 0)
+            problems.push_back(
+                {"--emergency-kinds",
+                 "has no effect, because the scenario's emergency vehicles are trips of its own",
+                 "scenarios with demand.emergency above 0",
+                 "Change the kind of each [[emergency_trip]] in a copy of the scenario (clearway init)"});
+    }
 }
 
 void check(const ScenarioConfig& config, Problems& problems) {

@@ -83,11 +83,11 @@ void check_gap(const ConditionSpec& condition, const scenario::ScenarioConfig& s
     if (widest.width_m + margin_m <= gap_m) return;
     problems.push_back(
         {fmt::format("condition {}, scenario {}", condition.name, scenario.name),
-         fmt::format("a {} of {:g} m and {:g} m of margin do not fit between two lanes",
-                     traffic::name(widest.kind), widest.width_m, margin_m),
+         fmt::format("{:g} m of {} and {:g} m of margin do not fit between two lanes", widest.width_m,
+                     traffic::name(widest.kind), margin_m),
          fmt::format("at most {:.2f} m, the widest gap between two cars at the edges of their lanes", gap_m),
-         "Choose a narrower kind (--emergency-kinds), wider lanes, a smaller privilege.margin_m, or "
-         "privilege.between_lanes=0"});
+         "Choose a narrower kind (--emergency-kinds, or the kind of an [[emergency_trip]]), wider lanes, a "
+         "smaller privilege.margin_m, or privilege.between_lanes=0"});
 }
 
 void check_equipped(const ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
