@@ -12,6 +12,7 @@
 #include "core/folder_name.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/detail/request_checks.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "policy/ask.hpp"
 #include "policy/policy.hpp"
@@ -401,6 +402,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
     if (problems.empty()) {
         check_leases(condition, where, problems);
         check_ask(condition, where, problems);
+        detail::check_requests(condition, where, problems);
     }
     if (problems.empty()) check_truth(condition, where, problems);
     check_model(condition, where, problems);

@@ -74,8 +74,11 @@ TEST(Settings, OfEveryPartThatAConditionHasAreAccepted) {
                 set(condition, component + "." + row.name, row.preset);
         }
     }
-    for (const char* const part : {"clear_lane.ask", "give_way.ask"})
-        set(condition, part, "linked");  // without it, how it asks the linked has no effect
+    for (const std::string part : {"clear_lane", "give_way"}) {
+        set(condition, part + ".ask", "linked");    // without it, how it asks the linked has no effect
+        set(condition, part + ".ask_humans", "1");  // without it, settings of drivers who are asked have none
+    }
+    set(condition, "requests.compliance", "0.5");
     EXPECT_THAT(problems_of(condition), IsEmpty());
     EXPECT_THAT(
         components_of(condition),
@@ -283,6 +286,73 @@ TEST(Settings, AComplianceOutsideZeroToOneIsRefused) {
     EXPECT_THAT(problems_of("requests.compliance", "1.5"),
                 testing::AllOf(HasSubstr("requests.compliance: 1.5 is out of range"), HasSubstr("0 to 1")));
     EXPECT_THAT(problems_of("requests.compliance", "-0.1"), HasSubstr("out of range"));
+}
+
+TEST(Settings, OfDriversWhomNobodyAsksAreRefused) {
+    ConditionSpec condition = corridor();
+    set(condition, "requests.hearing_m", "50");
+    EXPECT_THAT(
+        problems_of(condition),
+        testing::AllOf(HasSubstr("requests.hearing_m: has no effect, because no human driver is asked"),
+                       HasSubstr("1 for one of clear_lane.ask_humans, give_way.ask_humans"),
+                       HasSubstr("Set clear_lane.ask_humans to 1, or remove requests.hearing_m")));
+    condition.policies = {"preempt_signals"};
+    EXPECT_THAT(problems_of(condition), HasSubstr("Remove requests.hearing_m"));
+    condition.policies = {"corridor"};
+    set(condition, "requests.compliance", "0.5");
+    set(condition, "give_way.ask_humans", "1");
+    EXPECT_THAT(problems_of(condition), IsEmpty());
+    condition.policies = {"my_policy.py:Yield"};
+    condition.settings.erase("give_way.ask_humans");
+    EXPECT_THAT(problems_of(condition), IsEmpty()) << "a part in Python may ask them";
+}
+
+TEST(Settings, ThatAskDriversOfWhomNobodyCompliesAreRefused) {
+    EXPECT_THAT(
+        problems_of("clear_lane.ask_humans", "1"),
+        testing::AllOf(HasSubstr("clear_lane.ask_humans: is 1, but no driver complies"),
+                       HasSubstr("Set requests.compliance above 0, or remove clear_lane.ask_humans")));
+    EXPECT_THAT(problems_of("clear_lane.ask_humans", "0"), IsEmpty());
+}
+
+/// The problems of a part with this fault and these settings.
+std::string problems_of_requests(const std::string& part, const std::string& failure,
+                                 const core::Settings& settings = {}) {
+    ConditionSpec condition;
+    condition.policies = {part};
+    condition.failure = failure;
+    condition.settings = settings;
+    return problems_of(condition);
+}
+
+TEST(Settings, OfRequestsThatEndBeforeTheyArriveAreRefused) {
+    const std::string late = "perfect,request_propagation=sharp,request_latency_s=";
+    EXPECT_THAT(problems_of_requests("vacate_lane", late + "1.9"), IsEmpty());
+    EXPECT_THAT(
+        problems_of_requests("vacate_lane", late + "2"),
+        testing::AllOf(HasSubstr("failure.request_latency_s: 2 s for each of 1 hops is 2 s, but requests "
+                                 "of vacate_lane live 2 s"),
+                       HasSubstr("below 2 s"), HasSubstr("Set vacate_lane.lease_s above 2")));
+    EXPECT_THAT(problems_of_requests("vacate_lane", late + "1,request_hops=2"), HasSubstr("below 1 s"));
+    EXPECT_THAT(problems_of_requests("dissertation", late + "2"), HasSubstr("requests of dissertation"));
+    EXPECT_THAT(problems_of_requests("corridor", late + "2"),
+                testing::AllOf(HasSubstr("clear_lane"), HasSubstr("give_way")));
+    EXPECT_THAT(problems_of_requests("geocast", late + "9"), IsEmpty()) << "its requests live 10 s";
+    EXPECT_THAT(problems_of_requests("vacate_lane", late + "5", {{"vacate_lane.lease_s", "6"}}), IsEmpty());
+    EXPECT_THAT(problems_of_requests("vacate_lane", late + "5", {{"loop.policy_period_s", "3"}}), IsEmpty())
+        << "a lease that nobody set lasts two periods";
+    for (const std::string part : {"preempt_signals", "red_privilege", "listing_5_5"})
+        EXPECT_THAT(problems_of_requests(part, late + "9"), IsEmpty()) << "no requests to vehicles";
+}
+
+TEST(Settings, OfRequestsThatEndBeforeTheNextMessageAreRefused) {
+    const std::string seldom = "perfect,request_propagation=sharp,request_interval_s=";
+    EXPECT_THAT(problems_of_requests("vacate_lane", seldom + "2"), IsEmpty());
+    EXPECT_THAT(
+        problems_of_requests("vacate_lane", seldom + "3"),
+        testing::AllOf(HasSubstr("failure.request_interval_s: 3 s, but requests of vacate_lane live 2 s"),
+                       HasSubstr("up to 2 s"), HasSubstr("Set vacate_lane.lease_s to 3 or more")));
+    EXPECT_THAT(problems_of_requests("preempt_signals", seldom + "3"), IsEmpty());
 }
 
 TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
