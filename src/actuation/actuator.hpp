@@ -31,6 +31,7 @@ namespace clearway::actuation {
 /// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
 ///   `no_such_signal`, `wrong_target`;
 /// - `unreachable`: commands do not reach it now; `unheard`: the message with the request was lost;
+///   `outdated`: a newer request was there before it;
 /// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
 /// - human drivers take no leases unless they heed them, only emergency vehicles pass red:
 /// `not_controllable`,

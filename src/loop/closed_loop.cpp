@@ -83,6 +83,7 @@ void ClosedLoop::act(const truth::Snapshot& snapshot, bool decided) {
                   session_.roster());
     controller_->actuator->accept(requests.arrived(), snapshot.time, chain.unreachable());
     controller_->actuator->refuse(requests.lost(), "unheard");
+    controller_->actuator->refuse(requests.outdated(), "outdated");
     controller_->actuator->step(snapshot, session_.roster(), session_, commands_);
     session_.apply(commands_);
     signals_ = controller_->actuator->signals();

@@ -111,12 +111,21 @@ bool Requests::is_request(const traffic::Lease& lease, std::span<const std::stri
     return vehicle == nullptr || *vehicle != lease.beneficiary;
 }
 
-bool Requests::is_due(const sensing::Channel& channel, core::Seconds now,
-                      std::optional<sensing::MessageNumber>& last) {
-    if (channel.is_perfect()) return true;
+void Requests::Turns::begin_decision(const sensing::Channel& channel, core::Seconds now) {
     const sensing::MessageNumber number = channel.message_at(now);
-    if (last && *last >= number) return false;
-    last = number;
+    is_new_interval_ = channel.is_perfect() || !number_ || *number_ < number;
+    number_ = number;
+    if (is_new_interval_) {
+        earlier_senders_.clear();
+    } else {
+        earlier_senders_.merge(senders_);
+    }
+    senders_.clear();
+}
+
+bool Requests::Turns::take(core::VehicleKey sender) {
+    if (earlier_senders_.contains(sender)) return false;
+    senders_.insert(sender);
     return true;
 }
 
@@ -124,18 +133,31 @@ void Requests::step(const Decision& decision, const truth::Snapshot& snapshot,
                     const traffic::Roster& roster) {
     arrived_.clear();
     lost_.clear();
-    const double now_s = snapshot.time.value + core::clock_tolerance_s;
-    for (const OnItsWay& message : on_their_way_) {
-        if (message.arrives_s <= now_s) arrived_.push_back(message.lease);
-    }
-    std::erase_if(on_their_way_, [&](const OnItsWay& message) { return message.arrives_s <= now_s; });
+    outdated_.clear();
+    receive(snapshot.time);
     if (decision.is_new) send({decision, snapshot, roster});
+}
+
+void Requests::receive(core::Seconds now) {
+    const auto is_here = [&](const OnItsWay& message) {
+        return message.arrives_s <= now.value + core::clock_tolerance_s;
+    };
+    for (const OnItsWay& message : on_their_way_) {
+        if (!is_here(message)) continue;
+        const traffic::Lease& lease = message.lease;
+        core::Seconds& newest =
+            newest_sent_.try_emplace({lease.policy, lease.beneficiary, lease.target}, message.sent)
+                .first->second;
+        (message.sent < newest ? outdated_ : arrived_).push_back(lease);
+        newest = std::max(newest, message.sent);
+    }
+    std::erase_if(on_their_way_, is_here);
 }
 
 void Requests::send(const Moment& moment) {
     const core::Seconds now = moment.snapshot.time;
-    vehicles_due_ = is_due(vehicles_, now, last_to_vehicles_);
-    signals_due_ = is_due(signals_, now, last_to_signals_);
+    vehicle_turns_.begin_decision(vehicles_, now);
+    signal_turns_.begin_decision(signals_, now);
     hearings_.clear();
     signal_senders_.clear();
     wanted_.clear();
@@ -152,11 +174,11 @@ void Requests::send(const Moment& moment) {
             ask_signal(lease, std::get<core::SignalIndex>(lease.target), moment);
         }
     }
-    if (vehicles_due_) judge(moment);
+    if (vehicle_turns_.is_new_interval() || !hearings_.empty()) judge(moment);
 }
 
 void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment) {
-    if (!vehicles_due_) return;
+    if (!vehicle_turns_.take(lease.beneficiary)) return;
     const Asked asked{lease.beneficiary, vehicle, lease.action.index()};
     wanted_.push_back(asked);
     const Hearing& hearing = hearing_of(lease.beneficiary, moment);
@@ -181,7 +203,7 @@ void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle
 }
 
 void Requests::ask_stretch(const traffic::Lease& lease, const Moment& moment) {
-    if (!vehicles_due_) return;
+    if (!vehicle_turns_.take(lease.beneficiary)) return;
     hearing_of(lease.beneficiary, moment);  // The message goes out even where nobody is.
     for (const core::VehicleKey vehicle : meant_by(lease, moment.snapshot)) {
         traffic::Lease own = lease;
@@ -234,7 +256,7 @@ bool Requests::is_unreachable(core::VehicleKey vehicle, const Moment& moment) {
 }
 
 void Requests::ask_signal(const traffic::Lease& lease, core::SignalIndex signal, const Moment& moment) {
-    if (!signals_due_) return;
+    if (!signal_turns_.take(lease.beneficiary)) return;
     const auto sender = moment.snapshot.row_of(lease.beneficiary);
     const sensing::MessageNumber number = signals_.message_at(moment.snapshot.time);
     const bool speaks =
@@ -257,7 +279,7 @@ void Requests::ask_signal(const traffic::Lease& lease, core::SignalIndex signal,
 
 void Requests::deliver(const traffic::Lease& lease, double latency_s, core::Seconds now) {
     if (latency_s > 0.0) {
-        on_their_way_.push_back({now.value + latency_s, lease});
+        on_their_way_.push_back({now, now.value + latency_s, lease});
     } else {
         arrived_.push_back(lease);
     }
@@ -273,6 +295,8 @@ void Requests::judge(const Moment& moment) {
         informed_->decide();
         for (const traffic::Lease& lease : informed_->leases()) {
             if (!is_request(lease, moment.decision.decided_there)) continue;
+            // Who sends nothing is judged once an interval.
+            if (!vehicle_turns_.is_new_interval() && !hearings_.contains(lease.beneficiary)) continue;
             for (const core::VehicleKey vehicle : meant_by(lease, moment.snapshot))
                 needed_.push_back({lease.beneficiary, vehicle, lease.action.index()});
         }

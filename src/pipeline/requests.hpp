@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "experiment/condition.hpp"
@@ -27,10 +28,11 @@ namespace clearway::pipeline {
 /// request to each vehicle that is there when it is sent; a message goes out even where nobody is. All
 /// requests of an emergency vehicle to vehicles at one decision are one message, those to signals another. A
 /// vehicle hears it from the emergency vehicle or, with more than one hop, from an automated vehicle that has
-/// heard it and sends it on; each hop adds the latency. Human-driven vehicles that are not equipped hear
-/// nothing. Leases of vehicles and signals about themselves need no message, nor do those that signals
-/// decided from messages which have come to them already (SignalRadio). With perfect channels, every lease
-/// arrives at once. One thread.
+/// heard it and sends it on; each hop adds the latency, and what comes after a newer request of the same
+/// policy and sender is outdated. Human-driven vehicles that are not equipped hear nothing. Leases of
+/// vehicles and signals about themselves need no message, nor do those that signals decided from messages
+/// which have come to them already (SignalRadio). With perfect channels, every lease arrives at once. One
+/// thread.
 class Requests {
   public:
     /// Throws core::InputError as DecisionChain does.
@@ -47,9 +49,11 @@ class Requests {
     };
     /// Call at every step.
     void step(const Decision& decision, const truth::Snapshot& snapshot, const traffic::Roster& roster);
-    /// Leases that arrive at this step, and those that a message lost; valid until the next step.
+    /// Leases that arrive at this step, those that a message lost, and those that arrive after a newer
+    /// request of the same policy and sender to the same target; valid until the next step.
     std::span<const traffic::Lease> arrived() const { return arrived_; }
     std::span<const traffic::Lease> lost() const { return lost_; }
+    std::span<const traffic::Lease> outdated() const { return outdated_; }
     const traffic::RequestCounts& counts() const { return counts_; }
 
   private:
@@ -64,8 +68,26 @@ class Requests {
         auto operator<=>(const Asked&) const = default;
     };
     struct OnItsWay {
+        core::Seconds sent;
         double arrives_s = 0.0;
         traffic::Lease lease;
+    };
+    /// Who asks whom by which policy.
+    using Asking = std::tuple<std::string_view, core::VehicleKey, traffic::Target>;
+    /// Whose turn it is to send. An emergency vehicle has one message in each interval of the channel; it
+    /// carries what the vehicle asks for at one decision. With a perfect channel, every decision is an
+    /// interval of its own.
+    class Turns {
+      public:
+        void begin_decision(const sensing::Channel& channel, core::Seconds now);
+        bool is_new_interval() const { return is_new_interval_; }
+        /// Whether the sender may send at this decision; if so, its turn is used up after it.
+        bool take(core::VehicleKey sender);
+
+      private:
+        std::optional<sensing::MessageNumber> number_;  ///< Of the present interval.
+        bool is_new_interval_ = false;
+        std::set<core::VehicleKey> senders_, earlier_senders_;  ///< Of this decision, and before it.
     };
     /// Who hears a message: after how many hops, by row of the snapshot, and behind the rows those beside the
     /// road; 0: not at all. Empty when no message is sent.
@@ -78,9 +100,8 @@ class Requests {
     };
 
     static bool is_request(const traffic::Lease& lease, std::span<const std::string_view> decided_there);
-    /// Whether the channel's next message is due; a perfect one sends at every decision.
-    static bool is_due(const sensing::Channel& channel, core::Seconds now,
-                       std::optional<sensing::MessageNumber>& last);
+    /// Sorts out those that are outdated.
+    void receive(core::Seconds now);
     void send(const Moment& moment);
     void ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment);
     void ask_stretch(const traffic::Lease& lease, const Moment& moment);
@@ -101,14 +122,13 @@ class Requests {
     /// is a user's code, which is asked once: what it wanted counts as needed.
     std::unique_ptr<DecisionChain> informed_;
 
-    std::optional<sensing::MessageNumber> last_to_vehicles_, last_to_signals_;
-    std::vector<OnItsWay> on_their_way_;
-    std::vector<traffic::Lease> arrived_, lost_;
+    Turns vehicle_turns_, signal_turns_;
+    std::vector<OnItsWay> on_their_way_;           ///< In the order of sending.
+    std::map<Asking, core::Seconds> newest_sent_;  ///< Of those that came with a latency.
+    std::vector<traffic::Lease> arrived_, lost_, outdated_;
     std::set<core::VehicleKey> asked_;
     traffic::RequestCounts counts_;
     // Of the present decision.
-    bool vehicles_due_ = false;
-    bool signals_due_ = false;
     std::map<core::VehicleKey, Hearing> hearings_;
     std::set<core::VehicleKey> signal_senders_;
     std::vector<Asked> wanted_, sent_, heard_, needed_;  ///< Wanted: whether or not it could be sent.

@@ -10,8 +10,8 @@
 namespace clearway::sensing {
 
 /// Number of a message of a sender: message k goes out at the first decision at or after k x interval since
-/// time 0 of the simulation. All draws are keyed by it, so they depend neither on the step length nor on who
-/// else sends.
+/// time 0 of the simulation at which there is something to send, or never. All draws are keyed by it, so they
+/// depend neither on the step length nor on who else sends.
 using MessageNumber = std::uint64_t;
 
 /// Who hears whom when an emergency vehicle asks for something: a pure function of (sender, receiver, message

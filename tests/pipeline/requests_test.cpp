@@ -46,6 +46,7 @@ class OneRoad {
 
     std::vector<std::string> arrived() const { return ids(requests_->arrived()); }
     std::vector<std::string> lost() const { return ids(requests_->lost()); }
+    std::vector<std::string> outdated() const { return ids(requests_->outdated()); }
     const traffic::RequestCounts& counts() const { return requests_->counts(); }
 
     support::Scene scene;
@@ -160,6 +161,79 @@ TEST(Requests, WaitForTheNextMessage) {
     EXPECT_THAT(slow.arrived(), ElementsAre("a1"));
     EXPECT_EQ(slow.counts().sent, 2u);
     EXPECT_EQ(slow.counts().vehicles_asked, 1u) << "the same vehicle twice";
+}
+
+TEST(Requests, ThatArriveAfterANewerOneAreOutdated) {
+    OneRoad late("perfect,request_propagation=sharp,request_range_m=50,request_hops=2,request_latency_s=1");
+    late.ask({"a2"});  // 80 m away: a1 sends it on
+    late.scene.snapshot().x_m[late.scene.row("e1")] += 40.0F;
+    late.ask({"a2"}, 0.5);
+    late.wait(1.5);
+    EXPECT_THAT(late.arrived(), ElementsAre("a2")) << "the second, without a relay";
+    late.wait(2.0);
+    EXPECT_THAT(late.arrived(), IsEmpty());
+    EXPECT_THAT(late.outdated(), ElementsAre("a2")) << "the first";
+    late.wait(2.5);
+    EXPECT_THAT(late.outdated(), IsEmpty());
+}
+
+TEST(Requests, ThatArriveAfterANewerOneOfAnotherPolicyAreNot) {
+    OneRoad late("perfect,request_propagation=sharp,request_range_m=50,request_hops=2,request_latency_s=1");
+    late.ask({"a2"});
+    late.scene.snapshot().x_m[late.scene.row("e1")] += 40.0F;
+    traffic::Lease other = lease(late.scene.key("a2"), traffic::HoldLane{}, late.scene.key("e1"));
+    other.policy = "other part";
+    late.decide({other}, 0.5);
+    late.wait(1.5);
+    EXPECT_THAT(late.arrived(), ElementsAre("a2"));
+    late.wait(2.0);
+    EXPECT_THAT(late.arrived(), ElementsAre("a2"));
+    EXPECT_THAT(late.outdated(), IsEmpty());
+}
+
+TEST(Requests, UseUpTheMessageOfAnIntervalWhenThereIsSomethingToSend) {
+    OneRoad slow("perfect,request_propagation=sharp,request_interval_s=2");
+    slow.decide({}, 0.0);
+    slow.ask({"a1"}, 0.5);
+    EXPECT_THAT(slow.arrived(), ElementsAre("a1")) << "nothing was sent before";
+    EXPECT_EQ(slow.counts().needed, 1u);
+    slow.ask({"a1"}, 1.0);
+    EXPECT_THAT(slow.arrived(), IsEmpty());
+    slow.ask({"a1"}, 2.0);
+    EXPECT_THAT(slow.arrived(), ElementsAre("a1"));
+    EXPECT_EQ(slow.counts().messages, 2u);
+}
+
+TEST(Requests, OfTwoEmergencyVehiclesHaveAMessageEach) {
+    OneRoad slow("perfect,request_propagation=sharp,request_interval_s=2", R"(
+        10 m per cell, limit 10 m/s, speed 5 m/s
+        e...a...e...
+    )");
+    const auto of = [&](const char* sender) {
+        return lease(slow.scene.key("a1"), traffic::HoldLane{}, slow.scene.key(sender));
+    };
+    slow.decide({of("e1")}, 0.0);
+    EXPECT_EQ(slow.counts().sent, 1u);
+    slow.decide({of("e1"), of("e2")}, 0.5);
+    EXPECT_EQ(slow.counts().sent, 2u) << "that of e2";
+    slow.decide({of("e1"), of("e2")}, 1.0);
+    EXPECT_EQ(slow.counts().sent, 2u);
+    slow.decide({of("e1"), of("e2")}, 2.0);
+    EXPECT_EQ(slow.counts().sent, 4u);
+}
+
+TEST(Requests, ToSignalsUseUpTheMessageOfAnIntervalWhenThereIsSomethingToSend) {
+    OneRoad slow(
+        "perfect,signal_request_propagation=sharp,signal_request_range_m=300,signal_request_interval_s=2");
+    const std::vector<traffic::Lease> green = {
+        lease(core::SignalIndex(0), traffic::HoldGreen{{0}}, slow.scene.key("e1"))};
+    slow.decide({}, 0.0);
+    slow.decide(green, 0.5);
+    EXPECT_EQ(slow.counts().signal_sent, 1u);
+    slow.decide(green, 1.0);
+    EXPECT_EQ(slow.counts().signal_sent, 1u);
+    slow.decide(green, 2.0);
+    EXPECT_EQ(slow.counts().signal_sent, 2u);
 }
 
 TEST(Requests, OfDriversWithoutEquipmentAreLost) {
@@ -326,6 +400,21 @@ TEST(Requests, AreComparedWithWhatTheTruthWouldAskFor) {
     const traffic::RequestCounts false_links = counts_of(condition);
     EXPECT_EQ(false_links.needed, 1u) << "in truth a1 alone is linked";
     EXPECT_EQ(false_links.useless, false_links.sent - 1u);
+}
+
+TEST(Requests, OfThoseWhoSendNothingAreMissedOnceAnInterval) {
+    experiment::ConditionSpec condition;
+    condition.policies = {"clear_lane"};
+    condition.failure = "loss_rate=1,request_propagation=sharp,request_interval_s=2";
+    support::Scene scene(queue);
+    const ChainContext context{.network = scene.network()};
+    Requests requests(condition, context);
+    for (const double at_s : {0.0, 0.5, 1.0, 1.5}) {
+        scene.snapshot().time = core::Seconds(100.0 + at_s);
+        requests.step({.leases = {}, .unreachable = {}, .is_new = true}, scene.snapshot(), scene.roster());
+    }
+    EXPECT_EQ(requests.counts().needed, 2u) << "a1 and a2";
+    EXPECT_EQ(requests.counts().missed, 2u);
 }
 
 TEST(Requests, OfAGeocastNeedNobodyToBeKnown) {
