@@ -75,7 +75,8 @@ bool needs_rounds(const FailureConfig& config) {
            config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 ||
            config.link_detection_rate > 0.0 || config.heading_sigma_deg > 0.0 ||
            config.map_matching != MapMatching::exact || config.route_share < 1.0 ||
-           config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0;
+           config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0 ||
+           config.dark_commands == DarkCommands::lost;
 }
 
 /// The least mean outage, s: with shorter ones, losses would follow each other less often than by chance.
@@ -280,8 +281,11 @@ class FieldReader {
             names.emplace_back(field.name);
             if (name != field.name) return;
             found = true;
-            const auto allowed = set(config.*field.member, value);
-            if (allowed) problem(name, fmt::format("'{}' is not a valid value", value), *allowed);
+            auto allowed = set(config.*field.member, value);
+            if (!allowed) return;
+            if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(config.*field.member)>>)
+                *allowed += fmt::format(" from {} to {}", field.minimum, field.maximum);
+            problem(name, fmt::format("'{}' is not a valid value", value), *allowed);
         });
         if (!found) problems.push_back(unknown("field of a failure", name, names));
         if (std::ranges::find(seen_, name) != seen_.end()) problem(name, "occurs twice", "once");
@@ -323,7 +327,7 @@ class FieldReader {
 }  // namespace
 
 bool reports_fail(const FailureConfig& config) {
-    return needs_rounds(config) || config.dark_commands == DarkCommands::lost;
+    return needs_rounds(config);
 }
 
 std::vector<core::Problem> problems_of(const FailureConfig& config, const std::string& where) {

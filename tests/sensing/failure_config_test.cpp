@@ -198,6 +198,10 @@ TEST(FailureConfig, RefusesValuesThatDoNotGoTogether) {
     perfect_but_partly_connected.connected_share = 0.5;
     EXPECT_THAT(problems_of(perfect_but_partly_connected, "f"), SizeIs(1));
 
+    FailureConfig perfect_but_out_of_reach = failure_from("perfect");
+    perfect_but_out_of_reach.dark_commands = DarkCommands::lost;
+    EXPECT_THAT(problems_of(perfect_but_out_of_reach, "f"), SizeIs(1));
+
     FailureConfig too_short;
     too_short.dark_share = 0.5;
     too_short.mean_outage_s = 1.9;
@@ -263,6 +267,8 @@ TEST(RequestChannel, RefusesWhatIsOutOfRangeOrContradictory) {
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=0"),
                 AllOf(HasSubstr("request_hops"), HasSubstr("1 to 5")));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=1.5"), HasSubstr("a whole number"));
+    EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=99999999999"),
+                HasSubstr("'99999999999' is not a valid value (allowed: a whole number from 1 to 5)"));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_loss_rate=1.1"), HasSubstr("0 to 1"));
     EXPECT_THAT(refusal_of("request_propagation=far"), HasSubstr("perfect, sharp, los, nlos"));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_dark_share=0.9,request_mean_outage_s=4"),

@@ -281,6 +281,18 @@ TEST(DarkCommands, AreLostForThoseWhoseReportWasLost) {
     EXPECT_NEAR(static_cast<double>(unreachable) / 6000.0, 0.3, 0.06);
 }
 
+TEST(DarkCommands, ReachWhoStandsBesideTheRoad) {
+    testing::Crowd crowd(1);
+    crowd.snapshot.beside_road = {{core::vehicle_key("parked"), traffic::VehicleClass::automated, {}}};
+    const auto sensor = make_sensor(failure_from("loss_rate=1,dark_commands=lost"), draws(),
+                                    {testing::small_scene().network(), {}});
+    traffic::Observation observation;
+    crowd.at(0);
+    sensor->observe(crowd.snapshot, crowd.roster, observation);
+    EXPECT_THAT(sensor->unreachable(), ::testing::ElementsAreArray(crowd.snapshot.key))
+        << "who sends no reports has lost none";
+}
+
 TEST(NewParts, ComposeWithoutChangingEachOthersDraws) {
     // The reports of those that report are the same whoever else is seen.
     testing::Crowd crowd(100);
