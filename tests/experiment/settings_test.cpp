@@ -330,7 +330,7 @@ TEST(Settings, OfRequestsThatEndBeforeTheyArriveAreRefused) {
     EXPECT_THAT(problems_of_requests("vacate_lane", late + "1.9"), IsEmpty());
     EXPECT_THAT(
         problems_of_requests("vacate_lane", late + "2"),
-        testing::AllOf(HasSubstr("failure.request_latency_s: 2 s for each of 1 hops is 2 s, but requests "
+        testing::AllOf(HasSubstr("failure.request_latency_s: 2 s times request_hops=1 is 2 s, but requests "
                                  "of vacate_lane live 2 s"),
                        HasSubstr("below 2 s"), HasSubstr("Set vacate_lane.lease_s above 2")));
     EXPECT_THAT(problems_of_requests("vacate_lane", late + "1,request_hops=2"), HasSubstr("below 1 s"));

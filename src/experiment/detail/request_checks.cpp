@@ -47,9 +47,11 @@ std::optional<double> lifetime_s(const ConditionSpec& condition, const std::stri
 /// The channel of requests to vehicles; nothing if it is perfect, or wrong, which is told elsewhere.
 std::optional<sensing::RequestChannel> channel_of(const ConditionSpec& condition) {
     try {
-        const sensing::RequestChannel channel = sensing::failure_from(condition.failure);
+        const sensing::FailureConfig failure = sensing::failure_from(condition.failure);
+        const sensing::RequestChannel& channel = failure;
         if (channel.propagation != sensing::Propagation::perfect) return channel;
     } catch (const core::InputError&) {
+        return std::nullopt;
     }
     return std::nullopt;
 }
@@ -59,9 +61,9 @@ void check_latency(const sensing::RequestChannel& channel, const std::string& pa
     const double arrives_s = channel.latency_s * channel.hops;
     if (arrives_s < lives_s - core::clock_tolerance_s) return;
     problems.push_back({where + "failure.request_latency_s",
-                        fmt::format("{:g} s for each of {} hops is {:g} s, but requests of {} live {:g} s",
+                        fmt::format("{:g} s times request_hops={} is {:g} s, but requests of {} live {:g} s",
                                     channel.latency_s, channel.hops, arrives_s, part, lives_s),
-                        fmt::format("below {:g} s with so many hops", lives_s / channel.hops),
+                        fmt::format("below {:g} s with these hops", lives_s / channel.hops),
                         fmt::format("Set {}.lease_s above {:g}, or lower request_latency_s or request_hops",
                                     part, arrives_s)});
 }
