@@ -66,6 +66,17 @@ std::string member_text(const Member& value) {
     }
 }
 
+/// The numbers that a field takes, `0 to 10000 m`. A range without a unit has none to tell.
+template <class Field>
+std::string range_text(const Field& field) {
+    std::string text = fmt::format("{} to {}", field.minimum, field.maximum);
+    if constexpr (requires { field.unit; }) {
+        const std::string unit = field.unit;
+        if (!unit.empty() && unit != "1") text += " " + unit;
+    }
+    return text;
+}
+
 /// Sets one member from text: a number (whole for an integer member), true or false, or a word from the
 /// `spellings` of an enumeration. Returns what is wrong, if anything.
 template <class Field, class Member>
@@ -84,14 +95,15 @@ std::optional<Problem> set_member(const Field& field, const std::string& text, c
         return std::nullopt;
     } else {
         static_assert(std::is_arithmetic_v<Member>);
+        const auto problem = [&](const char* what) {
+            return Problem{where, fmt::format(fmt::runtime(what), text), range_text(field),
+                           fmt::format("Give another number, or leave it out for {}", target)};
+        };
         const auto number = number_from(text);
-        const std::string allowed = fmt::format("{} to {}", field.minimum, field.maximum);
-        if (!number) return Problem{where, fmt::format("\"{}\" is not a number", text), allowed, ""};
-        if (!(*number >= field.minimum && *number <= field.maximum))
-            return Problem{where, fmt::format("{} is out of range", text), allowed, ""};
+        if (!number) return problem("\"{}\" is not a number");
+        if (!(*number >= field.minimum && *number <= field.maximum)) return problem("{} is out of range");
         const auto value = static_cast<Member>(*number);
-        if (static_cast<double>(value) != *number)
-            return Problem{where, fmt::format("{} is not a whole number", text), allowed, ""};
+        if (static_cast<double>(value) != *number) return problem("{} is not a whole number");
         target = value;
         return std::nullopt;
     }

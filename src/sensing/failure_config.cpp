@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/settings.hpp"
+
 namespace clearway::sensing {
 namespace {
 
@@ -93,9 +95,6 @@ void check_channel(const ChannelConfig& channel, const ChannelConfig& usual, con
                             "sharp, los, nlos", "Give the propagation, or leave the other settings out"});
         return;
     }
-    if (channel.range_m == 0.0)
-        problems.push_back({prefix + "range_m", "is 0 m: nobody would hear a request", "above 0 to 10000 m",
-                            "Give a range, or leave out the policies that ask for something"});
     const double least_s = least_outage_s(channel.interval_s, channel.dark_share);
     if (channel.dark_share > 0.0 && channel.mean_outage_s < least_s - 1e-9)
         problems.push_back(
@@ -111,11 +110,9 @@ void check_ranges(const FailureConfig& config, const std::string& where,
         const auto& value = config.*field.member;
         if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
             if (value >= field.minimum && value <= field.maximum) return;
-            const std::string unit =
-                std::string_view(field.unit) == "1" ? "" : fmt::format(" {}", field.unit);
             problems.push_back({fmt::format("{}.{}", where, field.name),
-                                fmt::format("{} is out of range", value),
-                                fmt::format("{} to {}{}", field.minimum, field.maximum, unit), ""});
+                                fmt::format("{} is out of range", value), core::range_text(field),
+                                "Give another number, or leave it out"});
         }
     });
 }

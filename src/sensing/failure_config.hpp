@@ -232,7 +232,7 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "Which vehicles hear the requests of an emergency vehicle",
                   "perfect: every vehicle; older conditions had no channel"},
             Field{
-                "request_range_m", "m", of<Way>(&C::range_m), 0.0, 10000.0,
+                "request_range_m", "m", of<Way>(&C::range_m), 1.0, 10000.0,
                 "sharp: they are heard within this distance; los and nlos: half of them are at this distance",
                 "300 m: usual for vehicle radios in streets; with 50 m it is the link radius"},
             Field{"request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,
@@ -259,7 +259,7 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
             Field{"signal_request_propagation", "", of<Way>(&C::propagation), 0, 0,
                   "Which signals hear the requests of an emergency vehicle",
                   "perfect: every signal; older conditions had no channel"},
-            Field{"signal_request_range_m", "m", of<Way>(&C::range_m), 0.0, 10000.0,
+            Field{"signal_request_range_m", "m", of<Way>(&C::range_m), 1.0, 10000.0,
                   "As request_range_m, to the middle of a signal's stop lines",
                   "500 m assumed: a receiver on a mast"},
             Field{"signal_request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,

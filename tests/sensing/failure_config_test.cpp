@@ -247,12 +247,15 @@ TEST(RequestChannel, ReadsItsFieldsBesideAPreset) {
     EXPECT_DOUBLE_EQ(both.SignalRequestChannel::range_m, 500.0);
 }
 
-TEST(RequestChannel, OfNoReachIsRefused) {
-    EXPECT_THAT(refusal_of("request_propagation=sharp,request_range_m=0"),
-                AllOf(HasSubstr("failure.request_range_m"), HasSubstr("is 0 m"),
-                      HasSubstr("above 0 to 10000 m"), HasSubstr("Give a range")));
+TEST(RequestChannel, OfNoReachIsRefusedLikeAnyOtherOutsideTheRange) {
+    for (const char* const reach : {"0", "-5", "10001"}) {
+        const std::string setting = std::string("request_propagation=sharp,request_range_m=") + reach;
+        EXPECT_THAT(refusal_of(setting),
+                    AllOf(HasSubstr("request_range_m: " + std::string(reach) + " is out of range"),
+                          HasSubstr("allowed: 1 to 10000 m"), HasSubstr("Give another number")));
+    }
     EXPECT_THAT(refusal_of("signal_request_propagation=nlos,signal_request_range_m=0"),
-                HasSubstr("failure.signal_request_range_m"));
+                HasSubstr("signal_request_range_m: 0 is out of range (allowed: 1 to 10000 m)"));
 }
 
 TEST(RequestChannel, ThatIsPerfectTakesNoOtherSetting) {
