@@ -151,6 +151,20 @@ void check_model(const ConditionSpec& condition, const std::string& where,
     }
 }
 
+/// Policies that place vehicles within their lane run in the sublane model alone.
+void check_sublane(const ConditionSpec& condition, const std::string& where,
+                   std::vector<core::Problem>& problems) {
+    if (condition.traffic_model == TrafficModel::sublane) return;
+    for (const std::string& policy : policies_with(condition, policy::Need::sublane_model))
+        problems.push_back(
+            {where + "policy",
+             fmt::format("{} needs vehicles with a place within their lane, which traffic model \"{}\" does "
+                         "not have",
+                         policy, name(condition.traffic_model)),
+             "traffic model \"sublane\"",
+             "Run it with --traffic-model sublane, in a study file traffic_model = \"sublane\""});
+}
+
 void check_link_radius(const ConditionSpec& condition, const std::string& where,
                        std::vector<core::Problem>& problems) {
     const std::string name = std::string(loop_name) + ".link_radius_m";
@@ -364,11 +378,14 @@ bool reads_links(const ConditionSpec& condition) {
     });
 }
 
-bool needs(const ConditionSpec& condition, policy::Need need) {
-    return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
-        return std::ranges::find(entry.needs, need) != entry.needs.end() &&
-               std::ranges::find(condition.policies, entry.name) != condition.policies.end();
-    });
+std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need) {
+    std::vector<std::string> names;
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        if (std::ranges::find(entry.needs, need) != entry.needs.end() &&
+            std::ranges::find(condition.policies, entry.name) != condition.policies.end())
+            names.push_back(entry.name);
+    }
+    return names;
 }
 
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where) {
@@ -392,13 +409,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
     if (const auto part = part_called(condition.predictor))
         prediction::check_settings(condition.predictor, predictor_settings(condition), where + *part,
                                    problems);
-    if (needs(condition, policy::Need::sublane_model) && condition.traffic_model != TrafficModel::sublane)
-        problems.push_back(
-            {where + "policy",
-             "one of the policies needs vehicles with a place within their lane, which the "
-             "standard traffic model does not have",
-             "traffic model \"sublane\"",
-             "Run it with --traffic-model sublane, in a study file traffic_model = \"sublane\""});
+    check_sublane(condition, where, problems);
     if (problems.empty()) {
         check_leases(condition, where, problems);
         check_ask(condition, where, problems);

@@ -66,8 +66,8 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// are not checked, nor are settings of classes in Python: python::check_part does it.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
 
-/// Whether a policy of the condition has this need.
-bool needs(const ConditionSpec& condition, policy::Need need);
+/// Names of the condition's policies that have this need.
+std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need);
 
 /// What is wrong with one setting, regardless of the condition; empty if some condition may have it. Any
 /// setting of `parts`, names of parts in Python, is one.

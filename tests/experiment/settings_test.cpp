@@ -91,9 +91,9 @@ TEST(Settings, ThatCannotBeNameTheNearest) {
     EXPECT_THAT(problems_of("preemt_signals.lead_s", "12"),
                 HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
     EXPECT_THAT(problems_of("lead_s", "12"), HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
-    EXPECT_THAT(
-        problems_of("preempt_signals.lead_s", "99"),
-        testing::AllOf(HasSubstr("preempt_signals.lead_s: 99 is out of range"), HasSubstr("0 to 60")));
+    EXPECT_THAT(problems_of("preempt_signals.lead_s", "99"),
+                testing::AllOf(HasSubstr("preempt_signals.lead_s: 99 is out of range"),
+                               HasSubstr("0 to 60 s"), HasSubstr("or leave it out for")));
     EXPECT_THAT(problems_of("preempt_signals.lead_s", "soon"), HasSubstr("\"soon\" is not a number"));
     EXPECT_THAT(problems_of("recover_signals.change_vehicles", "2.5"),
                 HasSubstr("2.5 is not a whole number"));
@@ -358,7 +358,9 @@ TEST(Settings, OfRequestsThatEndBeforeTheNextMessageAreRefused) {
 TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
     ConditionSpec condition;
     condition.policies = {"rescue_lane"};
-    EXPECT_THAT(problems_of(condition), HasSubstr("--traffic-model sublane"));
+    EXPECT_THAT(problems_of(condition),
+                testing::AllOf(HasSubstr("policy: rescue_lane needs vehicles with a place within their lane"),
+                               HasSubstr("--traffic-model sublane")));
     condition.traffic_model = TrafficModel::sublane;
     EXPECT_THAT(problems_of(condition), IsEmpty());
 }

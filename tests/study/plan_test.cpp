@@ -131,9 +131,10 @@ std::string problems_on_the_road(const char* scenario, const char* policy, Traff
 
 TEST(Situation, RefusesAPolicyThatNeedsAShoulderWhereThereIsNone) {
     const auto as_it_is = [](scenario::ScenarioConfig&) {};
-    EXPECT_THAT(problems_on_the_road("merge", "pull_over", TrafficModel::standard, as_it_is),
-                testing::AllOf(testing::HasSubstr("condition pull_over, scenario merge"),
-                               testing::HasSubstr("needs a shoulder"), testing::HasSubstr("pull_aside")));
+    EXPECT_THAT(
+        problems_on_the_road("merge", "pull_over", TrafficModel::standard, as_it_is),
+        testing::AllOf(testing::HasSubstr("condition pull_over, scenario merge"),
+                       testing::HasSubstr("pull_over needs a shoulder"), testing::HasSubstr("pull_aside")));
     EXPECT_EQ(problems_on_the_road("rural", "pull_over", TrafficModel::standard, as_it_is), "none");
 }
 

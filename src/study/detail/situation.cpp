@@ -126,10 +126,13 @@ void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::S
         return *network;
     };
     for (const ConditionSpec& condition : conditions) {
-        if (experiment::needs(condition, policy::Need::shoulder) && !has_shoulders(built()))
+        const std::vector<std::string> pulling_over =
+            experiment::policies_with(condition, policy::Need::shoulder);
+        if (!pulling_over.empty() && !has_shoulders(built()))
             problems.push_back(
                 {fmt::format("condition {}, scenario {}", condition.name, scenario.name),
-                 "has a policy that needs a shoulder, and no road of the network has one",
+                 fmt::format("{} needs a shoulder, and no road of the network has one",
+                             core::listed(pulling_over)),
                  "an outermost lane of 2 m or more that is closed to cars, EVs and pedestrians",
                  "Add shoulders, or choose another policy, such as pull_aside"});
         if (condition.settings.contains(experiment::equipped_setting))
