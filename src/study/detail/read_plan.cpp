@@ -24,13 +24,24 @@ std::vector<std::string> names_of(const std::vector<Element>& elements) {
     return names;
 }
 
+/// The name probably meant by one that is not in the study. Factors lengthen names: `a` is `a+lease_s=2`
+/// then.
+std::string meant(const std::string& name, const std::vector<std::string>& known) {
+    std::vector<std::string> lengthened;
+    for (const std::string& full : known) {
+        if (!name.empty() && full.starts_with(name + "+")) lengthened.push_back(full);
+    }
+    if (!lengthened.empty())
+        return fmt::format("Factors are part of a name: write '{}'", fmt::join(lengthened, "' or '"));
+    const std::string near = core::nearest(name, known);
+    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
+}
+
 void check_name(StrictTable& row, const char* key, const std::string& name,
                 const std::vector<std::string>& known) {
     if (std::ranges::find(known, name) != known.end()) return;
-    const std::string near = core::nearest(name, known);
     row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
-                fmt::format("{}", fmt::join(known, ", ")),
-                near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+                fmt::format("{}", fmt::join(known, ", ")), meant(name, known));
 }
 
 /// Metrics in seconds, for which the margin has a meaning.
@@ -66,16 +77,44 @@ void check_comparison(StrictTable& row, const results::PlannedComparison& compar
         check_name(row, "scenario", comparison.scenario, names_of(config.scenarios));
 }
 
-/// The margin is a share of the delay, and the delay needs the time of an emergency vehicle alone.
+/// Whether two comparisons ask the same of the same runs, in whichever direction.
+bool ask_the_same(const results::PlannedComparison& one, const results::PlannedComparison& other) {
+    const bool same_pair =
+        std::minmax(one.condition, one.against) == std::minmax(other.condition, other.against);
+    const bool same_scenario =
+        one.scenario == other.scenario || one.scenario.empty() || other.scenario.empty();
+    return one.claim == other.claim && same_pair && same_scenario;
+}
+
+/// A question that is asked twice would be counted twice by Holm's correction.
+void check_repeated(std::vector<StrictTable>& rows,
+                    const std::vector<results::PlannedComparison>& comparisons) {
+    for (std::size_t at = 1; at < comparisons.size(); ++at) {
+        const auto here = comparisons.begin() + static_cast<std::ptrdiff_t>(at);
+        const auto first = std::find_if(comparisons.begin(), here,
+                                        [&](const auto& other) { return ask_the_same(other, *here); });
+        if (first == here) continue;
+        rows[at].problem("condition",
+                         fmt::format("'{}' and '{}' are compared by '{}' already", here->condition,
+                                     here->against, first->name),
+                         "each pair once for each claim and scenario", "Remove one of the two");
+    }
+}
+
+/// A margin of 0 holds no difference. A margin that is a share of the delay needs the time of an emergency
+/// vehicle alone.
 void check_margin(StrictTable& reader, const results::AnalysisPlan& plan, const StudyConfig& config) {
+    const bool claims_equivalence = std::ranges::any_of(
+        plan.comparisons,
+        [](const results::PlannedComparison& one) { return one.claim == results::Claim::equivalence; });
+    if (!claims_equivalence) return;
+    if (plan.margin_s == 0.0 && plan.margin_share == 0.0)
+        reader.problem("margin_s", "is 0, and so is margin_share: equivalence cannot be shown",
+                       "one of them above 0", "Give the least difference that would matter, in seconds");
     const bool has_solo = std::ranges::any_of(config.conditions, [](const experiment::ConditionSpec& one) {
         return one.traffic_model == experiment::TrafficModel::free_flow;
     });
-    const bool needs_it = plan.margin_share > 0.0 &&
-                          std::ranges::any_of(plan.comparisons, [](const results::PlannedComparison& one) {
-                              return one.claim == results::Claim::equivalence;
-                          });
-    if (needs_it && !has_solo)
+    if (plan.margin_share > 0.0 && !has_solo)
         reader.problem("margin_share", "is a share of the delay, which needs the condition solo",
                        "0, or a study with solo", "Add solo to the conditions");
 }
@@ -104,9 +143,13 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
                      "replications: looking at results until they suffice finds too much",
                      "Fix the number of replications beforehand");
     if (extent == Extent::quick) return;
+    if (config.replications < 2)
+        root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),
+                     "2 or more", fmt::format("Give {} or more, or remove [plan]", least_replications));
     std::set<std::string> names;
     for (std::size_t at = 0; at < rows.size(); ++at)
         check_comparison(rows[at], plan.comparisons[at], config, names);
+    check_repeated(rows, plan.comparisons);
     check_margin(*reader, plan, config);
     config.plan = std::move(plan);
 }
