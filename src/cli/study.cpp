@@ -12,7 +12,6 @@
 #include "cli/detail/rounds.hpp"
 #include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
-#include "study/fresh_seeds.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::cli {
@@ -70,6 +69,7 @@ core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& s
 core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunPlanOptions options) {
     config.replications = replications_so_far(config, options.folder);
     study::Plan plan = plan_for(config, options);
+    study::check_roads(plan);
     study::keep_shard(plan, shard);
     fmt::print("{}", options.printing == Printing::json ? plan_json(plan, options.folder, options.workers)
                                                         : plan_text(plan, options.folder, options.workers));
@@ -82,7 +82,7 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
     study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
     apply_models(arguments.models, config.conditions);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
-    study::check_fresh_seed(config, arguments.file, folder);
+    check_seed(config, arguments.file, folder);
     RunPlanOptions options{folder,
                            arguments.jobs,
                            arguments.limits,

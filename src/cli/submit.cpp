@@ -155,6 +155,7 @@ core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) 
     if (config.precision)
         throw core::InputError({arguments.file, "has a precision target, which needs all its runs at once",
                                 "a study with replications", "Give the number of replications"});
+    check_seed(config, arguments.file, arguments.out);
     RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing, invocation.command};
     const study::Plan plan = plan_for(config, options);
     study::Submission submission = submission_of(arguments, plan);

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/strict_table.hpp"
 #include "results/manifest.hpp"
+#include "study/plan.hpp"
 
 namespace clearway::study {
 namespace {
@@ -40,17 +41,6 @@ std::vector<std::uint64_t> seeds_of(const fs::path& file) {
     }
 }
 
-std::optional<results::Manifest> manifest_in(const fs::path& folder) {
-    const fs::path file = folder / "manifest.json";
-    std::error_code none;
-    if (!fs::is_regular_file(file, none)) return std::nullopt;
-    try {
-        return results::manifest_from_json(core::read_file(file), file.string());
-    } catch (const core::InputError&) {
-        return std::nullopt;
-    }
-}
-
 std::string user_among_files(const StudyConfig& config, const fs::path& file) {
     std::error_code none;
     const fs::path absolute = fs::absolute(file);
@@ -62,30 +52,65 @@ std::string user_among_files(const StudyConfig& config, const fs::path& file) {
     return "";
 }
 
-std::string user_among_runs(const StudyConfig& config, const fs::path& folder) {
+/// The manifest of a run folder, if it is one. What cannot be read is added to `unread`.
+std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector<core::Problem>& unread) {
+    const fs::path file = folder / "manifest.json";
+    std::error_code none;
+    if (!fs::exists(file, none)) return std::nullopt;
+    try {
+        return results::manifest_from_json(core::read_file(file), file.string());
+    } catch (const core::InputError& error) {
+        unread.push_back(error.problems().front());
+        return std::nullopt;
+    }
+}
+
+/// What a stored study has other than the wanted one; empty when the wanted one goes on with it. Versions do
+/// not count: nobody chooses them by results.
+std::string other_settings(const results::Manifest& stored, results::Manifest wanted) {
+    wanted.clearway_version = stored.clearway_version;
+    wanted.sumo_version = stored.sumo_version;
+    return results::continues(wanted, stored) ? "" : results::differences(stored, wanted);
+}
+
+/// `runs/first: different conditions`, or nothing.
+std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
+                            std::vector<core::Problem>& unread) {
     std::error_code none;
     const fs::path absolute = fs::absolute(folder);
+    const results::Manifest wanted = manifest_of(config, {});
     for (const fs::path& other : entries_of(absolute.parent_path())) {
-        if (fs::equivalent(other, absolute, none)) continue;
-        const auto manifest = manifest_in(other);
+        const auto manifest = manifest_in(other, unread);
         if (!manifest || manifest->study_seed != config.seed) continue;
-        const bool is_itself = manifest->study == config.name && manifest->plan == config.plan;
-        if (!is_itself) return other.string();
+        const std::string different = other_settings(*manifest, wanted);
+        // The study's own folder with more replications: nothing would run, and the folder says so itself.
+        if (different == "replications" && fs::equivalent(other, absolute, none)) continue;
+        if (!different.empty()) return fmt::format("{}: different {}", other.string(), different);
     }
     return "";
 }
 
+core::InputError used_before(const StudyConfig& config, const fs::path& file, const std::string& user,
+                             const char* cure) {
+    return core::InputError({fmt::format("{}: seed", file.string()),
+                             fmt::format("{} was used before, by {}", config.seed, user),
+                             "a seed that nothing was tuned on or looked at", cure});
+}
+
 }  // namespace
 
-void check_fresh_seed(const StudyConfig& config, const fs::path& file, const fs::path& folder) {
-    if (!config.plan) return;
-    std::string user = user_among_files(config, file);
-    if (user.empty()) user = user_among_runs(config, folder);
-    if (user.empty()) return;
-    throw core::InputError(
-        {fmt::format("{}: seed", file.string()), fmt::format("{} was used before, by {}", config.seed, user),
-         "a seed that nothing was tuned on or looked at",
-         "Give the study another seed, or remove [plan] and call its results exploratory"});
+std::vector<core::Problem> check_fresh_seed(const StudyConfig& config, const fs::path& file,
+                                            const fs::path& folder) {
+    std::vector<core::Problem> unread;
+    if (!config.plan) return unread;
+    if (const std::string user = user_among_files(config, file); !user.empty())
+        throw used_before(config, file, user,
+                          "Give the study another seed, or remove [plan] and call its results exploratory");
+    if (const std::string user = user_among_runs(config, folder, unread); !user.empty())
+        throw used_before(config, file, user,
+                          "Other settings were run on this seed: take a seed that was never run, or remove "
+                          "[plan] and call the results exploratory");
+    return unread;
 }
 
 }  // namespace clearway::study

@@ -81,26 +81,6 @@ void check(const StudyConfig& config) {
     if (!problems.empty()) throw core::InputError(problems);
 }
 
-results::Manifest make_manifest(const StudyConfig& config, const Versions& versions) {
-    results::Manifest manifest;
-    manifest.study = config.name;
-    manifest.clearway_version = versions.clearway;
-    manifest.sumo_version = versions.sumo;
-    manifest.study_seed = config.seed;
-    manifest.replications = config.replications;
-    for (const scenario::ScenarioConfig& scenario : config.scenarios) {
-        const auto factors = config.scenario_factors.find(scenario.name);
-        manifest.scenarios.push_back(
-            {scenario.name, scenario.version, scenario.title, scenario::to_toml(scenario),
-             scenario::scenario_hash(scenario), scenario.network.attribution,
-             factors == config.scenario_factors.end() ? core::Settings{} : factors->second});
-    }
-    manifest.conditions = config.conditions;
-    manifest.precision = config.precision;
-    manifest.plan = config.plan;
-    return manifest;
-}
-
 /// Stores a scenario and its network atomically.
 void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) {
     if (fs::exists(target)) return;
@@ -130,10 +110,30 @@ std::size_t Plan::run_count() const {
     return count;
 }
 
+results::Manifest manifest_of(const StudyConfig& config, const Versions& versions) {
+    results::Manifest manifest;
+    manifest.study = config.name;
+    manifest.clearway_version = versions.clearway;
+    manifest.sumo_version = versions.sumo;
+    manifest.study_seed = config.seed;
+    manifest.replications = config.replications;
+    for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+        const auto factors = config.scenario_factors.find(scenario.name);
+        manifest.scenarios.push_back(
+            {scenario.name, scenario.version, scenario.title, scenario::to_toml(scenario),
+             scenario::scenario_hash(scenario), scenario.network.attribution,
+             factors == config.scenario_factors.end() ? core::Settings{} : factors->second});
+    }
+    manifest.conditions = config.conditions;
+    manifest.precision = config.precision;
+    manifest.plan = config.plan;
+    return manifest;
+}
+
 Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::path& folder) {
     check(config);
     Plan plan;
-    plan.manifest = make_manifest(config, versions);
+    plan.manifest = manifest_of(config, versions);
     plan.scenarios = config.scenarios;
     const fs::path output = fs::absolute(folder);
     for (const UnitPlace& place : units_of(plan.manifest)) {
@@ -172,11 +172,15 @@ std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
     return places;
 }
 
-results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+void check_roads(const Plan& plan) {
     std::vector<core::Problem> problems;
     for (const scenario::ScenarioConfig& config : plan.scenarios)
         detail::check_roads(plan.manifest.conditions, config, problems);
     if (!problems.empty()) throw core::InputError(problems);
+}
+
+results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+    check_roads(plan);
     const detail::FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     for (const scenario::ScenarioConfig& config : plan.scenarios)

@@ -44,12 +44,19 @@ struct Versions {
     std::string sumo;
 };
 
+/// What a study is, as its run folder keeps it.
+results::Manifest manifest_of(const StudyConfig& config, const Versions& versions);
+
 /// Throws core::InputError when scenarios or conditions share a name, when there are none, or when a
 /// condition with a policy has no baseline with its traffic model. `folder` becomes the units' output.
 Plan make_plan(const StudyConfig& config, const Versions& versions, const std::filesystem::path& folder);
 
+/// Throws core::InputError with what the conditions need of the scenarios' roads and do not find there, such
+/// as a shoulder. Builds the networks of which a condition needs something, in some seconds at most.
+void check_roads(const Plan& plan);
+
 /// Creates the run folder with the manifest and each scenario's effective configuration and network. Keeps
-/// what already exists. Throws as scenario::build_network and results::Store::create do.
+/// what already exists. Throws as check_roads, scenario::build_network and results::Store::create do.
 results::Store prepare_folder(const Plan& plan, const std::filesystem::path& folder);
 
 }  // namespace clearway::study

@@ -92,11 +92,13 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
         EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     };
     refused({"--set", "preempt_signals.leed_s=12"}, "Did you mean 'lead_s'?");
-    refused({"--set", "preempt_signals.lead_s=99"}, "99 is out of range (allowed: 0 to 60)");
+    refused({"--set", "preempt_signals.lead_s=99"},
+            "99 is out of range (allowed: 0 to 60 s). Give another number, or leave it out for");
     refused({"--set", "preempt_signals.lead_s"}, "`preempt_signals.lead_s` is not an assignment");
     refused({"--set", "clear_lane.lease_s=0.5"}, "shorter than two policy periods");
     refused({"--set", "failure.loss_rate=0.1"}, "--set failure.report_interval_s=1");
     refused({"--set", "green_wave.before_s=9"}, "green_wave, which the condition does not have");
+    refused({"--policy", "rescue_lane"}, "rescue_lane needs vehicles with a place within their lane");
     const Ended empty = clearway({"run", "line", "--out", "out", "--model", ""});
     EXPECT_EQ(empty.code, 2);
     EXPECT_THAT(empty.err, HasSubstr("clearway run: --model: is empty"));
@@ -134,6 +136,50 @@ TEST_F(BadInputTest, seeds_below_0_settings_twice_and_names_of_paths_are_refused
     const Ended outside = clearway({"study", "named.toml", "--dry-run"});
     EXPECT_EQ(outside.code, 3);
     EXPECT_THAT(outside.err, HasSubstr("\"../z\" cannot be the name of a folder"));
+}
+
+TEST_F(BadInputTest, a_dry_run_checks_the_roads_too) {
+    write_line_scenario();
+    write("my.toml",
+          "name = \"mine\"\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
+          "[[condition]]\nname = \"aside\"\npolicy = [\"pull_over\"]\n");
+    const Ended ended = clearway({"study", "my.toml", "--dry-run"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("condition aside, scenario line: pull_over needs a shoulder"));
+    EXPECT_EQ(ended.out, "");
+}
+
+constexpr const char* planned_study =
+    "name = \"mine\"\nseed = 77\nreplications = 2\nscenarios = [\"./line\"]\n"
+    "conditions = [\"baseline\", \"corridor\", \"solo\"]\n[plan]\n[[plan.comparison]]\n"
+    "name = \"it helps\"\ncondition = \"corridor\"\nagainst = \"baseline\"\n";
+
+TEST_F(BadInputTest, a_planned_study_names_run_folders_that_it_cannot_read) {
+    write_line_scenario();
+    write("my.toml", planned_study);
+    write("runs/old/manifest.json", "{\"format\": 3}");
+    const Ended ended = clearway({"study", "my.toml", "--dry-run"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("clearway: warning: it is unknown whether seed 77 was run here: "),
+                                 HasSubstr("runs/old/manifest.json: format: is 3")));
+}
+
+TEST_F(BadInputTest, a_planned_study_is_refused_after_a_look_at_its_seed_with_other_settings) {
+    write_line_scenario();
+    write("my.toml", planned_study);
+    ASSERT_EQ(clearway({"study", "my.toml", "--out", "runs/first"}).code, 0);
+    EXPECT_EQ(clearway({"study", "my.toml", "--dry-run"}).code, 0) << "the same study again";
+    write("my.toml", planned_study + std::string("[overrides]\ndensity = 2\n"));
+    for (const char* const out : {"runs/first", "runs/second"}) {
+        for (const char* const verb : {"study", "submit"}) {
+            const Ended ended = clearway({verb, "my.toml", "--out", out});
+            EXPECT_EQ(ended.code, 3) << verb << ' ' << out;
+            EXPECT_THAT(ended.err, AllOf(HasSubstr("77 was used before, by"),
+                                         HasSubstr("runs/first: different scenarios"),
+                                         HasSubstr("take a seed that was never run")));
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/second"));
 }
 
 TEST_F(BadInputTest, a_data_set_says_once_whether_exits_are_known) {

@@ -1,7 +1,9 @@
 // What a study sets out to show: the plan in its file, and seeds that nobody has looked at.
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -10,6 +12,7 @@
 #include "results/manifest.hpp"
 #include "study/config.hpp"
 #include "study/fresh_seeds.hpp"
+#include "study/plan.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::study {
@@ -118,6 +121,71 @@ TEST_F(PlannedStudy, NeedsTheTimeAloneOnTheRoadForItsMargin) {
     EXPECT_EQ(problems(without_solo), "none");
 }
 
+TEST_F(PlannedStudy, IsRefusedWhenItsPlanCanShowNothing) {
+    const std::string no_margin = R"(
+[plan]
+margin_s = 0
+margin_share = 0
+[[plan.comparison]]
+name = "no harm"
+condition = "corridor"
+against = "baseline"
+)";
+    EXPECT_EQ(problems(study_text + no_margin), "none") << "a difference needs no margin";
+    EXPECT_THAT(problems(study_text + no_margin + "claim = \"equivalence\"\n"),
+                AllOf(HasSubstr("plan.margin_s"), HasSubstr("equivalence cannot be shown"),
+                      HasSubstr("one of them above 0"), HasSubstr("Give the least difference")));
+    const std::string once = "replications = 1" + std::string(study_text) + plan_text;
+    EXPECT_THAT(problems(once), AllOf(HasSubstr("replications: 1 cannot show what [plan] claims"),
+                                      HasSubstr("allowed: 2 or more"), HasSubstr("or remove [plan]")));
+    EXPECT_EQ(problems("replications = 2" + std::string(study_text) + plan_text +
+                       "[quick]\nseed = 78\nreplications = 1\n"),
+              "none")
+        << "a trial has no plan";
+}
+
+TEST_F(PlannedStudy, AsksEachQuestionOnce) {
+    const auto repeated = [&](const std::string& more) {
+        return problems(std::string(study_text) + plan_text + "[[plan.comparison]]\nname = \"again\"\n" +
+                        more);
+    };
+    const auto is_refusal =
+        AllOf(HasSubstr("plan.comparison[2].condition"), HasSubstr("are compared by 'it helps' already"),
+              HasSubstr("Remove one of the two"));
+    EXPECT_THAT(repeated("condition = \"corridor\"\nagainst = \"baseline\"\n"), is_refusal);
+    EXPECT_THAT(repeated("condition = \"baseline\"\nagainst = \"corridor\"\n"), is_refusal);
+    EXPECT_THAT(repeated("condition = \"corridor\"\nagainst = \"baseline\"\nscenario = \"merge\"\n"),
+                is_refusal)
+        << "`it helps` is of every scenario";
+    EXPECT_EQ(repeated("condition = \"corridor\"\nagainst = \"baseline\"\nscenario = \"intersection\"\n"
+                       "claim = \"equivalence\"\n"),
+              "none")
+        << "another scenario than `no harm`, another claim than `it helps`";
+}
+
+TEST_F(PlannedStudy, SuggestsNamesWithTheirFactors) {
+    const std::string text = R"(
+name = "planned"
+scenarios = ["merge"]
+conditions = ["baseline", "solo"]
+[[condition]]
+name = "a"
+policy = ["corridor"]
+[[condition]]
+name = "b"
+failure = "B5"
+[factors]
+preempt_signals.lease_s = [2, 3]
+[plan]
+[[plan.comparison]]
+name = "x"
+condition = "a"
+against = "baseline"
+)";
+    EXPECT_THAT(problems(text), AllOf(HasSubstr("'a' is not in the study"),
+                                      HasSubstr("write 'a+lease_s=2' or 'a+lease_s=3'")));
+}
+
 TEST_F(PlannedStudy, TriesOutOnOtherSeedsAndConfirmsNothingThere) {
     const std::string same = std::string(study_text) + plan_text + "[quick]\nreplications = 2\n";
     EXPECT_THAT(problems(same), AllOf(HasSubstr("quick.seed"), HasSubstr("77 is that of the study")));
@@ -145,30 +213,82 @@ TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
     EXPECT_NO_THROW(check_fresh_seed(exploratory, file, folder_.path() / "runs" / "planned"));
 }
 
-TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyRanOnItsSeed) {
-    const fs::path file = folder_.write("study.toml", std::string(study_text) + plan_text);
-    const StudyConfig config = read_study(file);
-    const fs::path runs = folder_.path() / "runs";
-    const auto ran = [&](const std::string& name, const std::string& study, std::uint64_t seed,
-                         const std::optional<results::AnalysisPlan>& plan = std::nullopt) {
-        results::Manifest manifest;
-        manifest.study = study;
-        manifest.study_seed = seed;
-        manifest.plan = plan;
-        fs::create_directories(runs / name);
-        core::write_atomically(runs / name / "manifest.json", results::to_json(manifest));
-    };
-    const auto check = [&] { check_fresh_seed(config, file, runs / "planned"); };
-    ran("planned", "planned", 77, config.plan);
-    ran("another", "another", 78);
-    EXPECT_EQ(refusal(check), "none") << "the study itself, continued";
-    fs::rename(runs / "planned", runs / "elsewhere");
-    EXPECT_EQ(refusal(check), "none") << "its shards";
-    ran("elsewhere", "planned", 77);
-    EXPECT_THAT(refusal(check), HasSubstr("elsewhere")) << "the same study before it had a plan";
-    fs::remove_all(runs / "elsewhere");
-    ran("explored", "explored", 77);
-    EXPECT_THAT(refusal(check), AllOf(HasSubstr("77 was used before"), HasSubstr("explored")));
+/// A planned study and the run folders beside its own.
+class PlannedRuns : public PlannedStudy {
+  protected:
+    void ran(const std::string& name, const results::Manifest& manifest) {
+        fs::create_directories(runs_ / name);
+        core::write_atomically(runs_ / name / "manifest.json", results::to_json(manifest));
+    }
+    /// Its manifest after `change`, as another version of the program wrote it.
+    template <class Change>
+    results::Manifest changed(const Change& change) const {
+        StudyConfig config = config_;
+        change(config);
+        return manifest_of(config, {"0.1", "1.0"});
+    }
+    results::Manifest itself() const {
+        return changed([](StudyConfig&) {});
+    }
+    std::string check() {
+        return refusal([&] { check_fresh_seed(config_, file_, runs_ / "planned"); });
+    }
+    fs::path file_ = folder_.write("study.toml", std::string(study_text) + plan_text);
+    StudyConfig config_ = read_study(file_);
+    fs::path runs_ = folder_.path() / "runs";
+};
+
+TEST_F(PlannedRuns, GoOnInTheirFolderAndInShards) {
+    EXPECT_EQ(check(), "none") << "nothing ran";
+    ran("planned", itself());
+    ran("shard-2", itself());
+    ran("another", changed([](StudyConfig& config) { config.seed = 78; }));
+    EXPECT_EQ(check(), "none");
+    config_.replications += 1;
+    EXPECT_EQ(check(), "none") << "extended";
+}
+
+TEST_F(PlannedRuns, OfAnotherStudyUseUpTheSeed) {
+    ran("explored", changed([](StudyConfig& config) { config.name = "explored"; }));
+    EXPECT_THAT(check(), AllOf(HasSubstr("study.toml: seed: 77 was used before, by"),
+                               HasSubstr("explored: different study name"),
+                               HasSubstr("take a seed that was never run")));
+}
+
+TEST_F(PlannedRuns, WithOtherSettingsUseUpTheSeed) {
+    const std::vector<std::pair<std::string, results::Manifest>> others = {
+        {"plan", changed([](StudyConfig& config) { config.plan.reset(); })},
+        {"conditions",
+         changed([](StudyConfig& config) { config.conditions[1].settings["preempt_signals.lead_s"] = "9"; })},
+        {"conditions", changed([](StudyConfig& config) { config.conditions.pop_back(); })},
+        {"scenarios", changed([](StudyConfig& config) { config.scenarios[0].demand.human += 1; })},
+        {"precision", changed([](StudyConfig& config) { config.precision.emplace(); })},
+        {"replications", changed([](StudyConfig& config) { config.replications += 1; })}};
+    for (const auto& [part, manifest] : others) {
+        ran("first", manifest);
+        EXPECT_THAT(check(), AllOf(HasSubstr("first: different " + part + " (allowed"),
+                                   HasSubstr("Other settings were run on this seed")));
+        fs::rename(runs_ / "first", runs_ / "planned");
+        if (part != "replications") {
+            EXPECT_THAT(check(), HasSubstr("planned: different " + part)) << "in its own folder";
+        } else {
+            EXPECT_EQ(check(), "none") << "its own folder refuses that itself";
+        }
+        fs::remove_all(runs_ / "planned");
+    }
+}
+
+TEST_F(PlannedRuns, ThatCannotBeReadAreNamed) {
+    const auto unread = [&] { return check_fresh_seed(config_, file_, runs_ / "planned"); };
+    ran("planned", itself());
+    fs::create_directories(runs_ / "notes");
+    EXPECT_THAT(unread(), testing::IsEmpty());
+    ran("damaged", itself());
+    core::write_atomically(runs_ / "damaged" / "manifest.json", "{");
+    ASSERT_EQ(unread().size(), 1U);
+    EXPECT_THAT(unread().front().where, HasSubstr("damaged/manifest.json"));
+    config_.plan.reset();
+    EXPECT_THAT(unread(), testing::IsEmpty()) << "nothing to confirm";
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "results/run_name.hpp"
 #include "results/table_reader.hpp"
 #include "results/table_writer.hpp"
+#include "study/fresh_seeds.hpp"
 #include "study/side_files.hpp"
 
 namespace clearway::cli {
@@ -124,6 +125,13 @@ void name_errors(const results::Store& store, const results::Results& results) {
 }
 
 }  // namespace
+
+void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
+                const std::filesystem::path& folder) {
+    for (const core::Problem& problem : study::check_fresh_seed(config, file, folder))
+        fmt::print(stderr, "clearway: warning: it is unknown whether seed {} was run here: {}\n", config.seed,
+                   core::format_problem(problem));
+}
 
 study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) {
     check_names(config.conditions);

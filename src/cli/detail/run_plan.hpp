@@ -43,6 +43,11 @@ inline PublishOptions how_to_publish(const RunPlanOptions& options) {
             .response_threshold_s = options.response_threshold_s};
 }
 
+/// Refuses a study with a plan whose seed was used before, as study::check_fresh_seed does, and warns on
+/// standard error of run folders that cannot be read.
+void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
+                const std::filesystem::path& folder);
+
 /// Checks names and makes the plan with the installed versions. An empty `options.folder` becomes
 /// `runs/NAME-xxxxxx` with a hash of the study, so that the same command finds its folder again and another
 /// study gets another folder. Throws core::InputError, core::EnvironmentError.
