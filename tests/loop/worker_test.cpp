@@ -114,6 +114,29 @@ TEST(Worker, DrivesInRainAndOnIceInEveryConditionAndAlone) {
 
 const ConditionSpec clearing = condition("corridor", "perfect", "none", {"corridor"});
 
+TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHearIt) {
+    const ConditionSpec asking = condition("asking", "perfect", "none", {"give_way"});
+    const ConditionSpec deaf =
+        condition("deaf", "perfect,request_propagation=sharp,request_loss_rate=1", "none", {"give_way"});
+    scenario::Options dense;
+    dense.variant = scenario::Variant::dense;
+    const test::StudyFolder folder("city", dense, {baseline, asking, deaf});
+    ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
+    std::uint64_t stops = 0;
+    const results::RunRecord asked = record_of(folder, "city", "asking");
+    for (const metrics::LeaseRow& row : asked.leases.value()) {
+        if (row.action == "stop_at_line") stops += row.acted;
+    }
+    EXPECT_GT(stops, 0U);
+    EXPECT_EQ(asked.metrics.emergency_arrived, asked.metrics.emergency_count);
+    const auto trace = [&](const char* name) {
+        return record_of(folder, "city", name).provenance.trace_hash;
+    };
+    EXPECT_NE(trace("asking"), trace("baseline"));
+    for (const metrics::LeaseRow& row : record_of(folder, "city", "deaf").leases.value())
+        EXPECT_EQ(row.acted, 0U) << row.action;
+}
+
 TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {
     scenario::Options walked;
     walked.variant = scenario::Variant::dense;
