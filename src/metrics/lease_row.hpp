@@ -12,7 +12,7 @@ namespace clearway::metrics {
 /// What became of the leases of one policy and one action in a run.
 struct LeaseRow {
     std::string policy;
-    std::string action;  ///< As traffic::name says: `change_lane`, ...
+    std::string action;  ///< As traffic::counted_as says: `change_lane`, ...
     std::uint64_t issued = 0;
     std::uint64_t renewed = 0;
     std::uint64_t acted = 0;

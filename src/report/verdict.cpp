@@ -84,7 +84,7 @@ const char* words_of(const std::string& action) {
     static const std::map<std::string, const char*> words = {
         {"drive_at", "asked a vehicle for a speed"},
         {"change_lane", "asked a vehicle to change lanes"},
-        {"own_change_lane", "changed the EV's own lane"},
+        {"own_change_lane", "asked the EV itself to change lanes"},
         {"hold_lane", "asked a vehicle to keep its lane"},
         {"pull_aside", "asked a vehicle to pull aside"},
         {"stop_at_line", "asked a vehicle to stop at the line"},
@@ -211,7 +211,8 @@ std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& conditi
     }
     text += ".";
     text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
-    text += sentence_of_parts("Moved nobody but the EV", condition.idle_parts, &analysis::IdlePart::own_runs);
+    text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
+                              &analysis::IdlePart::own_runs);
     if (condition.safety_checks_off)
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
     return text;

@@ -77,8 +77,7 @@ bool needs_rounds(const FailureConfig& config) {
            config.roadside_range_m > 0.0 || config.onboard_range_m > 0.0 ||
            config.link_detection_rate > 0.0 || config.heading_sigma_deg > 0.0 ||
            config.map_matching != MapMatching::exact || config.route_share < 1.0 ||
-           config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0 ||
-           config.dark_commands == DarkCommands::lost;
+           config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0;
 }
 
 /// The least mean outage, s: with shorter ones, losses would follow each other less often than by chance.
@@ -143,6 +142,11 @@ void check_together(const FailureConfig& config, const std::string& where,
                             "is 0, which reports at every step, but failures are drawn for each report",
                             "0.1 to 1 s with failures, 0 for perfect sensing alone",
                             "Add report_interval_s=1 to the failure, or --set failure.report_interval_s=1"});
+    }
+    if (interval_s == 0.0 && config.dark_commands == DarkCommands::lost) {
+        problems.push_back({where + ".dark_commands",
+                            "is lost, but sensing is perfect: no report is ever lost",
+                            "lost with failures of reports", "Add loss_rate or dark_share, or leave it out"});
     }
     check_errors(config, where, problems);
     const double least_s = least_outage_s(interval_s, config.dark_share);

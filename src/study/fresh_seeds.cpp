@@ -77,7 +77,8 @@ std::string other_settings(const results::Manifest& stored, results::Manifest wa
 std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
                             std::vector<core::Problem>& unread) {
     std::error_code none;
-    const fs::path absolute = fs::absolute(folder);
+    fs::path absolute = fs::absolute(folder).lexically_normal();
+    if (!absolute.has_filename()) absolute = absolute.parent_path();  // `runs/x/`
     const results::Manifest wanted = manifest_of(config, {});
     for (const fs::path& other : entries_of(absolute.parent_path())) {
         const auto manifest = manifest_in(other, unread);

@@ -220,7 +220,7 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
         verdict(scenario, scenario.conditions[1], Script::plain),
         HasSubstr(
             ". Never acted: preempt_signals, clear_lane in 20 of 20 runs; recover_signals in 3 of 20 runs. "
-            "Moved nobody but the EV: recover_signals in 2 of 20 runs."));
+            "Only changed the EV's own lane: recover_signals in 2 of 20 runs."));
 }
 
 TEST(ConditionLabel, says_who_knows_the_truth) {

@@ -230,8 +230,9 @@ class PlannedRuns : public PlannedStudy {
     results::Manifest itself() const {
         return changed([](StudyConfig&) {});
     }
-    std::string check() {
-        return refusal([&] { check_fresh_seed(config_, file_, runs_ / "planned"); });
+    std::string check() { return check_in(runs_ / "planned"); }
+    std::string check_in(const fs::path& folder) {
+        return refusal([&] { check_fresh_seed(config_, file_, folder); });
     }
     fs::path file_ = folder_.write("study.toml", std::string(study_text) + plan_text);
     StudyConfig config_ = read_study(file_);
@@ -271,6 +272,10 @@ TEST_F(PlannedRuns, WithOtherSettingsUseUpTheSeed) {
         fs::rename(runs_ / "first", runs_ / "planned");
         if (part != "replications") {
             EXPECT_THAT(check(), HasSubstr("planned: different " + part)) << "in its own folder";
+            EXPECT_THAT(check_in(runs_ / "planned" / ""), HasSubstr("planned: different " + part))
+                << "with a slash";
+            EXPECT_THAT(check_in(runs_ / "other" / ".." / "planned" / "."),
+                        HasSubstr("planned: different " + part));
         } else {
             EXPECT_EQ(check(), "none") << "its own folder refuses that itself";
         }

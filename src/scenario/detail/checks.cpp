@@ -348,7 +348,9 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
         if (config.demand.emergency == 0)
             problems.push_back(
                 {"--emergency-kinds",
-                 "has no effect, because the scenario's emergency vehicles are trips of its own",
+                 config.emergency_trips.empty()
+                     ? "has no effect, because the scenario has no emergency vehicles of its demand"
+                     : "has no effect, because the scenario's emergency vehicles are trips of its own",
                  "scenarios with demand.emergency above 0",
                  "Change the kind of each [[emergency_trip]] in a copy of the scenario (clearway init)"});
     }
