@@ -133,7 +133,8 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
         return record_of(folder, "city", name).provenance.trace_hash;
     };
     EXPECT_NE(trace("asking"), trace("baseline"));
-    for (const metrics::LeaseRow& row : record_of(folder, "city", "deaf").leases.value())
+    const results::RunRecord unheard = record_of(folder, "city", "deaf");
+    for (const metrics::LeaseRow& row : unheard.leases.value())
         EXPECT_EQ(row.acted, 0U) << row.action;
 }
 
