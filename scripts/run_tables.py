@@ -25,6 +25,32 @@ def interval(differences):
     return middle, middle - half, middle + half
 
 
+def paired_differences(base, runs, metric):
+    """Of each replication that both have."""
+    one, other = values(base, metric), values(runs, metric)
+    return [other[number] - one[number] for number in sorted(set(one) & set(other))]
+
+
+def difference(base, runs, metric):
+    """Mean of the paired differences and ends of its interval; None without pairs."""
+    found = paired_differences(base, runs, metric)
+    return interval(found) if found else None
+
+
+def change(base, runs, metric):
+    """The same in % of the baseline's mean; None where that cannot be said."""
+    one, other = values(base, metric), values(runs, metric)
+    both = set(one) & set(other)
+    level = statistics.mean(one[number] for number in sorted(both)) if both else 0.0
+    if len(both) < 2 or level <= 0.05:
+        return None
+    return tuple(100 * value / level for value in difference(base, runs, metric))
+
+
+def shown(ends):
+    return "none" if ends is None else "{:+.1f} [{:+.1f}, {:+.1f}]".format(*ends)
+
+
 def lost(runs):
     """EVs that did not arrive, and all, over the runs."""
     count = sum(int(run["emergency_count"]) for run in runs.values())
