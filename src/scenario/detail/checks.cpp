@@ -346,13 +346,10 @@ void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
     if (!options.emergency_kinds.empty()) {
         config.origins["kinds.emergency"] = "--emergency-kinds";
         if (config.demand.emergency == 0)
-            problems.push_back(
-                {"--emergency-kinds",
-                 config.emergency_trips.empty()
-                     ? "has no effect, because the scenario has no emergency vehicles of its demand"
-                     : "has no effect, because the scenario's emergency vehicles are trips of its own",
-                 "scenarios with demand.emergency above 0",
-                 "Change the kind of each [[emergency_trip]] in a copy of the scenario (clearway init)"});
+            problems.push_back({"--emergency-kinds", "has no effect, because demand.emergency is 0",
+                                "scenarios with demand.emergency above 0",
+                                "In a copy of the scenario (clearway init), set demand.emergency or the kind "
+                                "of each [[emergency_trip]]"});
     }
 }
 

@@ -145,7 +145,7 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     if (extent == Extent::quick) return;
     if (config.replications < 2)
         root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),
-                     "2 or more", fmt::format("Give {} or more, or remove [plan]", least_replications));
+                     "2 or more", "Give as many as the claims need, or remove [plan]");
     std::set<std::string> names;
     for (std::size_t at = 0; at < rows.size(); ++at)
         check_comparison(rows[at], plan.comparisons[at], config, names);
