@@ -11,7 +11,6 @@ namespace clearway::analysis {
 namespace {
 
 using Trips = std::vector<std::vector<double>>;  ///< By replication.
-using Runs = std::span<const results::RunRecord* const>;
 
 bool arrived(const metrics::VehicleRow& vehicle) {
     return vehicle.outcome == metrics::VehicleOutcome::arrived && vehicle.travel_time_s;
@@ -64,7 +63,8 @@ struct Chosen {
     Trips baseline;
 };
 
-Chosen chosen_from(Runs runs, Runs baseline) {
+Chosen chosen_from(std::span<const results::RunRecord* const> runs,
+                   std::span<const results::RunRecord* const> baseline) {
     Chosen chosen;
     for (std::size_t replication = 0; replication < runs.size(); ++replication) {
         if (runs[replication] == nullptr) continue;
@@ -121,7 +121,7 @@ std::optional<std::vector<double>> response_times_s(const results::RunRecord& ru
     return times;
 }
 
-std::optional<double> usual_response_threshold_s(Runs runs) {
+std::optional<double> usual_response_threshold_s(std::span<const results::RunRecord* const> runs) {
     std::map<std::pair<std::uint32_t, std::string>, double> routes_m;
     for (const results::RunRecord* const run : runs) {
         if (run == nullptr) continue;
@@ -140,7 +140,9 @@ std::optional<double> usual_response_threshold_s(Runs runs) {
     return std::max(rounding_s, std::round(response_pace_s_per_km * mean_km / rounding_s) * rounding_s);
 }
 
-ResponseTime response_of(Runs runs, Runs baseline, double threshold_s, double level) {
+ResponseTime response_of(std::span<const results::RunRecord* const> runs,
+                         std::span<const results::RunRecord* const> baseline, double threshold_s,
+                         double level) {
     ResponseTime response;
     response.threshold_s = threshold_s;
     const Chosen alone = chosen_from(runs, {});

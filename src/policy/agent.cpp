@@ -14,8 +14,7 @@ namespace {
 
 using detail::AgentColumn;
 
-constexpr const char* policy_name = "agent";
-constexpr const char* reason = "the environment's action";
+constexpr const char* agent_reason = "the environment's action";
 
 constexpr std::size_t column(AgentColumn one) {
     return static_cast<std::size_t>(one);
@@ -133,7 +132,7 @@ struct Agent::State {
             const auto approach =
                 std::ranges::find(scene.approaches, core::SignalIndex{index}, &detail::Approach::signal);
             write.add(core::SignalIndex{index}, traffic::HoldGreen{links, common(approach->own_links, links)},
-                      reason, scene.emergency->key);
+                      agent_reason, scene.emergency->key);
         }
     }
     void answer_automated(const detail::View& view, std::span<const std::int32_t> actions,
@@ -148,15 +147,15 @@ struct Agent::State {
             const std::uint32_t lane = action % detail::lane_choices;
             const std::uint32_t speed = action / detail::lane_choices;
             const std::uint32_t number = view.lane_number(vehicle);
-            if (lane == 1) write.add(vehicle.key, traffic::HoldLane{}, reason, scene.emergency->key);
+            if (lane == 1) write.add(vehicle.key, traffic::HoldLane{}, agent_reason, scene.emergency->key);
             if (lane > 1)
-                write.add(vehicle.key, traffic::ChangeLane{lane == 2 ? number - 1 : number + 1}, reason,
+                write.add(vehicle.key, traffic::ChangeLane{lane == 2 ? number - 1 : number + 1}, agent_reason,
                           scene.emergency->key);
             if (speed > 0)
                 write.add(vehicle.key,
                           traffic::DriveAt{core::MetresPerSecond(detail::asked_shares[speed - 1] *
                                                                  view.allowed_speed(vehicle).value)},
-                          reason, scene.emergency->key);
+                          agent_reason, scene.emergency->key);
         }
     }
 };
@@ -181,7 +180,7 @@ void Agent::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease
     if (actions.size() != state.sizes.signals + state.sizes.automated)
         throw python::PartError(fmt::format("an environment answered {} actions instead of {}",
                                             actions.size(), state.sizes.signals + state.sizes.automated));
-    detail::LeaseWriter write(policy_name, state.context.period, belief.time, leases);
+    detail::LeaseWriter write("agent", state.context.period, belief.time, leases);
     state.answer_signals(actions, write);
     state.answer_automated(view, actions, write);
 }

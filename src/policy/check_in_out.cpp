@@ -3,18 +3,12 @@
 #include <algorithm>
 
 namespace clearway::policy {
-namespace {
-
-constexpr char policy_name[] = "check_in_out";
-
-}  // namespace
-
 CheckInOut::CheckInOut(const PolicyContext& context, CheckInOutConfig config)
     : context_(context), config_(config) {}
 
 void CheckInOut::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write("check_in_out", context_.period, belief.time, leases);
     std::map<core::VehicleKey, double> left_m;
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const double to_end_m =

@@ -14,8 +14,6 @@ using detail::LeaseWriter;
 using detail::VehicleAhead;
 using detail::View;
 
-constexpr char policy_name[] = "clear_lane";
-
 /// A neighbouring lane, and the time gained on it, s.
 struct FasterLane {
     core::LaneIndex lane;
@@ -184,7 +182,7 @@ ClearLane::ClearLane(const PolicyContext& context, ClearLaneConfig config)
 
 void ClearLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    LeaseWriter write("clear_lane", context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         Way(view, config_, emergency, write).clear();
     }

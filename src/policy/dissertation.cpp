@@ -10,8 +10,6 @@ namespace {
 using detail::LeaseWriter;
 using detail::View;
 
-constexpr char policy_name[] = "dissertation";
-
 /// Moves the automated vehicles linked to one emergency vehicle out of its lane.
 class OneEmergency {
   public:
@@ -74,7 +72,7 @@ Dissertation::Dissertation(const PolicyContext& context, DissertationConfig conf
 void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     if (!config_.has_sufficient_edges(belief)) return;
     const View view(context_.network, belief);
-    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    LeaseWriter write("dissertation", context_.period, belief.time, leases, config_.lease_s);
     for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
         const traffic::BelievedVehicle& emergency = belief.vehicles[row];
         if (emergency.vehicle_class != traffic::VehicleClass::emergency) continue;

@@ -13,7 +13,7 @@ namespace {
 using detail::LeaseWriter;
 using detail::View;
 
-constexpr char policy_name[] = "geocast";
+constexpr char geocast_name[] = "geocast";
 
 /// The lane of the present edge to clear; none inside a junction.
 std::optional<std::uint32_t> cleared_lane(const View& view, const traffic::BelievedVehicle& emergency,
@@ -104,9 +104,9 @@ bool Geocast::is_due(core::Seconds now) const {
 
 void Geocast::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter own(policy_name, context_.period, belief.time, leases);
-    LeaseWriter move(policy_name, context_.period, belief.time, leases, config_.lease_s);
-    LeaseWriter aside(policy_name, context_.period, belief.time, leases, config_.lease_s,
+    LeaseWriter own(geocast_name, context_.period, belief.time, leases);
+    LeaseWriter move(geocast_name, context_.period, belief.time, leases, config_.lease_s);
+    LeaseWriter aside(geocast_name, context_.period, belief.time, leases, config_.lease_s,
                       detail::aside_priority);
     std::vector<roads::RouteStep> steps;
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {

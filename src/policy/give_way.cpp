@@ -11,7 +11,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "give_way";
 /// Maps cut streets into pieces. Who stops at the end of one that ends so near to the junction leaves it
 /// free, m.
 constexpr double last_pieces_m = 25.0;
@@ -130,7 +129,7 @@ bool GiveWay::is_early(const detail::View& view, const traffic::BelievedVehicle&
 
 void GiveWay::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("give_way", context_.period, belief.time, leases, config_.lease_s);
     JunctionsAhead junctions(context_.network, config_);
     const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
     std::optional<std::set<core::VehicleKey>> not_held;

@@ -7,7 +7,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "green_wave";
 /// Longer than any route, m.
 constexpr double whole_route_m = 1e6;
 
@@ -18,7 +17,7 @@ GreenWave::GreenWave(const PolicyContext& context, GreenWaveConfig config)
 
 void GreenWave::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("green_wave", context_.period, belief.time, leases, config_.lease_s);
     const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
     for (const traffic::BelievedVehicle& emergency : emergencies) {
         const auto [plan, is_new] = plans_.try_emplace(emergency.key);

@@ -9,8 +9,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "hold_cross";
-
 /// Lanes whose way conflicts with the approach and does not have to wait at red.
 std::set<core::LaneIndex> crossing_lanes(const detail::View& view, const detail::Approach& approach) {
     const roads::Signal& signal = view.network().signal(approach.signal);
@@ -34,7 +32,7 @@ HoldCross::HoldCross(const PolicyContext& context, HoldCrossConfig config)
 
 void HoldCross::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("hold_cross", context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const Audience audience(belief, emergency.key, config_);
         const double speed_mps = std::max<double>(emergency.state.speed_mps, config_.slowest_mps);

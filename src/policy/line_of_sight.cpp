@@ -9,7 +9,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "line_of_sight";
 /// A way is at most this much longer than the crow flies, so that signals on it are found.
 constexpr double most_detour = 2.0;
 
@@ -36,7 +35,7 @@ LineOfSight::LineOfSight(const PolicyContext& context, LineOfSightConfig config)
 
 void LineOfSight::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases);
+    detail::LeaseWriter write("line_of_sight", context_.period, belief.time, leases);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(most_detour * config_.range_m))) {

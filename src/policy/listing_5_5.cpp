@@ -11,8 +11,6 @@ namespace {
 using detail::LeaseWriter;
 using detail::View;
 
-constexpr char policy_name[] = "listing_5_5";
-
 /// One vehicle whose links are examined.
 struct Links {
     const View& view;
@@ -94,7 +92,7 @@ Listing55::Listing55(const PolicyContext& context, Listing55Config config)
 /// vehicle is known.
 void Listing55::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    LeaseWriter write("listing_5_5", context_.period, belief.time, leases, config_.lease_s);
     if (config_.has_sufficient_edges(belief)) {
         for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
             const traffic::BelievedVehicle& vehicle = belief.vehicles[row];

@@ -9,8 +9,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "preempt_signals";
-
 /// Whether every way that the emergency vehicle may take ends at standing vehicles.
 bool leads_into_a_queue(const roads::Signal& signal, const detail::Approach& approach,
                         const detail::Room& room, double least_m) {
@@ -105,7 +103,7 @@ bool PreemptSignals::is_early(const detail::View& view, const detail::Arrival& a
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("preempt_signals", context_.period, belief.time, leases, config_.lease_s);
     std::set<RequestKey> asked;
     std::optional<detail::Room> room;
     if (!is_careful_.empty() && config_.exit_room_m > 0.0)

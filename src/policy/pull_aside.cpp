@@ -3,18 +3,12 @@
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy {
-namespace {
-
-constexpr char policy_name[] = "pull_aside";
-
-}  // namespace
-
 PullAside::PullAside(const PolicyContext& context, PullAsideConfig config)
     : context_(context), config_(config) {}
 
 void PullAside::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s,
+    detail::LeaseWriter write("pull_aside", context_.period, belief.time, leases, config_.lease_s,
                               detail::aside_priority);
     const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
     memory_.keep_only(emergencies);

@@ -9,7 +9,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "pull_over";
 /// Opposite headings differ by more than this, rad.
 constexpr double opposite_rad = 2.6;
 
@@ -36,7 +35,7 @@ PullOver::PullOver(const PolicyContext& context, PullOverConfig config)
 
 void PullOver::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s,
+    detail::LeaseWriter write("pull_over", context_.period, belief.time, leases, config_.lease_s,
                               detail::aside_priority);
     const std::vector<traffic::BelievedVehicle> emergencies = view.emergency_vehicles();
     memory_.keep_only(emergencies);

@@ -12,8 +12,6 @@
 namespace clearway::policy {
 namespace {
 
-constexpr char policy_name[] = "recover_signals";
-
 using DemandByLane = std::unordered_map<std::uint32_t, int>;
 
 /// Vehicles that a green would serve now, by lane: those that stand and those close to the end of their lane.
@@ -86,7 +84,7 @@ RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfi
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("recover_signals", context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         for (const detail::Approach& approach :
              detail::approaches(view, emergency, core::Metres(config_.near_m))) {

@@ -6,18 +6,12 @@
 #include "traffic/passing_red.hpp"
 
 namespace clearway::policy {
-namespace {
-
-constexpr char policy_name[] = "red_privilege";
-
-}  // namespace
-
 RedPrivilege::RedPrivilege(const PolicyContext& context, RedPrivilegeConfig config)
     : context_(context), config_(config) {}
 
 void RedPrivilege::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    detail::LeaseWriter write("red_privilege", context_.period, belief.time, leases, config_.lease_s);
     const auto shows_red = [&](const detail::Approach& approach) {
         return traffic::holds_back(belief.signals.state[approach.signal.value], approach.own_links);
     };

@@ -13,7 +13,6 @@ using detail::LeaseWriter;
 using detail::VehicleAhead;
 using detail::View;
 
-constexpr char policy_name[] = "rescue_lane";
 /// Nobody is slowed down below this, m/s: a share of its own speed again and again would end at 0.
 constexpr double least_mps = 0.7;
 
@@ -184,7 +183,7 @@ RescueLane::RescueLane(const PolicyContext& context, RescueLaneConfig config)
 
 void RescueLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s,
+    LeaseWriter write("rescue_lane", context_.period, belief.time, leases, config_.lease_s,
                       detail::aside_priority);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles())
         Rescue(view, config_, emergency, place_[emergency.key], write).open();

@@ -14,8 +14,6 @@ using detail::LeaseWriter;
 using detail::VehicleAhead;
 using detail::View;
 
-constexpr char policy_name[] = "vacate_lane";
-
 class Vacating {
   public:
     Vacating(const View& view, const VacateLaneConfig& config, const traffic::BelievedVehicle& emergency,
@@ -84,7 +82,7 @@ VacateLane::VacateLane(const PolicyContext& context, VacateLaneConfig config)
 
 void VacateLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);
-    LeaseWriter write(policy_name, context_.period, belief.time, leases, config_.lease_s);
+    LeaseWriter write("vacate_lane", context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles())
         Vacating(view, config_, emergency, write).ask();
 }

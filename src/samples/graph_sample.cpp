@@ -18,7 +18,7 @@ using detail::append;
 using detail::ByteReader;
 using detail::cure_remake;
 
-constexpr std::string_view first_line = "clearway graph samples 1\n";
+constexpr std::string_view graph_first_line = "clearway graph samples 1\n";
 
 /// What is wrong with a sample, or empty.
 std::string fault(const GraphSample& sample, std::uint32_t feature_count) {
@@ -76,7 +76,7 @@ GraphSample read_sample(ByteReader& reader, std::uint32_t feature_count) {
 }  // namespace
 
 GraphSampleWriter::GraphSampleWriter(const SampleOrigin& origin)
-    : origin_(origin), bytes_(detail::file_start(first_line, origin)) {}
+    : origin_(origin), bytes_(detail::file_start(graph_first_line, origin)) {}
 
 void GraphSampleWriter::add(const GraphSample& sample) {
     if (const std::string wrong = fault(sample, origin_.features.width); !wrong.empty()) {
@@ -107,7 +107,7 @@ void GraphSampleWriter::write(const std::filesystem::path& file) const {
 
 GraphSampleFile read_graph_samples(const std::filesystem::path& file) {
     detail::SampleBytes bytes;
-    detail::read_sample_bytes(file, first_line, bytes);
+    detail::read_sample_bytes(file, graph_first_line, bytes);
     GraphSampleFile result;
     result.origin = bytes.origin;
     result.content_hash = bytes.content_hash;

@@ -16,8 +16,8 @@ namespace clearway::samples {
 namespace {
 
 constexpr std::string_view first_words = "# clearway pair samples 1 ";
-constexpr std::size_t most_problems = 20;
-constexpr const char* cure_remake =
+constexpr std::size_t most_pair_problems = 20;
+constexpr const char* cure_record_pairs =
     "Record the pairs again with `clearway dataset SCENARIO --samples --net logistic`";
 
 std::string header_line() {
@@ -39,7 +39,8 @@ std::string origin_line(const SampleOrigin& origin) {
 SampleOrigin parse_origin(std::string_view line, const std::string& file) {
     if (!line.starts_with(first_words)) {
         throw core::InputError({file + ":1", "not a file of pair samples of this version",
-                                fmt::format("a first line that begins `{}`", first_words), cure_remake});
+                                fmt::format("a first line that begins `{}`", first_words),
+                                cure_record_pairs});
     }
     try {
         const nlohmann::json json = nlohmann::json::parse(line.substr(first_words.size()));
@@ -48,7 +49,8 @@ SampleOrigin parse_origin(std::string_view line, const std::string& file) {
         const auto version = json.at("feature_version").get<std::uint32_t>();
         if (name != schema.name || version != schema.version) {
             throw core::InputError({file + ":1", fmt::format("features {} version {}", name, version),
-                                    fmt::format("{} version {}", schema.name, schema.version), cure_remake});
+                                    fmt::format("{} version {}", schema.name, schema.version),
+                                    cure_record_pairs});
         }
         SampleOrigin origin;
         origin.features = schema;
@@ -60,7 +62,7 @@ SampleOrigin parse_origin(std::string_view line, const std::string& file) {
         origin.traffic = json.value("traffic", "");
         return origin;
     } catch (const nlohmann::json::exception& error) {
-        throw core::InputError({file + ":1", error.what(), "", cure_remake});
+        throw core::InputError({file + ":1", error.what(), "", cure_record_pairs});
     }
 }
 
@@ -118,13 +120,13 @@ PairSampleFile read_pair_samples(const std::filesystem::path& file) {
     samples.origin = parse_origin(take_line(text), file.string());
     if (const std::string_view header = take_line(text); header != header_line()) {
         throw core::InputError({file.string() + ":2", fmt::format("the columns `{}`", header.substr(0, 200)),
-                                header_line(), cure_remake});
+                                header_line(), cure_record_pairs});
     }
     std::vector<core::Problem> problems;
-    for (std::size_t number = 3; !text.empty() && problems.size() < most_problems; ++number) {
+    for (std::size_t number = 3; !text.empty() && problems.size() < most_pair_problems; ++number) {
         const std::string wrong = read_row(take_line(text), samples);
         if (!wrong.empty())
-            problems.push_back({fmt::format("{}:{}", file.string(), number), wrong, "", cure_remake});
+            problems.push_back({fmt::format("{}:{}", file.string(), number), wrong, "", cure_record_pairs});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return samples;

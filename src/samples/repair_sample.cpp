@@ -20,7 +20,7 @@ using detail::ByteReader;
 using detail::cure_remake;
 using prediction::common_width;
 
-constexpr std::string_view first_line = "clearway repair samples 2\n";
+constexpr std::string_view repair_first_line = "clearway repair samples 2\n";
 constexpr std::size_t receiver_width = prediction::node_width - prediction::common_width;
 
 static_assert(sizeof(prediction::RowPair) == 8);
@@ -119,7 +119,7 @@ RepairSample read_sample(ByteReader& reader) {
 }  // namespace
 
 RepairSampleWriter::RepairSampleWriter(const SampleOrigin& origin)
-    : bytes_(detail::file_start(first_line, origin)) {}
+    : bytes_(detail::file_start(repair_first_line, origin)) {}
 
 void RepairSampleWriter::add(const RepairSample& sample) {
     if (const std::string wrong = fault(sample); !wrong.empty()) {
@@ -165,7 +165,7 @@ void RepairSampleWriter::write(const std::filesystem::path& file) const {
 
 RepairSampleFile read_repair_samples(const std::filesystem::path& file) {
     detail::SampleBytes bytes;
-    detail::read_sample_bytes(file, first_line, bytes);
+    detail::read_sample_bytes(file, repair_first_line, bytes);
     const prediction::FeatureSchema wanted = prediction::repair_schema();
     const prediction::FeatureSchema& found = bytes.origin.features;
     if (found != wanted) {

@@ -165,7 +165,7 @@ void require_one_radius(const std::vector<PairSampleFile>& files) {
     }
 }
 
-struct Scores {
+struct GroupScores {
     std::vector<double> probability;
     std::vector<std::uint8_t> linked;
 
@@ -179,12 +179,12 @@ struct Scores {
 };
 
 void measure(const Parameters& parameters, const std::vector<PairSampleFile>& files, LogisticResult& result) {
-    Scores validation, all;
+    GroupScores validation, all;
     for (const PairSampleFile* const file : files_of(files, result.seeds.validation, "validation")) {
         validation.add(parameters, *file);
     }
     result.threshold = metrics::best_f1_threshold(validation.links());
-    std::map<std::pair<std::string, std::string>, Scores> groups;
+    std::map<std::pair<std::string, std::string>, GroupScores> groups;
     for (const PairSampleFile* const file : files_of(files, result.seeds.test, "test")) {
         groups[{file->origin.scenario, file->origin.failure}].add(parameters, *file);
         all.add(parameters, *file);

@@ -10,7 +10,7 @@
 namespace clearway::view {
 namespace {
 
-std::uint32_t quanta(double metres) {
+std::uint32_t length_quanta(double metres) {
     return static_cast<std::uint32_t>(std::max(0L, std::lround(metres / quantum_m)));
 }
 
@@ -90,7 +90,8 @@ Slot FrameBuilder::slot_of(core::VehicleKey key, const traffic::Roster& roster) 
         NamedVehicle named;
         if (const traffic::VehicleInfo* const info = roster.find(key)) {
             named = {info->id, static_cast<std::uint8_t>(info->vehicle_class),
-                     static_cast<std::uint8_t>(info->kind), quanta(info->length_m), quanta(info->width_m)};
+                     static_cast<std::uint8_t>(info->kind), length_quanta(info->length_m),
+                     length_quanta(info->width_m)};
         }
         new_names_.vehicles.push_back(std::move(named));
     }
@@ -155,7 +156,7 @@ void FrameBuilder::take_ghosts(const trace::RecordedStep& step) {
         if (on_road && !std::ranges::binary_search(dark_, vehicle.key)) continue;
         if (!shows(vehicle.state.x_m, vehicle.state.y_m)) continue;
         frame_.ghosts.push_back({slot_of(vehicle.key, *step.roster), origin_.x(vehicle.state.x_m),
-                                 origin_.y(vehicle.state.y_m), quanta(vehicle.sigma_m),
+                                 origin_.y(vehicle.state.y_m), length_quanta(vehicle.sigma_m),
                                  static_cast<std::uint32_t>(std::lround(vehicle.age_s * 10.0F))});
     }
     std::ranges::sort(frame_.ghosts, {}, &Ghost::slot);

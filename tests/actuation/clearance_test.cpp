@@ -203,11 +203,11 @@ TEST(ConformingHold, shows_that_it_takes_right_of_way_before_the_others_open) {
     ActuationBench bench(0.25, {});
     double yields_s = 0.0;
     double opens_s = 0.0;
-    const traffic::HoldGreen from_north{north, {1, 2}};
-    const traffic::HoldGreen from_south{{8, 9, 10, 11}, {9, 10}};
+    const traffic::HoldGreen northern{north, {1, 2}};
+    const traffic::HoldGreen southern{{8, 9, 10, 11}, {9, 10}};
     watch(bench, 30.0, [&](ActuationBench& b) {
-        b.offer(signal_a, from_north, 2.0, 0, "policy", core::VehicleKey{1});
-        if (b.now.value >= 15.0) b.offer(signal_a, from_south, 2.0, 0, "policy", core::VehicleKey{2});
+        b.offer(signal_a, northern, 2.0, 0, "policy", core::VehicleKey{1});
+        if (b.now.value >= 15.0) b.offer(signal_a, southern, 2.0, 0, "policy", core::VehicleKey{2});
         if (b.now.value > 15.0 && yields_s == 0.0 && b.shown[0][3] == 'g') yields_s = b.now.value;
         if (b.now.value > 15.0 && opens_s == 0.0 && b.shown[0][9] == 'G') opens_s = b.now.value;
     });

@@ -10,14 +10,14 @@
 namespace clearway::testing {
 namespace {
 
-const core::KeyedRandom random(core::StudySeed{1}, core::Replication{0});
+const core::KeyedRandom listener_random(core::StudySeed{1}, core::Replication{0});
 
-constexpr const char* road = R"(
+constexpr const char* listener_road = R"(
     10 m per cell, limit 20 m/s, speed 10 m/s
     ..e..h....a......................h
 )";
 
-drivers::RequestConfig everybody() {
+drivers::RequestConfig everybody_asked() {
     drivers::RequestConfig config;
     config.compliance = 1.0;
     config.reaction_mean_s = 1.0;
@@ -36,17 +36,17 @@ std::vector<core::VehicleKey> after(drivers::Listeners& listeners, support::Scen
 }
 
 TEST(Listeners, are_human_drivers_within_hearing_after_their_reaction_time) {
-    support::Scene scene(road);
-    drivers::Listeners listeners(random, everybody());
+    support::Scene scene(listener_road);
+    drivers::Listeners listeners(listener_random, everybody_asked());
     EXPECT_TRUE(after(listeners, scene, 0.5).empty()) << "nobody has reacted yet";
     EXPECT_EQ(after(listeners, scene, 1.0), std::vector{scene.key("h1")}) << "h2 is 310 m away";
 }
 
 TEST(Listeners, are_nobody_where_nobody_complies) {
-    support::Scene scene(road);
-    drivers::RequestConfig config = everybody();
+    support::Scene scene(listener_road);
+    drivers::RequestConfig config = everybody_asked();
     config.compliance = 0.0;
-    drivers::Listeners listeners(random, config);
+    drivers::Listeners listeners(listener_random, config);
     EXPECT_TRUE(after(listeners, scene, 5.0).empty());
 }
 
@@ -65,9 +65,9 @@ TEST(Listeners, are_a_share_of_the_drivers_that_grows_by_the_same_drivers) {
     }
     std::vector<core::VehicleKey> fewer;
     for (const double compliance : {0.25, 0.5, 0.75}) {
-        drivers::RequestConfig config = everybody();
+        drivers::RequestConfig config = everybody_asked();
         config.compliance = compliance;
-        drivers::Listeners listeners(random, config);
+        drivers::Listeners listeners(listener_random, config);
         snapshot.time = core::Seconds(0.0);
         listeners.step(snapshot);
         snapshot.time = core::Seconds(2.0);

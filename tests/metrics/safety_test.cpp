@@ -13,7 +13,7 @@ using traffic::VehicleClass;
 
 /// Lanes 0 and 1 lead to signal 0 (links 0 and 1), lanes 2 and 3 are their ways across the junction, lane 4
 /// leaves it.
-RoadLayout crossing() {
+RoadLayout safety_crossing() {
     RoadLayout layout;
     layout.approaches = {{"main", SignalIndex{0}}, {"side", SignalIndex{0}}};
     layout.approach_of_lane = {0, 1, RoadLayout::no_approach, RoadLayout::no_approach,
@@ -40,7 +40,7 @@ struct Vehicle {
 
 class Safety : public testing::Test {
   protected:
-    Safety() { recorder_.watch(crossing()); }
+    Safety() { recorder_.watch(safety_crossing()); }
 
     void step(double time_s, std::vector<Vehicle> vehicles, const std::string& signal = "rr") {
         std::ranges::sort(vehicles, {}, [](const Vehicle& one) { return core::vehicle_key(one.id); });

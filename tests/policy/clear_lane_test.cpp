@@ -102,14 +102,9 @@ constexpr const char* gap_behind = R"(
         ....a.....h..h...h...h...h...h...h...h.........|r...............................
     )";
 
-void stop(StraightRoad& road, std::initializer_list<const char*> ids) {
-    for (const char* id : ids)
-        road.scene.set_speed(id, core::MetresPerSecond(0.0));
-}
-
 TEST(ClearLane, lets_the_emergency_vehicle_fall_back_to_a_gap_before_a_queue_and_keeps_it_open) {
     StraightRoad road(gap_behind);
-    stop(road, {"h1", "h2", "h3", "h4"});
+    road.stop({"h1", "h2", "h3", "h4"});
     policy::ClearLane policy({road.scene.network()});
     road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);
@@ -119,7 +114,7 @@ TEST(ClearLane, lets_the_emergency_vehicle_fall_back_to_a_gap_before_a_queue_and
 
 TEST(ClearLane, does_not_fall_back_for_less_than_it_costs) {
     StraightRoad road(gap_behind);
-    stop(road, {"h1", "h2"});
+    road.stop({"h1", "h2"});
     policy::ClearLane policy({road.scene.network()});
     road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U) << "the lane beside is faster";
@@ -133,7 +128,7 @@ TEST(ClearLane, stays_beside_a_gap_that_is_wide_enough) {
         ............e..............................hhhh|r...............................
         ........h........h...h...h...h...h...h.........|r...............................
     )");
-    stop(road, {"h1", "h2", "h3", "h4"});
+    road.stop({"h1", "h2", "h3", "h4"});
     policy::ClearLane policy({road.scene.network()});
     road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U);

@@ -11,8 +11,6 @@ namespace {
 
 using traffic::VehicleClass;
 
-const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
-
 std::string describe(const traffic::Lease& lease) {
     std::ostringstream text;
     if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) text << "v" << vehicle->value;

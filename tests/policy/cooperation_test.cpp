@@ -24,18 +24,13 @@ namespace {
 
 using traffic::Side;
 
-void stop(StraightRoad& road, std::initializer_list<const char*> ids) {
-    for (const char* id : ids)
-        road.scene.set_speed(id, core::MetresPerSecond(0.0));
-}
-
 TEST(VacateLane, plans_round_one_who_will_not_make_room_and_clears_that_way) {
     StraightRoad road(R"(
         10 m per cell, limit 20 m/s, speed 15 m/s
         ......e.....a.h|r...............................................
         ..............a|r...............................................
     )");
-    stop(road, {"a1", "a2", "h1"});
+    road.stop({"a1", "a2", "h1"});
     policy::VacateLane policy({road.scene.network()});
     road.act(policy);
     EXPECT_EQ(road.asked_lane("e1"), 0U) << "h1 stands in its lane";
@@ -50,7 +45,7 @@ TEST(VacateLane, keeps_the_lane_where_everybody_is_asked) {
         ......e.....a.a|r...............................................
         ............a.a|r...............................................
     )");
-    stop(road, {"a1", "a2", "a3", "a4"});
+    road.stop({"a1", "a2", "a3", "a4"});
     policy::VacateLane policy({road.scene.network()});
     road.act(policy);
     EXPECT_FALSE(road.asked_lane("e1"));
@@ -83,7 +78,7 @@ TEST(VacateLane, that_asks_the_linked_plans_round_those_it_is_not_linked_with) {
         ......e...a.......a.............................................
         ................................................................
     )");
-    stop(road, {"a1", "a2"});
+    road.stop({"a1", "a2"});
     policy::VacateLaneConfig config;
     config.ask = policy::Ask::linked;
     policy::VacateLane policy({road.scene.network()}, config);
@@ -112,7 +107,7 @@ TEST(PullAside, asks_the_queue_on_the_way_and_not_the_lane_beside) {
         ......e.....a.a|r...............................................
         ............a.a|r...............................................
     )");
-    stop(road, {"a1", "a2", "a3", "a4"});
+    road.stop({"a1", "a2", "a3", "a4"});
     policy::PullAside policy({road.scene.network()});
     road.act(policy);
     EXPECT_TRUE(road.asked<traffic::PullAside>("a1"));
@@ -135,7 +130,7 @@ TEST(PullAside, renews_for_those_who_vanished_beside_the_road_until_it_has_passe
         10 m per cell, limit 20 m/s, speed 15 m/s
         ......e.....a...................................................
     )");
-    stop(road, {"a1"});
+    road.stop({"a1"});
     policy::PullAside policy({road.scene.network()});
     road.act(policy);
     traffic::BelievedGraph belief = support::perfect_belief(road.scene);
@@ -516,7 +511,7 @@ TEST(PullOver, asks_nobody_where_there_is_no_shoulder) {
         10 m per cell, limit 20 m/s, speed 15 m/s
         ......e.....a...................................................
     )");
-    stop(road, {"a1"});
+    road.stop({"a1"});
     policy::PullOver policy({road.scene.network()});
     EXPECT_TRUE(road.act(policy).empty());
 }

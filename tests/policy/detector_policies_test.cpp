@@ -9,9 +9,6 @@ namespace {
 
 using traffic::VehicleClass;
 
-const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
-constexpr double line_m = 489.6;  ///< Where the approach west_A ends.
-
 CrossingScene emergency_at(double place_m, std::vector<std::string> route = eastbound) {
     CrossingScene scene;
     scene.add({"e", VehicleClass::emergency, std::move(route), 1, place_m, 10.0});

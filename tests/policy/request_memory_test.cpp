@@ -11,14 +11,13 @@ using policy::RequestMemory;
 using traffic::PriorityRequest;
 using traffic::VehicleClass;
 
-const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
-constexpr double line_m = 489.6;    ///< Where the approach west_A ends.
-constexpr double speed_mps = 10.0;  ///< 80 m before the line the vehicle is 8 s away: as early as it calls.
+constexpr double approach_mps =
+    10.0;  ///< 80 m before the line the vehicle is 8 s away: as early as it calls.
 const core::VehicleKey vehicle = core::vehicle_key("e");
 const core::SignalIndex first_signal = two_crossings().find_signal("A").value();
 /// The links of the eastbound approach are red, or green, at both signals.
-const std::string red = "GGGgrrrrGGGgrrrr";
-const std::string green = "rrrrGGGgrrrrGGGg";
+const std::string red_letters = "GGGgrrrrGGGgrrrr";
+const std::string green_letters = "rrrrGGGgrrrrGGGg";
 
 /// The signals, which see the road and hear what the test tells them, and an ambulance that they do not see.
 class Junction {
@@ -31,7 +30,7 @@ class Junction {
     /// What the ambulance would send now.
     static PriorityRequest message(double before_line_m, double at_s) {
         CrossingScene scene(at_s);
-        scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - before_line_m, speed_mps});
+        scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - before_line_m, approach_mps});
         std::vector<PriorityRequest> wanted;
         policy::PreemptSignals({two_crossings()}).ask(scene.belief(), wanted);
         return wanted.at(0);
@@ -54,7 +53,7 @@ class Junction {
     }
 
     CrossingScene road = known_route();  ///< Without the ambulance.
-    std::string shown = green;
+    std::string shown = green_letters;
 
   private:
     static CrossingScene known_route() {
@@ -69,7 +68,7 @@ class EveryMemory : public ::testing::TestWithParam<RequestMemory> {};
 
 TEST_P(EveryMemory, knows_nothing_of_a_vehicle_that_it_has_not_heard) {
     Junction junction(GetParam());
-    junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 40.0, speed_mps});
+    junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 40.0, approach_mps});
     EXPECT_FALSE(junction.holds(100.0)) << "though the vehicle knows itself and the graph has it";
     EXPECT_TRUE(junction.holds(100.5, {Junction::message(35.0, 100.5)}));
 }
@@ -78,10 +77,10 @@ TEST_P(EveryMemory, acts_on_a_message_of_this_moment_as_on_the_vehicle_itself) {
     for (const double before_line_m : {20.0, 66.0, 67.0, 90.0}) {
         Junction junction(GetParam());
         CrossingScene scene(100.0);
-        scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - before_line_m, speed_mps});
+        scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - before_line_m, approach_mps});
         policy::PreemptSignals told_nothing({two_crossings()});
         std::vector<traffic::Lease> leases;
-        told_nothing.act(scene.belief(green), leases);
+        told_nothing.act(scene.belief(green_letters), leases);
         EXPECT_EQ(junction.holds(100.0, {Junction::message(before_line_m, 100.0)}), !leases.empty())
             << before_line_m;
     }
@@ -101,7 +100,7 @@ TEST_P(EveryMemory, ends_when_the_vehicle_is_seen_behind_the_line) {
     Junction junction(GetParam());
     ASSERT_TRUE(junction.holds(100.0, {Junction::message(20.0, 100.0)}));
     junction.road.remove(junction.road.add({"e", VehicleClass::emergency, {"A_B", "B_east"}, 1, 9.0, 9.0}));
-    junction.road.add({"e", VehicleClass::emergency, {"A_B", "B_east"}, 1, 5.0, speed_mps});
+    junction.road.add({"e", VehicleClass::emergency, {"A_B", "B_east"}, 1, 5.0, approach_mps});
     EXPECT_FALSE(junction.holds(101.0));
     EXPECT_FALSE(junction.holds(101.5, {Junction::message(5.0, 100.5)}))
         << "a message from before, which comes late";
@@ -113,7 +112,7 @@ TEST_P(EveryMemory, never_outlives_the_longest_age_of_a_message) {
     patient.window_s = 60.0;
     patient.longest_memory_s = 8.0;
     Junction junction(GetParam(), patient);
-    junction.shown = red;  // It is believed to wait.
+    junction.shown = red_letters;  // It is believed to wait.
     ASSERT_TRUE(junction.holds(100.0, {Junction::message(20.0, 100.0)}));
     EXPECT_EQ(junction.held_until_s(100.5, 150.0), 108.5);
 }
@@ -148,10 +147,10 @@ TEST(ReckoningSignal, drives_the_vehicle_on_and_waits_a_window_at_an_open_line) 
 
 TEST(ReckoningSignal, stops_the_vehicle_at_red_and_counts_the_window_from_green) {
     Junction junction(RequestMemory::dead_reckon);
-    junction.shown = red;
+    junction.shown = red_letters;
     ASSERT_TRUE(junction.holds(100.0, {Junction::message(50.0, 100.0)}));
     EXPECT_TRUE(junction.holds(112.0));
-    junction.shown = green;
+    junction.shown = green_letters;
     EXPECT_EQ(junction.held_until_s(112.5, 150.0), 123.0);
 }
 
@@ -174,7 +173,7 @@ TEST(BelievingSignal, takes_the_place_that_the_graph_knows_better) {
     for (const RequestMemory memory : {RequestMemory::dead_reckon, RequestMemory::graph}) {
         Junction junction(memory);
         ASSERT_FALSE(junction.holds(100.0, {Junction::message(200.0, 100.0)})) << "20 s away";
-        junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 70.0, speed_mps});
+        junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 70.0, approach_mps});
         EXPECT_EQ(junction.holds(101.0), memory == RequestMemory::graph) << "somebody sees it 7 s away";
     }
 }
@@ -183,7 +182,7 @@ TEST(BelievingSignal, goes_on_from_there_by_dead_reckoning_when_the_graph_loses_
     Junction junction(RequestMemory::graph);
     ASSERT_FALSE(junction.holds(100.0, {Junction::message(400.0, 100.0)}));
     const core::VehicleKey seen =
-        junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 110.0, speed_mps});
+        junction.road.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 110.0, approach_mps});
     EXPECT_FALSE(junction.holds(101.0));
     junction.road.remove(seen);
     EXPECT_FALSE(junction.holds(103.5)) << "85 m left";

@@ -13,10 +13,6 @@ namespace {
 
 using traffic::VehicleClass;
 
-const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
-// The approach is 489.6 m long; 16.67 m/s are allowed.
-constexpr double line_m = 489.6;
-
 std::vector<traffic::Lease> act(policy::Policy& policy, CrossingScene& scene, double time_s = 100.0,
                                 const std::optional<std::string>& signals = std::nullopt) {
     traffic::BelievedGraph& belief = scene.belief(signals);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,6 +46,11 @@ class StraightRoad {
     std::optional<std::uint32_t> asked_lane(const std::string& id) const {
         const auto change = asked<traffic::ChangeLane>(id);
         return change ? std::optional(change->lane_number) : std::nullopt;
+    }
+
+    void stop(std::initializer_list<const char*> ids) {
+        for (const char* id : ids)
+            scene.set_speed(id, core::MetresPerSecond(0.0));
     }
 
     support::Scene scene;

@@ -49,6 +49,10 @@ struct SceneVehicle {
     double speed_mps = 0.0;
 };
 
+/// From west to east over both crossings; the approach west_A, where 16.67 m/s are allowed, ends at `line_m`.
+inline const std::vector<std::string> eastbound = {"west_A", "A_B", "B_east"};
+inline constexpr double line_m = 489.6;
+
 /// Vehicles on a network, and what is believed of them when sensors are perfect.
 class CrossingScene {
   public:

@@ -11,7 +11,7 @@ namespace {
 
 using python::Sheet;
 
-namespace column {
+namespace agent_column {
 enum Number : std::size_t {
     time,
     rewards,
@@ -29,9 +29,9 @@ enum Number : std::size_t {
     agents,
     count,
 };
-}  // namespace column
+}  // namespace agent_column
 
-constexpr std::array<python::Column, column::count> columns = {{
+constexpr std::array<python::Column, agent_column::count> agent_sheet_columns = {{
     {"time_s", "f8", "s", "Simulation time"},
     {"score_s", "f8", "s", "Delay of emergency vehicles and of the others since the last decision"},
     {"flags", "u4", "1", "All emergency vehicles have arrived; illegal actions of the last decision"},
@@ -120,11 +120,11 @@ std::span<Value> zeros(Sheet& sheet, std::size_t number, std::size_t count) {
 }
 
 void write_vehicles(const View& view, const AgentScene& scene, const AgentSizes& sizes, Sheet& sheet) {
-    const auto target = zeros<float>(sheet, column::vehicles, sizes.vehicles * vehicle_width);
-    const auto mask = zeros<std::uint8_t>(sheet, column::vehicle_mask, sizes.vehicles);
-    const auto edges = zeros<std::int32_t>(sheet, column::edges, 2 * std::size_t{sizes.links});
-    const auto features = zeros<float>(sheet, column::edge_features, 2 * std::size_t{sizes.links});
-    const auto edge_mask = zeros<std::uint8_t>(sheet, column::edge_mask, sizes.links);
+    const auto target = zeros<float>(sheet, agent_column::vehicles, sizes.vehicles * vehicle_width);
+    const auto mask = zeros<std::uint8_t>(sheet, agent_column::vehicle_mask, sizes.vehicles);
+    const auto edges = zeros<std::int32_t>(sheet, agent_column::edges, 2 * std::size_t{sizes.links});
+    const auto features = zeros<float>(sheet, agent_column::edge_features, 2 * std::size_t{sizes.links});
+    const auto edge_mask = zeros<std::uint8_t>(sheet, agent_column::edge_mask, sizes.links);
     if (scene.emergency == nullptr) return;
     const std::vector<std::uint32_t> rows = nearest_rows(view, *scene.emergency, sizes.vehicles);
     std::size_t link = 0;
@@ -144,7 +144,7 @@ void write_vehicles(const View& view, const AgentScene& scene, const AgentSizes&
 }
 
 void write_emergency(const View& view, const AgentScene& scene, Sheet& sheet) {
-    const auto target = zeros<float>(sheet, column::emergency, 6);
+    const auto target = zeros<float>(sheet, agent_column::emergency, 6);
     if (scene.emergency == nullptr) return;
     const roads::Lane& lane = view.network().lane(scene.emergency->state.lane);
     target[0] = 1.0F;
@@ -164,10 +164,11 @@ float green_share(const std::vector<std::uint16_t>& links, const std::string& le
 }
 
 void write_signals(const View& view, const AgentScene& scene, const AgentSizes& sizes, Sheet& sheet) {
-    const auto target = zeros<float>(sheet, column::signals, 3 * std::size_t{sizes.signals});
-    const auto states =
-        zeros<std::uint8_t>(sheet, column::signal_states, std::size_t{sizes.signals} * sizes.signal_links);
-    const auto phases = zeros<float>(sheet, column::signal_phases, std::size_t{sizes.signals} * sizes.phases);
+    const auto target = zeros<float>(sheet, agent_column::signals, 3 * std::size_t{sizes.signals});
+    const auto states = zeros<std::uint8_t>(sheet, agent_column::signal_states,
+                                            std::size_t{sizes.signals} * sizes.signal_links);
+    const auto phases =
+        zeros<float>(sheet, agent_column::signal_phases, std::size_t{sizes.signals} * sizes.phases);
     const std::vector<std::string>& letters = view.belief().signals.state;
     for (std::size_t signal = 0; signal < sizes.signals; ++signal) {
         target[3 * signal + 1] = static_cast<float>(sheet_horizon.value);
@@ -199,7 +200,7 @@ void write_masks(const View& view, const AgentScene& scene, const AgentSizes& si
         const std::size_t phases = green_phases(view.network().signal(approach.signal)).size();
         std::fill_n(&mask[approach.signal.value * signal_choices], 1 + phases, std::uint8_t{1});
     }
-    const auto agents = zeros<std::uint64_t>(sheet, column::agents, sizes.automated);
+    const auto agents = zeros<std::uint64_t>(sheet, agent_column::agents, sizes.automated);
     for (std::size_t at = 0; at < sizes.automated; ++at) {
         std::uint8_t* const own = &mask[sizes.signals * signal_choices + at * automated_choices];
         own[0] = 1;
@@ -213,13 +214,13 @@ void write_masks(const View& view, const AgentScene& scene, const AgentSizes& si
         for (std::uint32_t choice = 0; choice < automated_choices; ++choice)
             own[choice] = open[choice % lane_choices] ? 1 : 0;
     }
-    sheet.put(column::action_mask, mask);
+    sheet.put(agent_column::action_mask, mask);
 }
 
 }  // namespace
 
 std::span<const python::Column> agent_columns() {
-    return columns;
+    return agent_sheet_columns;
 }
 
 std::span<const python::Column> agent_answer_columns() {

@@ -7,9 +7,7 @@ namespace clearway::policy::detail {
 namespace {
 
 using python::Sheet;
-namespace column = belief_column;
-
-constexpr std::array<python::Column, column::count> columns = {{
+constexpr std::array<python::Column, belief_column::count> belief_sheet_columns = {{
     {"time_s", "f8", "s", "Simulation time of the belief"},
     {"key", "u8", "", "Identity of each believed vehicle during the run; rows are ordered by it"},
     {"vehicle_class", "u1", "", "0 human, 1 automated, 2 emergency"},
@@ -60,42 +58,49 @@ void fill(Sheet& sheet, std::size_t number, const Rows& rows, const Member& memb
 
 void write_vehicles(const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
     using Row = traffic::BelievedVehicle;
-    fill<std::uint64_t>(sheet, column::key, rows, [](const Row& row) { return row.key.value; });
-    fill<std::uint8_t>(sheet, column::vehicle_class, rows,
+    fill<std::uint64_t>(sheet, belief_column::key, rows, [](const Row& row) { return row.key.value; });
+    fill<std::uint8_t>(sheet, belief_column::vehicle_class, rows,
                        [](const Row& row) { return static_cast<std::uint8_t>(row.vehicle_class); });
-    fill<float>(sheet, column::x, rows, [](const Row& row) { return row.state.x_m; });
-    fill<float>(sheet, column::y, rows, [](const Row& row) { return row.state.y_m; });
-    fill<float>(sheet, column::heading, rows, [](const Row& row) { return row.state.heading_rad; });
-    fill<float>(sheet, column::speed, rows, [](const Row& row) { return row.state.speed_mps; });
-    fill<std::uint32_t>(sheet, column::lane, rows, [](const Row& row) { return row.state.lane.value; });
-    fill<float>(sheet, column::lane_position, rows, [](const Row& row) { return row.state.lane_position_m; });
-    fill<std::uint32_t>(sheet, column::route_edge, rows, [](const Row& row) { return row.state.route_edge; });
-    fill<float>(sheet, column::sigma, rows, [](const Row& row) { return row.sigma_m; });
-    fill<float>(sheet, column::age, rows, [](const Row& row) { return row.age_s; });
+    fill<float>(sheet, belief_column::x, rows, [](const Row& row) { return row.state.x_m; });
+    fill<float>(sheet, belief_column::y, rows, [](const Row& row) { return row.state.y_m; });
+    fill<float>(sheet, belief_column::heading, rows, [](const Row& row) { return row.state.heading_rad; });
+    fill<float>(sheet, belief_column::speed, rows, [](const Row& row) { return row.state.speed_mps; });
+    fill<std::uint32_t>(sheet, belief_column::lane, rows,
+                        [](const Row& row) { return row.state.lane.value; });
+    fill<float>(sheet, belief_column::lane_position, rows,
+                [](const Row& row) { return row.state.lane_position_m; });
+    fill<std::uint32_t>(sheet, belief_column::route_edge, rows,
+                        [](const Row& row) { return row.state.route_edge; });
+    fill<float>(sheet, belief_column::sigma, rows, [](const Row& row) { return row.sigma_m; });
+    fill<float>(sheet, belief_column::age, rows, [](const Row& row) { return row.age_s; });
 }
 
 void write_links(const traffic::BelievedGraph& belief, Sheet& sheet) {
     using Link = traffic::BelievedLink;
-    sheet.put(column::link_first, belief.first_link);
-    fill<std::uint32_t>(sheet, column::link_neighbour, belief.links,
+    sheet.put(belief_column::link_first, belief.first_link);
+    fill<std::uint32_t>(sheet, belief_column::link_neighbour, belief.links,
                         [](const Link& link) { return link.neighbour; });
-    fill<float>(sheet, column::link_distance, belief.links, [](const Link& link) { return link.distance_m; });
-    fill<float>(sheet, column::link_probability, belief.links,
+    fill<float>(sheet, belief_column::link_distance, belief.links,
+                [](const Link& link) { return link.distance_m; });
+    fill<float>(sheet, belief_column::link_probability, belief.links,
                 [](const Link& link) { return link.probability; });
 }
 
 void write_emergency(const View& view, const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
     using Row = traffic::BelievedVehicle;
-    fill<std::uint64_t>(sheet, column::emergency_key, rows, [](const Row& row) { return row.key.value; });
-    fill<float>(sheet, column::emergency_x, rows, [](const Row& row) { return row.state.x_m; });
-    fill<float>(sheet, column::emergency_y, rows, [](const Row& row) { return row.state.y_m; });
-    fill<float>(sheet, column::emergency_heading, rows, [](const Row& row) { return row.state.heading_rad; });
-    fill<float>(sheet, column::emergency_speed, rows, [](const Row& row) { return row.state.speed_mps; });
-    fill<std::uint32_t>(sheet, column::emergency_lane, rows,
+    fill<std::uint64_t>(sheet, belief_column::emergency_key, rows,
+                        [](const Row& row) { return row.key.value; });
+    fill<float>(sheet, belief_column::emergency_x, rows, [](const Row& row) { return row.state.x_m; });
+    fill<float>(sheet, belief_column::emergency_y, rows, [](const Row& row) { return row.state.y_m; });
+    fill<float>(sheet, belief_column::emergency_heading, rows,
+                [](const Row& row) { return row.state.heading_rad; });
+    fill<float>(sheet, belief_column::emergency_speed, rows,
+                [](const Row& row) { return row.state.speed_mps; });
+    fill<std::uint32_t>(sheet, belief_column::emergency_lane, rows,
                         [](const Row& row) { return row.state.lane.value; });
-    fill<float>(sheet, column::emergency_lane_position, rows,
+    fill<float>(sheet, belief_column::emergency_lane_position, rows,
                 [](const Row& row) { return row.state.lane_position_m; });
-    fill<float>(sheet, column::emergency_allowed_speed, rows,
+    fill<float>(sheet, belief_column::emergency_allowed_speed, rows,
                 [&](const Row& row) { return static_cast<float>(view.allowed_speed(row).value); });
 }
 
@@ -116,11 +121,11 @@ void write_ahead(const View& view, const std::vector<traffic::BelievedVehicle>& 
         }
         first.push_back(static_cast<std::uint32_t>(row.size()));
     }
-    sheet.put(column::ahead_first, first);
-    sheet.put(column::ahead_row, row);
-    sheet.put(column::ahead_distance, distance_m);
-    sheet.put(column::ahead_usable_lower, lower);
-    sheet.put(column::ahead_usable_higher, higher);
+    sheet.put(belief_column::ahead_first, first);
+    sheet.put(belief_column::ahead_row, row);
+    sheet.put(belief_column::ahead_distance, distance_m);
+    sheet.put(belief_column::ahead_usable_lower, lower);
+    sheet.put(belief_column::ahead_usable_higher, higher);
 }
 
 void write_approaches(const View& view, const std::vector<traffic::BelievedVehicle>& emergency,
@@ -139,13 +144,13 @@ void write_approaches(const View& view, const std::vector<traffic::BelievedVehic
         }
         first.push_back(static_cast<std::uint32_t>(signal.size()));
     }
-    sheet.put(column::approach_first, first);
-    sheet.put(column::approach_signal, signal);
-    sheet.put(column::approach_distance, distance_m);
-    sheet.put(column::own_link_first, own_first);
-    sheet.put(column::own_link, own);
-    sheet.put(column::served_link_first, served_first);
-    sheet.put(column::served_link, served);
+    sheet.put(belief_column::approach_first, first);
+    sheet.put(belief_column::approach_signal, signal);
+    sheet.put(belief_column::approach_distance, distance_m);
+    sheet.put(belief_column::own_link_first, own_first);
+    sheet.put(belief_column::own_link, own);
+    sheet.put(belief_column::served_link_first, served_first);
+    sheet.put(belief_column::served_link, served);
 }
 
 void write_signals(const traffic::SignalStates& signals, Sheet& sheet) {
@@ -155,20 +160,20 @@ void write_signals(const traffic::SignalStates& signals, Sheet& sheet) {
         letters.insert(letters.end(), state.begin(), state.end());
         first.push_back(static_cast<std::uint32_t>(letters.size()));
     }
-    sheet.put(column::signal_first, first);
-    sheet.put(column::signal_letters, letters);
+    sheet.put(belief_column::signal_first, first);
+    sheet.put(belief_column::signal_letters, letters);
 }
 
 }  // namespace
 
 std::span<const python::Column> belief_columns() {
-    return columns;
+    return belief_sheet_columns;
 }
 
 void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
     const traffic::BelievedGraph& belief = view.belief();
     sheet.clear();
-    sheet.room<double>(column::time, 1)[0] = belief.time.value;
+    sheet.room<double>(belief_column::time, 1)[0] = belief.time.value;
     write_vehicles(belief.vehicles, sheet);
     write_links(belief, sheet);
     write_emergency(view, emergency, sheet);

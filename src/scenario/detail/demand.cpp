@@ -26,7 +26,7 @@ using traffic::VehicleKind;
 /// Numbers of the random draws for one vehicle; those of trip_routes.cpp follow. Never renumber them.
 enum DemandDraw : std::uint64_t { depart = 0, flow = 1 };
 /// 0 is the speed factor; 1 to 3 are those of driver_types.cpp.
-enum DriverDraw : std::uint64_t { slow = 4 };
+constexpr std::uint64_t slow_draw = 4;
 enum ClassDraw : std::uint64_t { automated = 0, kind = 1 };
 
 double rounded(double value, double unit) {
@@ -183,7 +183,7 @@ double speed_factor(const DemandContext& context, const std::string& id, Vehicle
     const Drivers& drivers = context.config.drivers;
     const Slow& slow = context.config.slow;
     const auto draw = [&] {
-        return context.random.uniform(Purpose::driver, core::vehicle_key(id).value, DriverDraw::slow);
+        return context.random.uniform(Purpose::driver, core::vehicle_key(id).value, slow_draw);
     };
     if (slow.share > 0.0 && draw() < slow.share) return slow.speed_factor;
     if (vehicle_class != VehicleClass::human) return 1.0;

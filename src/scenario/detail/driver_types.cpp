@@ -17,13 +17,13 @@ namespace clearway::scenario::detail {
 namespace {
 
 /// Numbers of the random draws for one driver; 0 and 4 are those of demand.cpp. Never renumber them.
-enum DriverDraw : std::uint64_t { headway = 1, acceleration = 2, deceleration = 3 };
+enum TypeDraw : std::uint64_t { headway = 1, acceleration = 2, deceleration = 3 };
 
 constexpr double least_factor = 0.5;
 constexpr double largest_factor = 2.0;
 constexpr double standard_headway_s = 1.0;  // SUMO's tau
 
-double factor_of(const DemandContext& context, const std::string& vehicle, DriverDraw draw) {
+double factor_of(const DemandContext& context, const std::string& vehicle, TypeDraw draw) {
     const double spread = context.config.following.driver_spread;
     const double variance = std::log1p(spread * spread);
     const double normal =

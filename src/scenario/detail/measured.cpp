@@ -27,7 +27,7 @@ using core::Purpose;
 using traffic::VehicleClass;
 
 /// Numbers of the random draws for a measured vehicle. Never renumber them.
-enum MeasuredDraw : std::uint64_t { automated = 0, thinned = 2 };
+enum MeasuredDraw : std::uint64_t { made_automated = 0, thinned = 2 };
 
 /// Reads the route files of one scenario into planned vehicles.
 class MeasuredReader {
@@ -79,7 +79,7 @@ class MeasuredReader {
         planned.id = id;
         planned.depart_s = depart_s;
         const double uniform = context_.random.uniform(Purpose::vehicle_class, core::vehicle_key(id).value,
-                                                       MeasuredDraw::automated);
+                                                       MeasuredDraw::made_automated);
         if (type.kind == "car" && uniform < measured_.automated_share)
             planned.vehicle_class = VehicleClass::automated;
         set_type(vehicle, type, planned);

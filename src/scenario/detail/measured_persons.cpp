@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* prefix = "person.";
 
-struct Walker {
+struct MeasuredWalker {
     double depart_s = 0.0;
     std::string xml;
 };
@@ -51,9 +51,9 @@ class PersonsReader {
 
     std::string finish() {
         if (!problems_.empty()) throw core::InputError(problems_);
-        std::ranges::stable_sort(walkers_, {}, &Walker::depart_s);
+        std::ranges::stable_sort(walkers_, {}, &MeasuredWalker::depart_s);
         std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<routes>\n" + types_xml_;
-        for (const Walker& walker : walkers_)
+        for (const MeasuredWalker& walker : walkers_)
             xml += walker.xml;
         return xml + "</routes>\n";
     }
@@ -131,7 +131,7 @@ class PersonsReader {
     std::set<std::string> ids_;
     std::set<std::string> types_;
     std::string types_xml_;
-    std::vector<Walker> walkers_;
+    std::vector<MeasuredWalker> walkers_;
     std::vector<core::Problem> problems_;
 };
 
