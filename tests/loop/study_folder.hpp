@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "core/process.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/job.hpp"
 #include "results/store.hpp"
@@ -63,6 +64,15 @@ class StudyFolder {
         core::write_atomically(file, experiment::to_json(unit));
         return file;
     }
+
+    /// Runs a unit in a worker process; the worker's words are in `log`.
+    core::Exit run(const experiment::RunJob& unit) const {
+        return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
+                          .arguments = {write(unit).string()},
+                          .environment = {},
+                          .output = log()});
+    }
+    std::filesystem::path log() const { return folder_.path() / "worker.log"; }
 
   private:
     core::TemporaryFolder folder_;

@@ -38,24 +38,20 @@ const ConditionSpec repaired = condition("repaired", "B10", "dead_reckoning", {"
 const ConditionSpec solo = condition("solo", "perfect", "none", {}, TrafficModel::free_flow);
 
 core::Exit run_worker(const test::StudyFolder& folder, const experiment::RunJob& unit) {
-    const std::filesystem::path file = folder.write(unit);
-    return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
-                      .arguments = {file.string()},
-                      .environment = {},
-                      .output = folder.path() / "worker.log"});
+    return folder.run(unit);
 }
 
 results::RunRecord record_of(const test::StudyFolder& folder, const std::string& scenario,
                              const std::string& name) {
     const auto record = folder.store().read({scenario, name, 0});
-    EXPECT_TRUE(record.has_value()) << name << ": " << core::tail(folder.path() / "worker.log", 20);
+    EXPECT_TRUE(record.has_value()) << name << ": " << core::tail(folder.log(), 20);
     return record.value_or(results::RunRecord{});
 }
 
 TEST(Worker, StoresARecordForEveryConditionOfAUnit) {
     const test::StudyFolder folder("intersection", {}, {baseline, perfect, repaired});
     const core::Exit exit = run_worker(folder, folder.unit(0));
-    EXPECT_TRUE(exit.ok()) << exit.describe() << core::tail(folder.path() / "worker.log", 20);
+    EXPECT_TRUE(exit.ok()) << exit.describe() << core::tail(folder.log(), 20);
     for (const char* const name : {"baseline", "perfect", "repaired"}) {
         const results::RunRecord record = record_of(folder, "intersection", name);
         EXPECT_EQ(record.metrics.vehicle_count, 44U) << name;
@@ -360,7 +356,7 @@ core::Exit show_without_window(const test::StudyFolder& folder, experiment::RunJ
     return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                       .arguments = {folder.write(unit).string()},
                       .environment = {},
-                      .output = folder.path() / "worker.log"});
+                      .output = folder.log()});
 }
 
 TEST(Worker, EqualsARunThatIsShown) {
@@ -451,7 +447,7 @@ TEST(Worker, RecordsACrashWithItsSignalAndTheCommandThatMakesTheRunAgain) {
     const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                                             .arguments = {file.string()},
                                             .environment = {},
-                                            .output = folder.path() / "worker.log"});
+                                            .output = folder.log()});
     kill(child_of(worker.pid), SIGSEGV);
     EXPECT_TRUE(core::wait(worker).ok());
     const experiment::RunKey key{"city", "repaired", 0};
@@ -470,7 +466,7 @@ TEST(Worker, EndsAnInterruptedRunBeforeItselfSoThatNothingIsWrittenAfterwards) {
     const core::Child worker = core::start({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                                             .arguments = {folder.write(folder.unit(0)).string()},
                                             .environment = {},
-                                            .output = folder.path() / "worker.log"});
+                                            .output = folder.log()});
     const pid_t run = stop_run_of(worker.pid);
     ::kill(worker.pid, SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -1,0 +1,94 @@
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "core/json.hpp"
+#include "loop/study_folder.hpp"
+
+namespace clearway {
+namespace {
+
+/// Short runs whose every number is pinned: a change of behaviour that nobody meant fails here. Each line of
+/// the file is a run, the hash of its trace (all snapshots and leases), and one of its results (metrics,
+/// vehicles, what became of leases, events of signals). A run that is meant to change is renewed with
+/// CLEARWAY_RENEW_GOLDEN=1, which writes the new lines and fails once, so that it is a deliberate act.
+class Golden : public testing::Test {
+  protected:
+    static experiment::ConditionSpec condition(const std::string& name, const std::string& policy) {
+        experiment::ConditionSpec spec;
+        spec.name = name;
+        spec.failure = "perfect";
+        spec.predictor = "none";
+        spec.policies = {policy};
+        return spec;
+    }
+
+    static void expect(const std::string& scenario, const std::vector<experiment::ConditionSpec>& runs) {
+        const test::StudyFolder folder(scenario, {}, runs);
+        const core::Exit exit = folder.run(folder.unit(0));
+        ASSERT_TRUE(exit.ok()) << exit.describe() << core::tail(folder.log(), 20);
+        std::map<std::string, std::string> known = read();
+        const auto before = known;
+        for (const experiment::ConditionSpec& run : runs) {
+            const std::optional<results::RunRecord> record = folder.store().read({scenario, run.name, 0});
+            ASSERT_TRUE(record.has_value()) << run.name;
+            EXPECT_GT(record->metrics.leases_issued, 0U) << run.name;
+            const std::string found = record->provenance.trace_hash + ' ' + hash_of_results(folder, *record);
+            EXPECT_EQ(found, known[run.name])
+                << run.name << " of " << scenario << " runs otherwise than before";
+            known[run.name] = found;
+        }
+        if (std::getenv("CLEARWAY_RENEW_GOLDEN") != nullptr && known != before) write(known);
+    }
+
+  private:
+    static constexpr const char* file = CLEARWAY_SOURCE_DIR "/tests/loop/golden.txt";
+
+    static std::string hash_of_results(const test::StudyFolder& folder, const results::RunRecord& record) {
+        core::Json all = core::Json::array();
+        const auto add = [&](const auto& row) { core::write_fields(all.emplace_back(), row); };
+        add(record.metrics);
+        for (const metrics::VehicleRow& vehicle : record.vehicles) {
+            all.push_back(vehicle.id);
+            add(vehicle);
+        }
+        for (const metrics::LeaseRow& lease : record.leases.value()) {
+            all.push_back({lease.policy, lease.action, lease.refused});
+            add(lease);
+        }
+        const auto events = folder.store().read_signal_events(record.key);
+        for (const metrics::SignalEvent& event : events.value())
+            add(event);
+        return core::content_hash(core::to_text(all));
+    }
+
+    static std::map<std::string, std::string> read() {
+        std::map<std::string, std::string> hashes;
+        std::istringstream lines(core::read_file(file));
+        for (std::string name, trace, results; lines >> name >> trace >> results;)
+            hashes[name] = trace + ' ' + results;
+        return hashes;
+    }
+    static void write(const std::map<std::string, std::string>& hashes) {
+        std::ofstream lines(file);
+        for (const auto& [name, hash] : hashes)
+            lines << name << ' ' << hash << '\n';
+    }
+};
+
+TEST_F(Golden, CorridorWithPerfectSensorsAndOnARepairedGraph) {
+    experiment::ConditionSpec repaired = condition("repaired_corridor", "corridor");
+    repaired.failure = "B10";
+    repaired.predictor = "graphsage";
+    expect("city", {condition("corridor", "corridor"), repaired});
+}
+
+TEST_F(Golden, VacateLane) {
+    expect("arterial", {condition("vacate_lane", "vacate_lane")});
+}
+
+}  // namespace
+}  // namespace clearway
