@@ -20,8 +20,8 @@ using analysis::ConditionSummary;
 using analysis::ScenarioSummary;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t label_width = 34;
-constexpr std::size_t page_width = 100;
+constexpr std::size_t comparison_label_width = 34;
+constexpr std::size_t comparison_width = 100;
 constexpr const char* numbers_format = "{:>8}{:>9}  {:<17}{:>6}{:>7}{:>8}{:>9}\n";
 
 /// Calls `visit` with every condition that is compared, and its scenario.
@@ -80,14 +80,14 @@ class LabelColumns {
         return fmt::format("{:<{}}", text, width);
     }
     std::size_t name_width() const {
-        return width_of_factors_ + 12 <= label_width ? label_width - width_of_factors_ : label_width;
+        return width_of_factors_ + 12 <= comparison_label_width ? comparison_label_width - width_of_factors_ : comparison_label_width;
     }
     /// A label that does not fit before the numbers gets a line of its own.
     static std::string on_line(std::string text) {
-        if (text.size() <= label_width) return text;
-        text.resize(std::min(text.size(), page_width));
+        if (text.size() <= comparison_label_width) return text;
+        text.resize(std::min(text.size(), comparison_width));
         text.erase(text.find_last_not_of(' ') + 1);
-        return text + "\n" + std::string(label_width, ' ');
+        return text + "\n" + std::string(comparison_label_width, ' ');
     }
     static std::string without_factors(const experiment::ConditionSpec& condition) {
         std::size_t end = condition.name.size();
@@ -135,7 +135,7 @@ std::string numbers_of(const Comparison& comparison) {
                        few ? missing(Script::plain) : p_text(comparison.wilcoxon_p));
 }
 
-Json number_or_null(const std::optional<double>& value) {
+Json maybe_number(const std::optional<double>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
@@ -154,12 +154,12 @@ Json to_json(const Comparison& comparison) {
                                           : std::nullopt)},
             {"relative_1", comparison.relative ? Json(comparison.relative->mean) : Json(nullptr)},
             {"bca_95", bounds_of(comparison.bootstrap)},
-            {"median", number_or_null(comparison.median)},
+            {"median", maybe_number(comparison.median)},
             {"median_95", bounds_of(comparison.median_interval)},
-            {"effect_size_dz", number_or_null(comparison.effect_size)},
-            {"t_p", number_or_null(comparison.t_p)},
-            {"holm_p", number_or_null(comparison.holm_p)},
-            {"wilcoxon_p", number_or_null(comparison.wilcoxon_p)}};
+            {"effect_size_dz", maybe_number(comparison.effect_size)},
+            {"t_p", maybe_number(comparison.t_p)},
+            {"holm_p", maybe_number(comparison.holm_p)},
+            {"wilcoxon_p", maybe_number(comparison.wilcoxon_p)}};
 }
 
 }  // namespace
@@ -223,7 +223,7 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
         "{}: EV response time, 90th percentile, s, and trips within {:g} s, %\n{}{}{:-<{}}\n{}\n",
         printable(scenario.scenario), threshold_s, labels.header(),
         fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]"), "",
-        page_width, rows);
+        comparison_width, rows);
 }
 
 Json to_json(const std::optional<analysis::TripStatistic>& trips) {
@@ -332,7 +332,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                            metric->unit == "1" ? "" : ", " + metric->unit, labels.header());
             fmt::format_to(out, fmt::runtime(numbers_format), "pairs", "diff.", "95 % interval", "%", "d",
                            "p Holm", "Wilcoxon");
-            fmt::format_to(out, "{:-<{}}\n{}\n", "", page_width, rows);
+            fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);
         }
         text += response_text(scenario, labels);
     }

@@ -16,7 +16,7 @@ constexpr const char* others_metric = "others_time_loss_s";
 constexpr std::size_t fewest_rows = 2;
 
 /// The condition without its name, settings and factors.
-experiment::ConditionSpec recipe_of(experiment::ConditionSpec condition) {
+experiment::ConditionSpec plain_recipe(experiment::ConditionSpec condition) {
     condition.name.clear();
     condition.settings.clear();
     condition.factors.clear();
@@ -56,9 +56,9 @@ SensitivityRow& row_of(Sensitivity& sensitivity, const std::string& setting) {
 Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
                            const analysis::ConditionSummary& reference) {
     Sensitivity result{scenario.scenario, reference.condition.name, {}};
-    const experiment::ConditionSpec recipe = recipe_of(reference.condition);
+    const experiment::ConditionSpec recipe = plain_recipe(reference.condition);
     for (const analysis::ConditionSummary& condition : scenario.conditions) {
-        if (condition.condition.settings.size() != 1 || recipe_of(condition.condition) != recipe) continue;
+        if (condition.condition.settings.size() != 1 || plain_recipe(condition.condition) != recipe) continue;
         const auto& [setting, value] = *condition.condition.settings.begin();
         row_of(result, setting)
             .levels.push_back({condition.condition.name, value,

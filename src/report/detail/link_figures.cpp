@@ -5,15 +5,13 @@
 #include <fmt/format.h>
 
 #include "report/detail/axes.hpp"
-#include "report/detail/markup.hpp"
+#include "report/detail/figures.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
 namespace {
 
 constexpr double height = 300.0;
-constexpr double left_edge = 52.0;
-constexpr double right_edge = 388.0;
 constexpr double bottom_edge = height - 44.0;
 constexpr double top_edge = 26.0;
 /// With fewer pairs the share of true links in a bin is too uncertain.

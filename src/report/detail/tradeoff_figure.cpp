@@ -10,7 +10,7 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double height = 330.0;
+constexpr double tradeoff_height = 330.0;
 constexpr Measure gain = Measure::emergency_restricted_time;
 constexpr Measure cost = Measure::other_time_loss;
 
@@ -115,8 +115,8 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         include(point, costs, gains);
     const std::string title =
         fmt::format("{}: gain of emergency vehicles and cost to the others", scenario.name);
-    Plot plot(title, height, {padded(costs, 0.1), "others lose, s each", left_edge, right_edge},
-              {padded(gains, 0.1), "emergency vehicles gain, s a trip", height - label_space, 26.0});
+    Plot plot(title, tradeoff_height, {padded(costs, 0.1), "others lose, s each", left_edge, right_edge},
+              {padded(gains, 0.1), "emergency vehicles gain, s a trip", tradeoff_height - label_space, 26.0});
     plot.grid_x();
     plot.grid_y();
     const double top = plot.y().place(scenario.least_relevant_s);
