@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
+#include "campaign/run_plan.hpp"
+#include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/run_plan.hpp"
-#include "cli/detail/worker_jobs.hpp"
 #include "cli/verb.hpp"
 #include "experiment/attach_job.hpp"
 #include "results/store.hpp"
@@ -52,17 +52,18 @@ core::ExitCode attach(const Arguments& arguments) {
     job.output = std::filesystem::absolute(folder);
     if (!job.network.empty()) job.network = std::filesystem::absolute(job.network);
     job.condition = condition_of(arguments.described);
-    check_names({job.condition});
+    campaign::check_names({job.condition});
     const std::filesystem::path jobs = job.output.string() + ".job";
-    const WorkerResult result = work_on({{.label = fmt::format("SUMO at {}:{}", job.host, job.port),
-                                          .job = job,
-                                          .file = jobs / "attach.json",
-                                          .log = jobs / "attach.log",
-                                          .work = job.output}},
-                                        1, "simulations");
+    const campaign::WorkerResult result =
+        campaign::work_on({{.label = fmt::format("SUMO at {}:{}", job.host, job.port),
+                            .job = job,
+                            .file = jobs / "attach.json",
+                            .log = jobs / "attach.log",
+                            .work = job.output}},
+                          1, "simulations");
     if (result.exit_code != core::ExitCode::ok) return result.exit_code;
     std::filesystem::remove_all(jobs);
-    return publish(results::Store::open(job.output), {arguments.printing, arguments.tables});
+    return campaign::publish(results::Store::open(job.output), {arguments.printing, arguments.tables});
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/fitness.hpp"
+#include "campaign/run_plan.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/fitness.hpp"
-#include "cli/detail/run_plan.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
@@ -27,29 +27,30 @@ struct Arguments {
     scenario::Options options;
 };
 
-void print(const std::vector<Finding>& findings, Printing printing) {
+void print(const std::vector<campaign::Finding>& findings, Printing printing) {
     if (printing == Printing::text) {
-        for (const Finding& finding : findings) {
-            fmt::print("{:8} {:11} {}\n", word_of(finding.grade), finding.name, finding.text);
+        for (const campaign::Finding& finding : findings) {
+            fmt::print("{:8} {:11} {}\n", campaign::word_of(finding.grade), finding.name, finding.text);
             if (!finding.advice.empty()) fmt::print("{:20} try: {}\n", "", finding.advice);
         }
         return;
     }
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const Finding& finding : findings)
+    for (const campaign::Finding& finding : findings)
         rows.push_back({{"finding", finding.name},
-                        {"grade", word_of(finding.grade)},
+                        {"grade", campaign::word_of(finding.grade)},
                         {"text", finding.text},
                         {"advice", finding.advice}});
     fmt::print("{}\n", rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-core::ExitCode exit_code_of(const std::vector<Finding>& findings) {
-    const auto has = [&](Grade grade) {
-        return std::ranges::any_of(findings, [&](const Finding& each) { return each.grade == grade; });
+core::ExitCode exit_code_of(const std::vector<campaign::Finding>& findings) {
+    const auto has = [&](campaign::Grade grade) {
+        return std::ranges::any_of(findings,
+                                   [&](const campaign::Finding& each) { return each.grade == grade; });
     };
-    if (has(Grade::failed)) return core::ExitCode::runs_failed;
-    return has(Grade::falls_short) ? core::ExitCode::fell_short : core::ExitCode::ok;
+    if (has(campaign::Grade::failed)) return core::ExitCode::runs_failed;
+    return has(campaign::Grade::falls_short) ? core::ExitCode::fell_short : core::ExitCode::ok;
 }
 
 core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
@@ -60,31 +61,33 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
     const scenario::ScenarioConfig& scenario = config.scenarios.front();
     config.name = scenario.name;
     config.conditions = {experiment::built_in_condition("baseline", "check")};
-    RunPlanOptions options{std::filesystem::path("runs") / ("check-" + scenario.name), 1, arguments.limits,
-                           arguments.printing, invocation.command};
+    campaign::RunPlanOptions options{std::filesystem::path("runs") / ("check-" + scenario.name), 1,
+                                     arguments.limits, arguments.printing, invocation.command};
     std::filesystem::remove_all(options.folder);
-    const study::Plan plan = plan_for(config, options);
-    const results::Store store = prepare_run_folder(plan, options);
+    const study::Plan plan = campaign::plan_for(config, options);
+    const results::Store store = campaign::prepare_run_folder(plan, options);
     const auto started = std::chrono::steady_clock::now();
-    const study::StudyResult result = run_missing(plan, store, options);
-    if (was_interrupted(result)) return result.exit_code;
+    const study::StudyResult result = campaign::run_missing(plan, store, options);
+    if (campaign::was_interrupted(result)) return result.exit_code;
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 
     const experiment::RunKey key = plan.manifest.runs().front();
-    std::vector<Finding> findings;
+    std::vector<campaign::Finding> findings;
     if (const auto record = store.read(key)) {
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
-        findings = findings_of(*record, {scenario, built.network, arguments.options.density.value_or(1.0),
-                                         store.scenario_folder(scenario.name) / "demand" / "0"});
+        findings =
+            campaign::findings_of(*record, {scenario, built.network, arguments.options.density.value_or(1.0),
+                                            store.scenario_folder(scenario.name) / "demand" / "0"});
         findings.push_back(
-            {"speed", Grade::ok,
+            {"speed", campaign::Grade::ok,
              fmt::format("{:.1f} times real time, including loading", record->metrics.simulated_s / wall_s)});
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
-        findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
+        findings.push_back({"memory", campaign::Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
         std::filesystem::remove_all(options.folder);
     } else {
-        findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
+        findings = {
+            campaign::error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
     }
     print(findings, arguments.printing);
     return exit_code_of(findings);

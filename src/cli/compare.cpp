@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "analysis/summary.hpp"
+#include "campaign/names.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/names.hpp"
 #include "cli/verb.hpp"
 #include "report/comparison.hpp"
 #include "results/store.hpp"
@@ -81,7 +81,7 @@ std::vector<report::Tolerance> check(Arguments& arguments) {
     std::vector<core::Problem> problems;
     for (const std::string& metric : arguments.metrics) {
         if (std::ranges::find(known, metric) == known.end())
-            problems.push_back(unknown_name("metric", metric, known));
+            problems.push_back(campaign::unknown_name("metric", metric, known));
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return tolerances;

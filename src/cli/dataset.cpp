@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/names.hpp"
+#include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/record_jobs.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
@@ -37,7 +37,7 @@ struct Arguments {
 void check_failures(const std::vector<std::string>& failures) {
     std::vector<core::Problem> problems;
     for (const std::string& failure : failures) {
-        check_failure("--failure", failure, problems);
+        campaign::check_failure("--failure", failure, problems);
         if (failure.find("exits") == std::string::npos) continue;
         // Files are named, and their samples labelled, by --exits.
         problems.push_back({fmt::format("--failure `{}`", failure), "sets `exits`, which has its own option",
@@ -63,7 +63,7 @@ void apply_policies(const std::vector<std::string>& settings, experiment::Datase
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     apply_settings(settings, "", condition);
-    check_names({condition});
+    campaign::check_names({condition});
     job.settings = condition.settings;
 }
 
@@ -113,7 +113,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
                                 "a folder of data sets, or a new one", "Choose another folder"});
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);
-    const WorkerResult result = record_jobs(jobs, arguments.jobs);
+    const campaign::WorkerResult result = campaign::record_jobs(jobs, arguments.jobs);
     print_files(result.lines, arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "campaign/programs.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/programs.hpp"
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
 
@@ -49,7 +49,7 @@ std::string first_line(const std::string& text) {
 Check check_sumo(const std::string& program) {
     Check check{program, Finding::missing, Severity::required, "missing",
                 "Install the packages sumo and sumo-tools"};
-    const std::string text = first_line(output_of(program, {"--version"}).value_or(""));
+    const std::string text = first_line(campaign::output_of(program, {"--version"}).value_or(""));
     if (text.empty()) return check;
     check.found = text;
     check.finding = fit_if(text.find(" " + supported_sumo + ".") != std::string::npos);
@@ -70,7 +70,8 @@ Check check_sumo_home() {
 Check check_sister(const std::string& program, const std::string& purpose) {
     Check check{program, Finding::missing, Severity::required, "cannot be started",
                 fmt::format("Build it ({}). A missing shared library also causes this", purpose)};
-    const std::optional<std::string> text = output_of(sister_program(program), {"--version"});
+    const std::optional<std::string> text =
+        campaign::output_of(campaign::sister_program(program), {"--version"});
     check.finding = fit_if(text.has_value(), Finding::missing);
     if (text) check.found = first_line(*text);
     return check;
@@ -80,24 +81,25 @@ Check check_sister(const std::string& program, const std::string& purpose) {
 Check check_worker() {
     Check check = check_sister("clearway-run", "the worker that holds SUMO");
     if (!check.passed()) return check;
-    const auto worker = identity_from(output_of(sister_program("clearway-run"), {"--version"}).value_or(""));
-    check.finding = fit_if(worker && is_of_this_build(*worker));
+    const auto worker = campaign::identity_from(
+        campaign::output_of(campaign::sister_program("clearway-run"), {"--version"}).value_or(""));
+    check.finding = fit_if(worker && campaign::is_of_this_build(*worker));
     if (check.passed()) return check;
     const bool has_build = worker && !worker->build.empty();
     check.found += fmt::format(", of another build than this clearway: {}, not {}",
                                has_build ? worker->build : "an older one", core::build_stamp());
-    check.cure = cure_of_another_build;
+    check.cure = campaign::cure_of_another_build;
     return check;
 }
 
 Check check_osmium() {
-    const std::string text = first_line(output_of("osmium", {"--version"}).value_or(""));
+    const std::string text = first_line(campaign::output_of("osmium", {"--version"}).value_or(""));
     return {"osmium", fit_if(!text.empty(), Finding::missing), Severity::optional,
             text.empty() ? "missing" : text, "Install the package osmium-tool to import .osm.pbf files"};
 }
 
 Check check_rasteriser() {
-    const std::string text = first_line(output_of("rsvg-convert", {"--version"}).value_or(""));
+    const std::string text = first_line(campaign::output_of("rsvg-convert", {"--version"}).value_or(""));
     return {"rsvg-convert", fit_if(!text.empty(), Finding::missing), Severity::optional,
             text.empty() ? "missing" : text, "Install the package librsvg2-bin to write figures as PNG"};
 }

@@ -6,10 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
+#include "campaign/programs.hpp"
+#include "campaign/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/programs.hpp"
-#include "cli/detail/run_plan.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
@@ -43,17 +44,17 @@ experiment::RunJob job_of(const study::Plan& plan, const experiment::ConditionSp
 core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
     experiment::ConditionSpec condition = condition_of(arguments.described);
     condition.name = experiment::described_name(condition);
-    check_names({condition});
+    campaign::check_names({condition});
     study::StudyConfig config;
     config.seed = arguments.seed;
     config.replications = 1;
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     config.name = "environment";
     config.conditions = {experiment::baseline_for(condition)};
-    RunPlanOptions options;
+    campaign::RunPlanOptions options;
     options.folder = arguments.folder;
     options.command = invocation.command;
-    const study::Plan plan = plan_for(config, options);
+    const study::Plan plan = campaign::plan_for(config, options);
     study::prepare_folder(plan, options.folder);
     experiment::RunJob job = job_of(plan, condition);
     job.replication = arguments.replication;
@@ -65,7 +66,7 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
     std::vector<std::string> words = {"--episodes", file.string()};
     for (const int descriptor : arguments.channel)
         words.push_back(std::to_string(descriptor));
-    become(sister_program("clearway-run"), words);
+    campaign::become(campaign::sister_program("clearway-run"), words);
 }
 
 }  // namespace

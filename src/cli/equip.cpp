@@ -8,9 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "analysis/equipment.hpp"
+#include "campaign/equip_rounds.hpp"
+#include "campaign/run_plan.hpp"
 #include "cli/detail/chosen_conditions.hpp"
-#include "cli/detail/equip_rounds.hpp"
-#include "cli/detail/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
@@ -70,7 +71,7 @@ experiment::ConditionSpec base_of(const Arguments& arguments) {
 
 struct Signals {
     scenario::BuiltNetwork built;
-    EquipCandidates candidates;
+    campaign::EquipCandidates candidates;
 
     const roads::Signal& signal(std::size_t candidate) const {
         return built.network.signal(candidates.signals.at(candidate));
@@ -83,7 +84,7 @@ Signals signals_of(const study::StudyConfig& config, const std::filesystem::path
     if (signals.built.network.signals().empty())
         throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
                                 "`clearway signals SCENARIO` lists those of a scenario"});
-    signals.candidates = equip_candidates(config, signals.built);
+    signals.candidates = campaign::equip_candidates(config, signals.built);
     return signals;
 }
 
@@ -91,12 +92,12 @@ std::optional<analysis::Estimate> less(const analysis::Values& before, const ana
     return analysis::estimate_paired(before, after, analysis::MetricKind::quantity);
 }
 
-std::optional<analysis::Estimate> mean(const EquipOutcome& outcome) {
+std::optional<analysis::Estimate> mean(const campaign::EquipOutcome& outcome) {
     return analysis::estimate_values(outcome.emergency_s, analysis::MetricKind::quantity);
 }
 
 report::EquippedSignal row_of(const analysis::EquipStep& step, const analysis::SignalSet& set,
-                              const Signals& signals, const EquipRounds& rounds) {
+                              const Signals& signals, const campaign::EquipRounds& rounds) {
     const core::SignalIndex index = signals.candidates.signals.at(step.candidate);
     return {index.value + std::size_t{1}, signals.signal(step.candidate).id, step.gain, step.so_far,
             less(rounds.of(set).others_s, rounds.none().others_s)};
@@ -104,7 +105,7 @@ report::EquippedSignal row_of(const analysis::EquipStep& step, const analysis::S
 
 report::EquipmentFacts facts_of(const study::StudyConfig& config, const std::string& condition,
                                 const analysis::EquipPlan& plan, const Signals& signals,
-                                const EquipRounds& rounds) {
+                                const campaign::EquipRounds& rounds) {
     report::EquipmentFacts facts;
     facts.scenario = config.scenarios.front().name;
     facts.title = config.scenarios.front().title;
@@ -161,8 +162,8 @@ std::filesystem::path folder_of(const Arguments& arguments, study::StudyConfig c
                                 const experiment::ConditionSpec& base) {
     if (!arguments.folder.empty()) return arguments.folder;
     config.conditions = {experiment::baseline_for(base), base};
-    RunPlanOptions options;
-    plan_for(config, options);
+    campaign::RunPlanOptions options;
+    campaign::plan_for(config, options);
     return options.folder;
 }
 
@@ -174,12 +175,12 @@ core::ExitCode equip(const Arguments& arguments, const Invocation& invocation) {
     std::vector<std::string> ids;
     for (const core::SignalIndex signal : signals.candidates.signals)
         ids.push_back(signals.built.network.signal(signal).id);
-    RunPlanOptions options{.folder = folder_of(arguments, config, base),
-                           .workers = arguments.jobs,
-                           .limits = arguments.limits,
-                           .command = invocation.command};
+    campaign::RunPlanOptions options{.folder = folder_of(arguments, config, base),
+                                     .workers = arguments.jobs,
+                                     .limits = arguments.limits,
+                                     .command = invocation.command};
     const std::filesystem::path folder = options.folder;
-    EquipRounds rounds(config, base, ids, std::move(options));
+    campaign::EquipRounds rounds(config, base, ids, std::move(options));
     rounds.begin();
     const analysis::EquipConfig search{ids.size(), arguments.budget, arguments.search};
     const analysis::EquipPlan plan = analysis::equip_greedily(

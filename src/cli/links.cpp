@@ -9,12 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
+#include "campaign/programs.hpp"
+#include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/programs.hpp"
 #include "cli/detail/scenario_options.hpp"
-#include "cli/detail/worker_jobs.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/shipped_files.hpp"
@@ -71,7 +71,7 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
     if (is_predictor(name))
         throw core::InputError({option, fmt::format("`{}` is not among the predictors to be judged", name),
                                 core::listed(names), "Name it after --predictor"});
-    throw core::InputError(unknown_name(option, name, names));
+    throw core::InputError(campaign::unknown_name(option, name, names));
 }
 
 /// All predictors but those whose models were trained for other links, which are named on standard error.
@@ -162,7 +162,7 @@ void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark&
         known.push_back(entry.label);
     for (const std::string& name : names) {
         if (std::ranges::find(known, name) == known.end())
-            throw core::InputError(unknown_name("scenario of " + benchmark.name, name, known));
+            throw core::InputError(campaign::unknown_name("scenario of " + benchmark.name, name, known));
     }
     std::erase_if(benchmark.scenarios, [&](const links::BenchmarkScenario& entry) {
         return std::ranges::find(names, entry.label) == names.end();
@@ -207,7 +207,7 @@ links::LinkBenchmark own_benchmark(const Arguments& arguments) {
     benchmark.study_seed = arguments.study_seed;
     benchmark.test = arguments.test;
     benchmark.validation = arguments.validation;
-    benchmark.failures = failure_names();
+    benchmark.failures = campaign::failure_names();
     benchmark.exits = {links::Exits::known, links::Exits::unknown};
     benchmark.links = arguments.links;
     return benchmark;
@@ -219,10 +219,10 @@ void check(const links::LinkPlan& plan) {
     const auto check_name = [&](const std::string& where, const std::string& name,
                                 const std::vector<std::string>& known) {
         if (std::ranges::find(known, name) == known.end())
-            problems.push_back(unknown_name(where, name, known));
+            problems.push_back(campaign::unknown_name(where, name, known));
     };
     for (const std::string& failure : plan.benchmark.failures)
-        check_failure("--failure", failure, problems);
+        campaign::check_failure("--failure", failure, problems);
     std::vector<std::string> present;
     for (const links::LinkPredictor& predictor : plan.predictors) {
         if (prediction::knows_truth(predictor.name))
@@ -310,7 +310,7 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     facts.against = plan.opponent();
     for (const links::BenchmarkScenario& entry : benchmark.scenarios)
         facts.scenarios.push_back(entry.label);
-    const study::Versions versions = installed_versions();
+    const study::Versions versions = campaign::installed_versions();
     facts.provenance = {{"Clearway", versions.clearway}, {"SUMO", versions.sumo}};
     for (const links::BenchmarkScenario& entry : benchmark.scenarios) {
         facts.provenance.emplace_back("Configuration of " + entry.label,
@@ -332,7 +332,7 @@ report::LinkFacts described(const links::LinkPlan& plan) {
 
 /// Hash of the worker program, which makes the runs.
 std::string worker_hash() {
-    const std::string program = sister_program("clearway-run");
+    const std::string program = campaign::sister_program("clearway-run");
     if (!fs::exists(program))
         throw core::EnvironmentError(
             fmt::format("{} is missing. `clearway doctor` shows what else is missing", program));
@@ -341,7 +341,7 @@ std::string worker_hash() {
 
 /// Makes the runs that are missing in the plan's folder.
 core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFiles& files, unsigned jobs) {
-    std::vector<WorkerJob> work;
+    std::vector<campaign::WorkerJob> work;
     for (const experiment::LinkJob& job : links::missing_runs(plan, files)) {
         const fs::path file = plan.folder / "jobs" / job.work_folder.filename();
         work.push_back({.label = fmt::format("{} replication {}", job.scenario, job.replication),
@@ -350,7 +350,7 @@ core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFi
                         .log = file.string() + ".log",
                         .work = job.work_folder});
     }
-    return work.empty() ? core::ExitCode::ok : work_on(work, jobs, "runs").exit_code;
+    return work.empty() ? core::ExitCode::ok : campaign::work_on(work, jobs, "runs").exit_code;
 }
 
 core::ExitCode evaluate(const Arguments& arguments, const Invocation& invocation) {

@@ -10,11 +10,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "campaign/programs.hpp"
+#include "campaign/run_plan.hpp"
+#include "campaign/shown_run.hpp"
 #include "cli/detail/chosen_conditions.hpp"
-#include "cli/detail/programs.hpp"
-#include "cli/detail/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
-#include "cli/detail/shown_run.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/interruption.hpp"
@@ -105,10 +106,10 @@ class Workers {
         core::make_folder(work);
         core::write_atomically(file, experiment::to_json(unit));
         const std::filesystem::path log = work / "worker.log";
-        workers_.push_back(
-            {core::start(
-                 {.program = sister_program("clearway-run"), .arguments = {file.string()}, .output = log}),
-             unit.conditions.front().name, log});
+        workers_.push_back({core::start({.program = campaign::sister_program("clearway-run"),
+                                         .arguments = {file.string()},
+                                         .output = log}),
+                            unit.conditions.front().name, log});
     }
     /// Whether one has ended and was not well.
     bool has_failed() {
@@ -198,29 +199,30 @@ core::ExitCode live(Arguments arguments, const Invocation& invocation) {
     if (!server::is_loopback(arguments.server.host, "--host") && arguments.server.token.empty())
         arguments.server.token = new_token();
     const std::vector<experiment::ConditionSpec> conditions = watched(arguments);
-    RunPlanOptions options{.folder = arguments.folder,
-                           .limits = {},
-                           .printing = arguments.printing,
-                           .command = invocation.command,
-                           .tables = arguments.tables};
-    const study::Plan plan = plan_for(study_of(arguments, conditions), options);
+    campaign::RunPlanOptions options{.folder = arguments.folder,
+                                     .limits = {},
+                                     .printing = arguments.printing,
+                                     .command = invocation.command,
+                                     .tables = arguments.tables};
+    const study::Plan plan = campaign::plan_for(study_of(arguments, conditions), options);
     std::vector<experiment::RunJob> units;
     arguments.server.title = plan.manifest.study + ":";
     for (const experiment::ConditionSpec& condition : conditions) {
-        units.push_back(unit_of(plan, condition));
+        units.push_back(campaign::unit_of(plan, condition));
         arguments.server.title += " " + condition.name;
     }
     arguments.server.runs = units.size();
     const core::TemporaryFolder sockets(core::process_folder(core::temporary_place(), socket_prefix));
     // Before the run folder: an address that cannot be served leaves none.
     server::LiveServer server(arguments.server, sockets.path());
-    const results::Store store = prepare_run_folder(plan, options);
+    const results::Store store = campaign::prepare_run_folder(plan, options);
     const core::ExitCode code = show(units, server, sockets.path(), arguments.server);
     std::error_code ignored;
     std::filesystem::remove(store.folder() / "work", ignored);  // if it is empty
     if (code != core::ExitCode::ok) return code;
-    const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, how_to_publish(options));
+    const study::StudyResult result = campaign::run_missing(plan, store, options);
+    return campaign::was_interrupted(result) ? result.exit_code
+                                             : campaign::publish(store, campaign::how_to_publish(options));
 }
 
 void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/detail/programs.hpp"
+#include "campaign/programs.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
 #include "core/shipped_files.hpp"
@@ -30,7 +30,7 @@ core::ExitCode install(const Arguments& arguments) {
     if (!arguments.virtual_environment.empty())
         words.insert(words.end(), {"--venv", arguments.virtual_environment});
     if (!arguments.folder.empty()) words.insert(words.end(), {"--to", arguments.folder});
-    become(arguments.python, words);
+    campaign::become(arguments.python, words);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/names.hpp"
+#include "campaign/recorded_network.hpp"
+#include "campaign/replay_page.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/recorded_network.hpp"
-#include "cli/detail/replay_page.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
@@ -109,7 +109,7 @@ experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const A
     drop_what_is_gone(info.condition, condition);
     refuse_idle_settings(arguments, condition);
     apply_settings(arguments.settings, arguments.model, condition);
-    check_names({condition});
+    campaign::check_names({condition});
     return condition;
 }
 
@@ -146,7 +146,8 @@ core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arg
 }
 
 core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& arguments) {
-    const roads::Network network = recorded_network(recording.info(), arguments.file, arguments.network);
+    const roads::Network network =
+        campaign::recorded_network(recording.info(), arguments.file, arguments.network);
     if (arguments.table == failures_table) {
         trace::FailureLogger logger(recording.info(), condition_of(recording.info(), arguments).failure,
                                     network);
@@ -201,7 +202,7 @@ nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
 
 /// The run's name; without the folder if the recording is not in a run folder.
 std::string run_of(const std::filesystem::path& recording, const experiment::RunKey& key) {
-    const std::filesystem::path folder = run_folder_of(recording);
+    const std::filesystem::path folder = campaign::run_folder_of(recording);
     if (!std::filesystem::exists(folder / "manifest.json")) return experiment::to_text(key);
     return results::run_name(std::filesystem::proximate(folder), key);
 }
@@ -299,7 +300,7 @@ void require_order(const Arguments& arguments) {
 core::ExitCode replay_file(Arguments arguments) {
     require_order(arguments);
     if (arguments.is_viewed)
-        return write_replay_page(
+        return campaign::write_replay_page(
             {arguments.runs, arguments.network, arguments.page, {arguments.from_s, arguments.to_s}});
     if (arguments.runs.size() != 1)
         throw core::InputError(
@@ -313,7 +314,7 @@ core::ExitCode replay_file(Arguments arguments) {
                                 "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
     const experiment::ConditionSpec condition = condition_of(info, arguments);
-    const roads::Network network = recorded_network(info, arguments.file, arguments.network);
+    const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result = trace::replay(recording, condition, network);
     const std::string run = run_of(arguments.file, info.key);
     arguments.printing == Printing::json ? print_json(run, info, condition, result)

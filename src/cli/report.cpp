@@ -4,7 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/detail/run_plan.hpp"
+#include "campaign/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 
@@ -13,7 +14,7 @@ namespace clearway::cli {
 Action configure_report(CLI::App& app) {
     struct Arguments {
         std::string folder;
-        PublishOptions how;
+        campaign::PublishOptions how;
     };
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce, complete or not")
@@ -25,13 +26,13 @@ Action configure_report(CLI::App& app) {
         ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
     add_response_option(app, arguments->how.response_threshold_s);
     app.add_flag_callback(
-        "--replays", [arguments] { arguments->how.replays = MakeReplays::yes; },
+        "--replays", [arguments] { arguments->how.replays = campaign::MakeReplays::yes; },
         "Show the median, best and worst trip of each scenario in the report: makes up to six runs of each "
         "again to record them. Later reports keep them [off]");
     add_json_option(app, arguments->how.printing, "the tables");
     add_tables_option(app, arguments->how.tables);
     return [arguments](const Invocation&) {
-        return publish(results::Store::open(arguments->folder), arguments->how);
+        return campaign::publish(results::Store::open(arguments->folder), arguments->how);
     };
 }
 

@@ -4,7 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/detail/run_plan.hpp"
+#include "campaign/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
@@ -36,15 +37,15 @@ std::string folder_of(const Arguments& arguments) {
 }
 
 core::ExitCode reproduce(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{.folder = folder_of(arguments),
-                           .workers = arguments.jobs,
-                           .limits = arguments.limits,
-                           .printing = arguments.printing,
-                           .command = invocation.command,
-                           .tables = arguments.tables};
-    const study::Plan plan =
-        plan_for(study::dissertation_study(arguments.seeds, arguments.seed, arguments.scenario), options);
-    return run_and_print(plan, options);
+    campaign::RunPlanOptions options{.folder = folder_of(arguments),
+                                     .workers = arguments.jobs,
+                                     .limits = arguments.limits,
+                                     .printing = arguments.printing,
+                                     .command = invocation.command,
+                                     .tables = arguments.tables};
+    const study::Plan plan = campaign::plan_for(
+        study::dissertation_study(arguments.seeds, arguments.seed, arguments.scenario), options);
+    return campaign::run_and_print(plan, options);
 }
 
 }  // namespace

@@ -9,10 +9,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/run_plan.hpp"
+#include "campaign/shown_run.hpp"
 #include "cli/detail/chosen_conditions.hpp"
-#include "cli/detail/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
-#include "cli/detail/shown_run.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/conditions.hpp"
@@ -86,16 +87,17 @@ study::StudyConfig study_of(const Arguments& arguments, std::vector<experiment::
 }
 
 core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
-    RunPlanOptions options{
+    campaign::RunPlanOptions options{
         arguments.folder,   arguments.jobs,      arguments.limits, arguments.printing,
         invocation.command, arguments.recording, arguments.tables, arguments.response_threshold_s};
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
-    if (!arguments.is_shown) return run_and_print(plan_for(study_of(arguments, chosen), options), options);
+    if (!arguments.is_shown)
+        return campaign::run_and_print(campaign::plan_for(study_of(arguments, chosen), options), options);
     const experiment::ConditionSpec shown = shown_condition(chosen, "--gui");
     const experiment::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
                                         .settings_file = window_settings(arguments.window_settings)};
-    const study::Plan plan = plan_for(study_of(arguments, {shown}), options);
-    return show_and_print(plan, options, shown, window);
+    const study::Plan plan = campaign::plan_for(study_of(arguments, {shown}), options);
+    return campaign::show_and_print(plan, options, shown, window);
 }
 
 void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {

@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/plan_text.hpp"
+#include "campaign/rounds.hpp"
+#include "campaign/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/plan_text.hpp"
-#include "cli/detail/rounds.hpp"
-#include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "study/shard.hpp"
 
@@ -50,29 +51,31 @@ void print_shard(const study::Shard& shard, const study::StudyProgress& progress
 }
 
 core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard,
-                         RunPlanOptions options) {
+                         campaign::RunPlanOptions options) {
     if (config.precision)
         throw core::InputError({"--shard",
                                 "the study has a precision target, which needs all its runs at once",
                                 "a study with replications",
                                 "Run it as a whole, or give the number of replications that it reached"});
-    study::Plan plan = plan_for(config, options);
+    study::Plan plan = campaign::plan_for(config, options);
     study::keep_shard(plan, shard);
     study::claim(options.folder, shard);
-    const results::Store store = prepare_run_folder(plan, options);
-    const study::StudyResult result = run_missing(plan, store, options);
-    if (!was_interrupted(result))
+    const results::Store store = campaign::prepare_run_folder(plan, options);
+    const study::StudyResult result = campaign::run_missing(plan, store, options);
+    if (!campaign::was_interrupted(result))
         print_shard(shard, result.progress, options.folder.string(), options.printing);
     return result.exit_code;
 }
 
-core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunPlanOptions options) {
-    config.replications = replications_so_far(config, options.folder);
-    study::Plan plan = plan_for(config, options);
+core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard,
+                          campaign::RunPlanOptions options) {
+    config.replications = campaign::replications_so_far(config, options.folder);
+    study::Plan plan = campaign::plan_for(config, options);
     study::check_roads(plan);
     study::keep_shard(plan, shard);
-    fmt::print("{}", options.printing == Printing::json ? plan_json(plan, options.folder, options.workers)
-                                                        : plan_text(plan, options.folder, options.workers));
+    fmt::print("{}", options.printing == Printing::json
+                         ? campaign::plan_json(plan, options.folder, options.workers)
+                         : campaign::plan_text(plan, options.folder, options.workers));
     return core::ExitCode::ok;
 }
 
@@ -82,20 +85,20 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
     study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
     apply_models(arguments.models, config.conditions);
     const std::string folder = arguments.folder.empty() ? "runs/" + config.name : arguments.folder;
-    check_seed(config, arguments.file, folder);
-    RunPlanOptions options{folder,
-                           arguments.jobs,
-                           arguments.limits,
-                           arguments.printing,
-                           invocation.command,
-                           arguments.recording,
-                           arguments.tables,
-                           arguments.response_threshold_s};
+    campaign::check_seed(config, arguments.file, folder);
+    campaign::RunPlanOptions options{folder,
+                                     arguments.jobs,
+                                     arguments.limits,
+                                     arguments.printing,
+                                     invocation.command,
+                                     arguments.recording,
+                                     arguments.tables,
+                                     arguments.response_threshold_s};
     if (arguments.mode == Mode::dry_run) return print_plan(config, shard, options);
     if (!shard.whole()) return run_shard(config, shard, options);
     study::claim(folder, shard);
-    if (config.precision) return run_in_rounds(config, options);
-    return run_and_print(plan_for(config, options), options);
+    if (config.precision) return campaign::run_in_rounds(config, options);
+    return campaign::run_and_print(campaign::plan_for(config, options), options);
 }
 
 }  // namespace

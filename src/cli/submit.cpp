@@ -12,10 +12,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/names.hpp"
+#include "campaign/plan_text.hpp"
+#include "campaign/run_plan.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/plan_text.hpp"
-#include "cli/detail/run_plan.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
@@ -114,7 +115,7 @@ std::vector<std::string> model_options(const std::vector<experiment::ConditionSp
 }
 
 study::Submission submission_of(const Arguments& arguments, const study::Plan& plan) {
-    const auto time_s = estimated_time_left_s(plan, arguments.out, 1);
+    const auto time_s = campaign::estimated_time_left_s(plan, arguments.out, 1);
     study::Submission submission;
     submission.engine = arguments.engine;
     submission.shards = shard_count(arguments, plan, time_s);
@@ -155,9 +156,10 @@ core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) 
     if (config.precision)
         throw core::InputError({arguments.file, "has a precision target, which needs all its runs at once",
                                 "a study with replications", "Give the number of replications"});
-    check_seed(config, arguments.file, arguments.out);
-    RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing, invocation.command};
-    const study::Plan plan = plan_for(config, options);
+    campaign::check_seed(config, arguments.file, arguments.out);
+    campaign::RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing,
+                                     invocation.command};
+    const study::Plan plan = campaign::plan_for(config, options);
     study::Submission submission = submission_of(arguments, plan);
     std::ranges::move(model_options(in_file, config.conditions),
                       std::back_inserter(submission.study_options));

@@ -1,6 +1,6 @@
 #include <CLI/CLI.hpp>
 
-#include "cli/detail/programs.hpp"
+#include "campaign/programs.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
@@ -11,7 +11,7 @@ Action configure_train(CLI::App& app) {
     app.prefix_command();
     CLI::App* const command = &app;
     return [command](const Invocation&) -> core::ExitCode {
-        become(sister_program("clearway-train"), command->remaining());
+        campaign::become(campaign::sister_program("clearway-train"), command->remaining());
     };
 }
 

@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "campaign/names.hpp"
+#include "campaign/programs.hpp"
+#include "campaign/signal_audit.hpp"
+#include "campaign/stored_job.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/names.hpp"
-#include "cli/detail/programs.hpp"
-#include "cli/detail/signal_audit.hpp"
-#include "cli/detail/stored_job.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
@@ -68,7 +68,7 @@ const char* text_of(Verdict verdict) {
 
 /// Another version may legitimately give other numbers, so a comparison would show nothing.
 void require_same_versions(const results::Manifest& manifest) {
-    const study::Versions here = installed_versions();
+    const study::Versions here = campaign::installed_versions();
     std::string differing;
     if (manifest.sumo_version != here.sumo)
         differing += fmt::format("SUMO {} in the study, {} here", manifest.sumo_version, here.sumo);
@@ -140,7 +140,7 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
     plan.manifest = store.manifest();
     std::map<std::string, std::size_t> unit_of;
     for (const experiment::RunKey& key : keys) {
-        experiment::RunJob job = stored_job(store, key, out);
+        experiment::RunJob job = campaign::stored_job(store, key, out);
         if (std::filesystem::exists(trace::recording_file(store.folder(), key)))
             job.recording = experiment::StepRecording::on;
         const std::string name =
@@ -326,17 +326,17 @@ core::ExitCode audit(const Arguments& arguments) {
     require_elsewhere(stored, arguments.out);
     const Workshop workshop(arguments.out);
     core::ExitCode ended = core::ExitCode::ok;
-    const AuditReport report =
-        audit_runs(stored, chosen.keys, [&](const std::vector<experiment::RunKey>& unlogged) {
+    const campaign::AuditReport report =
+        campaign::audit_runs(stored, chosen.keys, [&](const std::vector<experiment::RunKey>& unlogged) {
             auto [again, code] = repeat(stored, unlogged, workshop.folder(), arguments.jobs);
             if (is_interrupted(code)) ended = code;
             return std::move(again);
         });
     if (is_interrupted(ended)) return ended;
-    print_audit(report, arguments.printing);
-    if (nothing_audited(report))
-        throw core::Error(core::ExitCode::incomplete, nothing_audited_text(report, arguments.what));
-    return code_of(report);
+    campaign::print_audit(report, arguments.printing);
+    if (campaign::nothing_audited(report))
+        throw core::Error(core::ExitCode::incomplete, campaign::nothing_audited_text(report, arguments.what));
+    return campaign::code_of(report);
 }
 
 core::ExitCode verify_runs(const Arguments& arguments) {

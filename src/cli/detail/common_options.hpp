@@ -7,14 +7,14 @@
 
 #include <CLI/App.hpp>
 
+#include "campaign/printing.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
 
 namespace clearway::cli {
 
-/// How results are printed on standard output.
-enum class Printing : std::uint8_t { text, json };
+using campaign::Printing;
 
 /// Largest number of replications that an option takes.
 inline constexpr std::uint32_t most_replications = 100000;

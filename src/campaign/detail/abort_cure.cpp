@@ -1,0 +1,16 @@
+#include "campaign/detail/abort_cure.hpp"
+
+namespace clearway::campaign {
+
+std::string cure_of_abort(const results::RunError& error) {
+    if (error.cause != results::ErrorCause::signal) return "";
+    if (error.log_tail.find("getBidiLane") != std::string::npos)
+        return "SUMO itself aborted, at rails of several tracks on which trains come from both sides. Import "
+               "the "
+               "network again: import parts such rails. Or set restrict = \"largest_car_component\" in "
+               "[network], if nothing but road traffic is needed";
+    return "SUMO itself aborted. If a teleport came before it, --time-to-teleport -1 avoids it; less traffic "
+           "(--density 0.5) may help too";
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "experiment/condition.hpp"
+#include "results/store.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::campaign {
+
+/// What a run costs, shared warm-up excluded.
+struct RunCost {
+    std::optional<double> wall_s;  ///< Nothing when it cannot be estimated.
+    double disk_bytes = 0.0;
+    bool measured = false;  ///< From runs of this scenario on this disk; else rough.
+};
+
+/// Costs of runs, estimated from those in a run folder and its neighbours.
+class CostBook {
+  public:
+    /// `folder` need not exist. Neighbours are the run folders beside it.
+    explicit CostBook(const std::filesystem::path& folder);
+
+    /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
+    /// Without such runs: 10 us per vehicle and step for 120 s on the road plus 0.2 s (no time if the demand
+    /// is measured), and on the disk 12 KiB plus 160 bytes per vehicle. These are accurate to a factor of
+    /// about three.
+    RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
+               experiment::TrafficModel traffic_model) const;
+
+  private:
+    std::vector<results::Store> stores_;
+};
+
+}  // namespace clearway::campaign

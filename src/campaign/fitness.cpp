@@ -1,0 +1,198 @@
+#include "campaign/fitness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "campaign/detail/abort_cure.hpp"
+#include "core/files.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+double share(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// `--density 0.45`, which multiplies the scenario's own. Measured demand cannot grow.
+std::string density_advice(const Checked& checked, double factor) {
+    if (checked.config.measured && checked.config.demand.density * factor > 1.0)
+        return "measured demand cannot be made denser";
+    const double density = checked.asked_density * factor;
+    return fmt::format("--density {:.{}f}", density, density < 1.0 ? 2 : 1);
+}
+
+Finding insertion_finding(const metrics::RunMetrics& run, const std::string& less) {
+    constexpr double most_left_outside = 0.1;  // Above it, queues reach the boundary.
+    const bool is_short = share(run.not_inserted, run.vehicle_count) > most_left_outside;
+    return {"inserts", is_short ? Grade::falls_short : Grade::ok,
+            fmt::format("{} of {} vehicles entered, {:.1f} s late on average",
+                        run.vehicle_count - run.not_inserted, run.vehicle_count,
+                        run.depart_delay_s.value_or(0.0)),
+            is_short ? less : ""};
+}
+
+Finding emergency_finding(const results::RunRecord& record, const std::string& less) {
+    std::size_t entered = 0;
+    std::size_t arrived = 0;
+    for (const metrics::VehicleRow& row : record.vehicles) {
+        if (row.vehicle_class != traffic::VehicleClass::emergency) continue;
+        entered += row.outcome != metrics::VehicleOutcome::not_inserted ? 1 : 0;
+        arrived += row.outcome == metrics::VehicleOutcome::arrived ? 1 : 0;
+    }
+    const std::uint64_t count = record.metrics.emergency_count;
+    Finding finding{"emergency", Grade::ok,
+                    fmt::format("{} EVs with a route, {} entered, {} arrived", count, entered, arrived)};
+    if (count == 0) finding.advice = "set demand.emergency in scenario.toml";
+    if (arrived < count) finding.advice = less + ", or a longer --horizon, if EVs do not get in or through";
+    if (!finding.advice.empty()) finding.grade = Grade::falls_short;
+    return finding;
+}
+
+/// Number of routes that `prepare` wrote, and of those with a single edge.
+struct RouteCount {
+    std::size_t all = 0;
+    std::size_t single = 0;
+
+    void add(const std::string& edges) {
+        ++all;
+        single += edges.find(' ') == std::string::npos ? 1 : 0;
+    }
+    bool mostly_single() const { return 2 * single > all; }
+};
+
+RouteCount traffic_routes(const std::string& xml) {
+    constexpr std::string_view mark = " edges=\"";
+    RouteCount count;
+    for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
+        const std::size_t start = at + mark.size();
+        count.add(xml.substr(start, xml.find('"', start) - start));
+    }
+    return count;
+}
+
+/// The edges are the last column.
+RouteCount emergency_routes(const std::string& csv) {
+    RouteCount count;
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line))
+        count.add(line.substr(line.rfind(',') + 1));
+    return count;
+}
+
+/// A vehicle with a single edge passes no junction, so it meets no signal and no crossing traffic.
+Finding routes_finding(const std::filesystem::path& demand) {
+    const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
+    const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
+    const bool is_short = traffic.mostly_single() || emergency.mostly_single();
+    return {"routes", is_short ? Grade::falls_short : Grade::ok,
+            fmt::format("{} of {} vehicles and {} of {} EVs drive a single edge, through no junction",
+                        traffic.single, traffic.all, emergency.single, emergency.all),
+            is_short ? "a larger part of the map, or longer trips: trips.minimum_length_m, and "
+                       "trips.emergency_minimum_length_m for EVs"
+                     : ""};
+}
+
+Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const Checked& checked) {
+    constexpr const char* words[] = {"fits", "too empty", "too full", "gridlock"};
+    const bool is_full = use.state == TrafficState::too_full || use.state == TrafficState::gridlock;
+    return {"jams",
+            is_full                                ? Grade::falls_short
+            : use.state == TrafficState::too_empty ? Grade::note
+                                                   : Grade::ok,
+            fmt::format("{}: {} teleports, {} still on the road at {:.0f} s, {:.1f} s mean time loss, {:.1f} "
+                        "vehicles per km of lane",
+                        words[static_cast<std::size_t>(use.state)], run.teleports, run.unfinished,
+                        run.simulated_s, run.others_time_loss_s.value_or(0.0), use.per_lane_km),
+            use.state == TrafficState::fits ? "" : density_advice(checked, use.factor)};
+}
+
+Finding signals_finding(const roads::Network& network) {
+    const std::size_t count = network.signals().size();
+    if (count > 0) return {"signals", Grade::ok, fmt::format("{} in the network", count)};
+    return {"signals", Grade::note,
+            "0 in the network: policies at signals have nothing to do here; only vehicles that make way can "
+            "help"};
+}
+
+double lane_km(const roads::Network& network) {
+    double sum_m = 0.0;
+    for (const roads::Edge& edge : network.edges())
+        if (!edge.internal)
+            for (const roads::Lane& lane : network.lanes().subspan(edge.first_lane, edge.lane_count))
+                if (lane.allows_cars) sum_m += lane.length_m;
+    return sum_m / 1000.0;
+}
+
+}  // namespace
+
+const char* word_of(Grade grade) {
+    switch (grade) {
+        case Grade::ok:
+            return "ok";
+        case Grade::note:
+            return "note";
+        case Grade::falls_short:
+            return "short";
+        case Grade::failed:
+            return "FAILED";
+    }
+    return "";
+}
+
+RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, double lane_km) {
+    constexpr double few = 0.01;
+    constexpr double many = 0.1;
+    constexpr double least_per_km = 0.5;
+    constexpr double usual_per_km = 2.0;
+    constexpr double largest_factor = 10.0;
+    constexpr double margin = 0.8;
+    const double teleported = share(run.teleports, run.vehicle_count);
+    const double unfinished = share(run.unfinished, run.vehicle_count);
+    const double outside = share(run.not_inserted, run.vehicle_count);
+    RoadUse use;
+    if (lane_km > 0.0)
+        use.per_lane_km =
+            static_cast<double>(run.vehicle_steps) * time.step_length_s / time.window_s / lane_km;
+    if (unfinished > many || (unfinished > few && teleported > few))
+        return {TrafficState::gridlock, use.per_lane_km, 0.5};
+    if (const double excess = std::max({teleported, unfinished, outside > many ? outside : 0.0});
+        excess > few)
+        return {TrafficState::too_full, use.per_lane_km, margin * std::max(0.5, 1.0 - excess)};
+    if (use.per_lane_km < least_per_km)
+        return {TrafficState::too_empty, use.per_lane_km,
+                std::min(largest_factor, usual_per_km / std::max(use.per_lane_km, few))};
+    return use;
+}
+
+std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked) {
+    const metrics::RunMetrics& run = record.metrics;
+    const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
+    const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
+    return {{"loads", Grade::ok, "SUMO loads the network and the demand"},
+            insertion_finding(run, less),
+            emergency_finding(record, less),
+            routes_finding(checked.demand),
+            jams_finding(run, use, checked),
+            signals_finding(checked.network),
+            {"collisions", run.collisions > 0 ? Grade::note : Grade::ok,
+             fmt::format("{} in the baseline, {} of them at junctions", run.collisions,
+                         run.junction_collisions)}};
+}
+
+Finding error_finding(const results::RunError& error, const std::filesystem::path& folder) {
+    const bool aborted = error.cause == results::ErrorCause::signal;
+    std::string text = error.message;
+    if (!error.log_tail.empty()) text += "\n" + error.log_tail;
+    text += fmt::format("\nInputs and logs are kept in {}; the command that repeats the run:\n  {}",
+                        folder.string(), error.command);
+    if (const std::string cure = cure_of_abort(error); !cure.empty()) text += "\n" + cure;
+    return {aborted ? "aborts" : "loads", Grade::failed, text};
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/record.hpp"
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::campaign {
+
+/// What a finding means for a comparison of policies on a scenario.
+enum class Grade : std::uint8_t { ok, note, falls_short, failed };
+/// `ok`, `note`, `short`, `FAILED`.
+const char* word_of(Grade grade);
+
+/// One line of `clearway check`.
+struct Finding {
+    std::string name;
+    Grade grade = Grade::ok;
+    std::string text;
+    std::string advice = {};  ///< What to do about it; empty where there is nothing to do.
+};
+
+/// What traffic does on a scenario's roads.
+enum class TrafficState : std::uint8_t { fits, too_empty, too_full, gridlock };
+
+/// How a baseline run loaded its network.
+struct RoadUse {
+    TrafficState state = TrafficState::fits;
+    /// Vehicles on the road while demand departs, mean: the time that all spent there over that time.
+    double per_lane_km = 0.0;
+    /// By which the present density is to be multiplied; 1 where it fits.
+    double factor = 1.0;
+};
+
+/// Judges a baseline run that went to its end. Gridlock: more than a tenth have not arrived, or 1 % have not
+/// and 1 % were teleported. Too full: more than a tenth never entered, or 1 % teleported or did not arrive.
+/// Too empty: fewer than one vehicle on two kilometres of lane, which an EV hardly ever meets.
+RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, double lane_km);
+
+/// A scenario that was checked.
+struct Checked {
+    const scenario::ScenarioConfig& config;
+    const roads::Network& network;
+    double asked_density = 1.0;    ///< `--density` of the check.
+    std::filesystem::path demand;  ///< Folder of the run's demand.
+};
+
+/// What a baseline run says about the scenario.
+std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked);
+
+/// What a run that failed says about it. Its inputs are kept in `folder`.
+Finding error_finding(const results::RunError& error, const std::filesystem::path& folder);
+
+}  // namespace clearway::campaign

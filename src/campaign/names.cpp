@@ -1,0 +1,123 @@
+#include "campaign/names.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "experiment/code_parts.hpp"
+#include "experiment/settings.hpp"
+#include "policy/policy.hpp"
+#include "prediction/predictor.hpp"
+#include "prediction/python_predictor.hpp"
+#include "python/part_process.hpp"
+#include "sensing/failure_config.hpp"
+
+namespace clearway::campaign {
+
+core::Problem unknown_name(const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known) {
+    const std::string near = core::nearest(name, known);
+    return {where, fmt::format("`{}` is unknown", name), core::listed(known),
+            near.empty() ? "`clearway list` describes them" : fmt::format("Did you mean '{}'?", near)};
+}
+
+std::vector<std::string> failure_names() {
+    std::vector<std::string> names;
+    for (const sensing::FailurePreset& preset : sensing::failure_presets()) {
+        names.push_back(preset.name);
+    }
+    return names;
+}
+
+void check_failure(const std::string& where, const std::string& failure,
+                   std::vector<core::Problem>& problems) {
+    if (failure.find_first_of("=,") == std::string::npos) {
+        const std::vector<std::string> known = failure_names();
+        if (std::ranges::find(known, failure) == known.end())
+            problems.push_back(unknown_name(where, failure, known));
+        return;
+    }
+    try {
+        sensing::failure_from(failure);
+    } catch (const core::InputError& error) {
+        for (core::Problem problem : error.problems()) {
+            problem.where = fmt::format("{} `{}`: {}", where, failure, problem.where);
+            problems.push_back(std::move(problem));
+        }
+    }
+}
+
+std::vector<std::string> policy_names() {
+    std::vector<std::string> names;
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        names.push_back(entry.name);
+    }
+    return names;
+}
+
+namespace {
+
+/// Settings, leases and tables know parts in Python by their classes, so those of a condition must differ.
+void check_part_names(const experiment::ConditionSpec& condition, const std::string& where,
+                      std::vector<core::Problem>& problems) {
+    std::vector<std::string> names = experiment::part_names(condition);
+    std::ranges::sort(names);
+    if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+        problems.push_back({where + "parts", fmt::format("two are called `{}`", *twice),
+                            "a name of its own for each", "Rename one of the classes"});
+}
+
+/// Loads each part in Python once, so that what its file cannot do is told before anything runs.
+void check_parts(const std::vector<experiment::ConditionSpec>& conditions) {
+    std::set<std::tuple<std::string, python::PartKind, core::Settings>> seen;
+    const auto check = [&](const std::string& where, const std::string& word, python::PartKind kind,
+                           const core::Settings& settings) {
+        const auto name = python::part_name_from(word);
+        if (name && seen.emplace(word, kind, settings).second)
+            python::check_part(*name, kind, settings, where);
+    };
+    for (const experiment::ConditionSpec& condition : conditions) {
+        const std::string where = fmt::format("condition {}: ", condition.name);
+        check(where + "predictor", condition.predictor, python::PartKind::predictor,
+              prediction::parted_settings(experiment::predictor_settings(condition)).own);
+        for (const std::string& policy : condition.policies)
+            check(where + "policy", policy, python::PartKind::policy,
+                  core::settings_of(condition.settings, python::short_name(policy)));
+    }
+}
+
+}  // namespace
+
+void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
+    std::vector<core::Problem> problems;
+    const auto check = [&](const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known) {
+        if (!python::part_name_from(name) && std::ranges::find(known, name) == known.end()) {
+            problems.push_back(unknown_name(where, name, known));
+        }
+    };
+    for (const experiment::ConditionSpec& condition : conditions) {
+        const std::string where = fmt::format("condition {}: ", condition.name);
+        check_failure(where + "failure", condition.failure, problems);
+        check(where + "predictor", condition.predictor, prediction::predictor_names());
+        for (const std::string& policy : condition.policies) {
+            check(where + "policy", policy, policy_names());
+        }
+        std::vector<std::string> sorted = condition.policies;
+        std::ranges::sort(sorted);
+        if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+            problems.push_back({where + "policy", fmt::format("`{}` is given twice", *twice),
+                                "each policy once", "Remove one of the two"});
+        else
+            check_part_names(condition, where, problems);
+        const std::vector<core::Problem> unfit = experiment::check_settings(condition, where);
+        problems.insert(problems.end(), unfit.begin(), unfit.end());
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    check_parts(conditions);
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "experiment/condition.hpp"
+
+namespace clearway::campaign {
+
+/// The problem of a `name` at `where` that is not in `known`; lists them and suggests the nearest.
+core::Problem unknown_name(const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known);
+
+std::vector<std::string> failure_names();
+std::vector<std::string> policy_names();
+
+/// Adds the problems of a failure given at `where`: a preset or fields (sensing::failure_from).
+void check_failure(const std::string& where, const std::string& failure,
+                   std::vector<core::Problem>& problems);
+
+/// Checks failure, predictor, policies, settings and model of every condition before anything runs. Throws
+/// core::InputError with every problem.
+void check_names(const std::vector<experiment::ConditionSpec>& conditions);
+
+}  // namespace clearway::campaign

@@ -1,0 +1,181 @@
+#include "campaign/plan_text.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "campaign/detail/run_cost.hpp"
+#include "core/progress.hpp"
+#include "experiment/settings.hpp"
+#include "results/store.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+/// One row of the plan: a condition in a scenario.
+struct Cell {
+    std::string scenario;
+    experiment::ConditionSpec condition;
+    std::size_t runs = 0;
+    std::size_t complete = 0;
+    RunCost cost;  ///< Of one run.
+};
+
+/// The store in `folder` if it holds this study with at most as many replications.
+std::optional<results::Store> existing_store(const study::Plan& plan, const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
+    results::Store store = results::Store::open(folder);
+    if (!results::continues(plan.manifest, store.manifest())) return std::nullopt;
+    return store;
+}
+
+std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path& folder) {
+    const std::optional<results::Store> store = existing_store(plan, folder);
+    const CostBook book(folder);
+    std::vector<Cell> cells;
+    std::map<std::pair<std::string, std::string>, std::size_t> rows;
+    for (std::size_t row = 0; row < plan.scenarios.size(); ++row) {
+        const scenario::ScenarioConfig& config = plan.scenarios[row];
+        const std::string& hash = plan.manifest.scenarios[row].configuration_hash;
+        for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
+            rows[{config.name, condition.name}] = cells.size();
+            cells.push_back({.scenario = config.name,
+                             .condition = condition,
+                             .cost = book.of(config, hash, condition.traffic_model)});
+        }
+    }
+    for (const study::PlannedUnit& planned : plan.units) {
+        for (const experiment::ConditionSpec& condition : planned.unit.conditions) {
+            Cell& cell = cells[rows.at({planned.unit.scenario, condition.name})];
+            ++cell.runs;
+            const experiment::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
+            if (store && store->complete(key)) ++cell.complete;
+        }
+    }
+    return cells;
+}
+
+/// What is left of a plan.
+struct Rest {
+    std::size_t complete = 0;
+    std::optional<double> wall_s = 0.0;  ///< Nothing when it is unknown for a cell.
+    double disk_bytes = 0.0;
+    bool measured = true;
+};
+
+Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
+    Rest rest;
+    const unsigned processes = workers > 0 ? workers : std::max(1U, std::thread::hardware_concurrency());
+    for (const Cell& cell : cells) {
+        rest.complete += cell.complete;
+        const auto open = static_cast<double>(cell.runs - cell.complete);
+        if (open == 0.0) continue;
+        rest.disk_bytes += open * cell.cost.disk_bytes;
+        rest.measured = rest.measured && cell.cost.measured;
+        if (rest.wall_s && cell.cost.wall_s) {
+            *rest.wall_s += open * *cell.cost.wall_s / processes;
+        } else {
+            rest.wall_s = std::nullopt;
+        }
+    }
+    return rest;
+}
+
+std::string size_text(double bytes) {
+    if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+    return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string precision_text(const results::PrecisionTarget& target) {
+    return fmt::format(
+        "replications: those of this round; further rounds follow until {} is known to +- {:g}, with {} "
+        "replications at most\n",
+        target.metric, target.half_width, target.at_most);
+}
+
+std::string policy_of(const experiment::ConditionSpec& condition) {
+    std::vector<std::string> means = condition.policies;
+    if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
+    const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
+    const std::string settings = experiment::settings_text(condition);
+    return (means.empty() ? "-" : fmt::format("{}", fmt::join(means, "+"))) +
+           (is_checked ? "" : ", safety checks off (!)") + (settings.empty() ? "" : ", " + settings);
+}
+
+}  // namespace
+
+std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
+    const std::vector<Cell> cells = cells_of(plan, folder);
+    std::size_t scenario_width = std::string_view("scenario").size();
+    std::size_t condition_width = std::string_view("condition").size();
+    for (const Cell& cell : cells) {
+        scenario_width = std::max(scenario_width, cell.scenario.size());
+        condition_width = std::max(condition_width, cell.condition.name.size());
+    }
+    std::string text =
+        fmt::format("{:{}}  {:{}}  {:9} {:>5} {:>9}  {}\n", "scenario", scenario_width, "condition",
+                    condition_width, "traffic", "runs", "complete", "failure, predictor, policy");
+    for (const Cell& cell : cells) {
+        const experiment::ConditionSpec& condition = cell.condition;
+        text +=
+            fmt::format("{:{}}  {:{}}  {:9} {:5} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
+                        condition.name, condition_width, experiment::name(condition.traffic_model), cell.runs,
+                        cell.complete, condition.failure, condition.predictor, policy_of(condition));
+    }
+    const Rest rest = rest_of(cells, workers);
+    text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
+                        plan.run_count(), plan.units.size(), rest.complete, folder.string());
+    text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
+                        : "time unknown: the size of measured demand is only in its files";
+    text += fmt::format(
+        ", about {} on the disk ({})\n", size_text(rest.disk_bytes),
+        rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");
+    if (plan.manifest.precision) text += precision_text(*plan.manifest.precision);
+    return text;
+}
+
+std::string plan_json(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
+    using Json = nlohmann::ordered_json;
+    const std::vector<Cell> cells = cells_of(plan, folder);
+    Json list = Json::array();
+    for (const Cell& cell : cells) {
+        list.push_back({{"scenario", cell.scenario},
+                        {"condition", cell.condition.name},
+                        {"traffic_model", experiment::name(cell.condition.traffic_model)},
+                        {"failure", cell.condition.failure},
+                        {"settings", cell.condition.settings},
+                        {"model", cell.condition.model_file},
+                        {"predictor", cell.condition.predictor},
+                        {"policy", cell.condition.policies},
+                        {"safety_checks", experiment::name(cell.condition.safety_checks)},
+                        {"runs", cell.runs},
+                        {"complete_runs", cell.complete},
+                        {"estimated_run_s", cell.cost.wall_s ? Json(*cell.cost.wall_s) : Json(nullptr)},
+                        {"estimated_run_disk_bytes", cell.cost.disk_bytes},
+                        {"estimate_measured", cell.cost.measured}});
+    }
+    const Rest rest = rest_of(cells, workers);
+    const Json plan_object = {{"study", plan.manifest.study},
+                              {"folder", folder.string()},
+                              {"study_seed", plan.manifest.study_seed},
+                              {"replications", plan.manifest.replications},
+                              {"runs", plan.run_count()},
+                              {"complete_runs", rest.complete},
+                              {"estimated_time_left_s", rest.wall_s ? Json(*rest.wall_s) : Json(nullptr)},
+                              {"estimated_disk_left_bytes", rest.disk_bytes},
+                              {"cells", std::move(list)}};
+    return plan_object.dump(2) + "\n";
+}
+
+std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,
+                                            unsigned workers) {
+    return rest_of(cells_of(plan, folder), workers).wall_s;
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,107 @@
+#include "campaign/programs.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/build_stamp.hpp"
+#include "core/error.hpp"
+#include "core/process.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+/// An empty file that is removed when this object is destroyed.
+class TemporaryFile {
+  public:
+    TemporaryFile() : path_((std::filesystem::temp_directory_path() / "clearway-XXXXXX").string()) {
+        const int descriptor = ::mkstemp(path_.data());
+        if (descriptor < 0) {
+            throw core::EnvironmentError(
+                fmt::format("{}: cannot write there. Set TMPDIR to a writable folder",
+                            std::filesystem::temp_directory_path().string()));
+        }
+        ::close(descriptor);
+    }
+    ~TemporaryFile() { ::unlink(path_.c_str()); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+}  // namespace
+
+std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments) {
+    const TemporaryFile file;
+    const core::Exit exit =
+        core::run({.program = program, .arguments = arguments, .environment = {}, .output = file.path()});
+    if (!exit.ok()) return std::nullopt;
+    return core::tail(file.path(), 100);
+}
+
+std::string sister_program(const std::string& name) {
+    return core::program_folder() / name;
+}
+
+void become(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+        pointers.push_back(word.data());
+    }
+    pointers.push_back(nullptr);
+    ::execv(program.c_str(), pointers.data());
+    throw core::EnvironmentError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
+}
+
+std::optional<WorkerIdentity> identity_from(const std::string& text) {
+    const std::string head = "clearway-run ";
+    const std::string middle = " with SUMO ";
+    const std::string last = "\nbuild ";
+    const std::size_t split = text.find(middle);
+    if (!text.starts_with(head) || split == std::string::npos) return std::nullopt;
+    const std::size_t sumo = split + middle.size();
+    const std::size_t end = text.find('\n', sumo);
+    WorkerIdentity identity;
+    identity.versions = {text.substr(head.size(), split - head.size()), text.substr(sumo, end - sumo)};
+    if (const std::size_t build = text.find(last, sumo); build != std::string::npos) {
+        const std::size_t from = build + last.size();
+        identity.build = text.substr(from, text.find('\n', from) - from);
+    }
+    return identity;
+}
+
+bool is_of_this_build(const WorkerIdentity& worker) {
+    return worker.build == core::build_stamp();
+}
+
+study::Versions installed_versions() {
+    const std::string program = sister_program("clearway-run");
+    const auto worker = identity_from(output_of(program, {"--version"}).value_or(""));
+    if (!worker)
+        throw core::EnvironmentError(
+            fmt::format("{}: cannot be started. `clearway doctor` shows what is missing", program));
+    if (!is_of_this_build(*worker))
+        throw core::EnvironmentError(
+            fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults of settings, "
+                        "models and the "
+                        "way a run is made may differ. {}",
+                        program, worker->build.empty() ? "unknown (an older one)" : worker->build,
+                        core::build_stamp(), cure_of_another_build));
+    return worker->versions;
+}
+
+std::string worker_program() {
+    static const study::Versions checked = installed_versions();
+    return sister_program("clearway-run");
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/plan.hpp"
+
+namespace clearway::campaign {
+
+/// What a program prints on both streams (its last 100 lines), or nothing when it cannot be started or fails.
+/// `program` is a path or a name looked up in PATH.
+std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments);
+
+/// Path of another of Clearway's programs, in the folder of this one.
+std::string sister_program(const std::string& name);
+
+/// Replaces this process with `program`, a path. Throws core::EnvironmentError when it cannot be started.
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);
+
+/// What a worker says of itself.
+struct WorkerIdentity {
+    study::Versions versions;
+    std::string build;  ///< Its core::build_stamp(); empty for a worker that is too old to have one.
+};
+
+/// From what `clearway-run --version` prints; nothing when it is something else:
+///
+///     clearway-run 0.1.0 with SUMO 1.15.0
+///     build 0123456789abcdef
+std::optional<WorkerIdentity> identity_from(const std::string& text);
+
+/// Whether a worker and this program were built from the same sources.
+bool is_of_this_build(const WorkerIdentity& worker);
+
+inline constexpr const char* cure_of_another_build =
+    "Build both programs together: ./clearway does so by itself, or `cmake --build` without a target in "
+    "the build folder";
+
+/// Versions of Clearway and of the SUMO inside its worker, as the worker reports them. Throws
+/// core::EnvironmentError when it cannot be started, usually because a shared library is missing, and when it
+/// is of another build than this program.
+study::Versions installed_versions();
+
+/// Path of the worker. Throws as installed_versions, and asks the worker once in a process.
+std::string worker_program();
+
+}  // namespace clearway::campaign

@@ -1,0 +1,79 @@
+#include "campaign/replay_page.hpp"
+
+#include <cstdio>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "campaign/recorded_network.hpp"
+#include "core/files.hpp"
+#include "results/run_name.hpp"
+#include "view/player.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+void require_one_network(const trace::RecordingInfo& first, const trace::RecordingInfo& second) {
+    if (first.settings.network_hash == second.settings.network_hash) return;
+    throw core::InputError({"RUN RUN",
+                            fmt::format("{} and {} were recorded on two networks",
+                                        experiment::to_text(first.key), experiment::to_text(second.key)),
+                            "two runs on one network", "Write a page for each"});
+}
+
+/// Two runs side by side differ by their conditions alone only if their demand is the same.
+void say_other_traffic(const trace::RecordingInfo& first, const trace::RecordingInfo& second) {
+    if (first.provenance.demand_hash == second.provenance.demand_hash) return;
+    fmt::print(stderr,
+               "clearway: the traffic of {} (seed {}) and {} (seed {}) is not the same: what differs between "
+               "them is not due to their conditions alone\n",
+               experiment::to_text(first.key), first.provenance.study_seed, experiment::to_text(second.key),
+               second.provenance.study_seed);
+}
+
+/// `city-corridor-0.html`, `city-baseline-corridor-0.html`; names of conditions and scenarios name folders.
+std::filesystem::path usual_name(const std::vector<experiment::RunKey>& keys) {
+    std::string name = keys.front().scenario;
+    for (const experiment::RunKey& key : keys)
+        name += "-" + key.condition;
+    return fmt::format("{}-{}.html", name, keys.back().replication);
+}
+
+}  // namespace
+
+std::string written_words(const std::filesystem::path& file, std::size_t bytes) {
+    constexpr double mega = 1e6;
+    constexpr double large_mb = 8.0;  // what a browser takes a second or two to unpack
+    const double size_mb = static_cast<double>(bytes) / mega;
+    return fmt::format(
+        "written: {}, {:.1f} MB; open it in a browser{}", file.string(), size_mb,
+        size_mb < large_mb ? "" : ". --from SECONDS --to SECONDS shows a part of the run in less");
+}
+
+core::ExitCode write_replay_page(const ReplayPage& page) {
+    std::vector<results::NamedRecording> recordings;
+    std::vector<experiment::RunKey> keys;
+    std::string title;
+    for (const std::string& run : page.runs) {
+        recordings.push_back(results::recording_named(run, "RUN"));
+        const trace::RecordingInfo& info = recordings.back().reader->info();
+        require_one_network(recordings.front().reader->info(), info);
+        say_other_traffic(recordings.front().reader->info(), info);
+        keys.push_back(info.key);
+        title += (title.empty() ? "" : " and ") + experiment::to_text(info.key);
+    }
+    const roads::Network network =
+        recorded_network(recordings.front().reader->info(), recordings.front().file, page.network);
+    view::Play play;
+    play.title = title;
+    for (const results::NamedRecording& recording : recordings)
+        play.runs.push_back(view::view_of(*recording.reader, network, page.window, {}));
+    const std::filesystem::path file = page.file.empty() ? usual_name(keys) : page.file;
+    const std::string text = view::player_page(title, {{view::drawing_of(network)}, {play}});
+    core::write_atomically(file, text);
+    fmt::print("{}\n", file.string());
+    fmt::print(stderr, "clearway: {}\n", written_words(file, text.size()));
+    return core::ExitCode::ok;
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "view/recorded_run.hpp"
+
+namespace clearway::campaign {
+
+/// What `clearway replay --view` was asked for.
+struct ReplayPage {
+    std::vector<std::string> runs;  ///< One or two, by name or file.
+    std::filesystem::path network;  ///< Empty: that of their run folder.
+    std::filesystem::path file;     ///< Empty: named after the runs, in the present folder.
+    view::Window window;
+};
+
+/// What is said of a page once it is written: where, how large, and for a large one how to make it smaller.
+std::string written_words(const std::filesystem::path& file, std::size_t bytes);
+
+/// Writes a page that plays the runs side by side, and says where it is. Throws core::InputError for runs
+/// that are not recorded, or not on one network.
+core::ExitCode write_replay_page(const ReplayPage& page);
+
+}  // namespace clearway::campaign

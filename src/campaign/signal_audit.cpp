@@ -1,0 +1,169 @@
+#include "campaign/signal_audit.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "report/text.hpp"
+#include "results/run_name.hpp"
+#include "roads/program_times.hpp"
+#include "scenario/network.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+using report::counted;
+
+/// Findings of a run that are printed in words; --json has all.
+constexpr std::size_t shown_findings = 5;
+
+struct Audited {
+    std::map<std::string, analysis::SignalLimits> limits;
+    double step_s = 0.0;
+};
+
+/// From the network in the folder, read anew.
+Audited limits_of(const results::Store& store, const std::string& scenario) {
+    const std::filesystem::path folder = store.scenario_folder(scenario);
+    const scenario::ScenarioConfig config = scenario::load((folder / "scenario.toml").string());
+    const scenario::BuiltNetwork built = scenario::open_network(config, folder / "network");
+    Audited audited{{}, config.time.step_length_s};
+    for (const roads::Signal& signal : built.network.signals()) {
+        roads::ProgramTimes times = roads::program_times(signal);
+        audited.limits[signal.id] = {std::move(times.yellow_s), std::move(times.red_s),
+                                     std::move(times.green_s), signal.foes};
+    }
+    return audited;
+}
+
+bool asks_signals(const results::Manifest& manifest, const experiment::RunKey& key) {
+    const auto condition =
+        std::ranges::find(manifest.conditions, key.condition, &experiment::ConditionSpec::name);
+    return condition->traffic_model != experiment::TrafficModel::free_flow && !condition->policies.empty();
+}
+
+std::string text_of(const analysis::SignalFinding& finding) {
+    return fmt::format("{:.2f} s: signal {}, link {}: {} lasted {:.2f} s, its own program {:.2f} s",
+                       finding.ended_s, finding.signal, finding.link, core::name(finding.what),
+                       finding.lasted_s, finding.least_s);
+}
+
+struct Totals {
+    std::uint64_t yellows = 0, reds = 0, greens = 0, findings = 0;
+};
+
+Totals totals_of(const AuditReport& report) {
+    Totals totals;
+    for (const AuditedRun& run : report.runs) {
+        totals.yellows += run.audit.yellows;
+        totals.reds += run.audit.reds;
+        totals.greens += run.audit.greens;
+        totals.findings += run.audit.findings.size();
+    }
+    return totals;
+}
+
+nlohmann::ordered_json json_of(const AuditReport& report) {
+    const Totals totals = totals_of(report);
+    nlohmann::ordered_json json{{"audited", report.runs.size()},
+                                {"without_requests", report.without_requests},
+                                {"failed", report.failed},
+                                {"yellows", totals.yellows},
+                                {"red_clearances", totals.reds},
+                                {"greens", totals.greens},
+                                {"findings", nlohmann::ordered_json::array()}};
+    for (const AuditedRun& run : report.runs)
+        for (const analysis::SignalFinding& finding : run.audit.findings)
+            json["findings"].push_back({{"run", run.run},
+                                        {"time_s", finding.ended_s},
+                                        {"signal", finding.signal},
+                                        {"link", finding.link},
+                                        {"what", core::name(finding.what)},
+                                        {"lasted_s", finding.lasted_s},
+                                        {"least_s", finding.least_s}});
+    return json;
+}
+
+}  // namespace
+
+AuditReport audit_runs(const results::Store& store, const std::vector<experiment::RunKey>& keys,
+                       const Repeat& repeat) {
+    AuditReport report;
+    std::map<std::string, Audited> audited;
+    std::vector<experiment::RunKey> unlogged;
+    const auto audit = [&](const results::Store& from, const experiment::RunKey& key) {
+        const auto events = from.read_signal_events(key);
+        if (!events) return false;
+        if (!audited.contains(key.scenario)) audited[key.scenario] = limits_of(store, key.scenario);
+        const Audited& owed = audited[key.scenario];
+        report.runs.push_back({results::run_name(store.folder(), key), &from != &store,
+                               analysis::audit_signals(*events, owed.limits, owed.step_s)});
+        return true;
+    };
+    for (const experiment::RunKey& key : keys) {
+        if (audit(store, key)) continue;
+        if (asks_signals(store.manifest(), key))
+            unlogged.push_back(key);
+        else
+            ++report.without_requests;
+    }
+    if (unlogged.empty()) return report;
+    const results::Store again = repeat(unlogged);
+    for (const experiment::RunKey& key : unlogged) {
+        if (audit(again, key)) continue;
+        const auto error = again.read_error(key);
+        report.failed.push_back(fmt::format("{}: {}", results::run_name(store.folder(), key),
+                                            error ? error->message : "was not made"));
+    }
+    return report;
+}
+
+void print_audit(const AuditReport& report, Printing printing) {
+    if (printing == Printing::json) {
+        fmt::print("{}\n",
+                   json_of(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return;
+    }
+    for (const AuditedRun& run : report.runs) {
+        if (run.audit.findings.empty()) continue;
+        fmt::print("{}{}: {} too short\n", run.run, run.repeated ? " (made again)" : "",
+                   run.audit.findings.size());
+        const std::size_t shown = std::min(shown_findings, run.audit.findings.size());
+        for (std::size_t row = 0; row < shown; ++row)
+            fmt::print("  {}\n", text_of(run.audit.findings[row]));
+        if (shown < run.audit.findings.size())
+            fmt::print("  and {} more: --json has all\n", run.audit.findings.size() - shown);
+    }
+    for (const std::string& failed : report.failed)
+        fmt::print("failed     {}\n", failed);
+    const Totals totals = totals_of(report);
+    fmt::print("{} audited, {} without requests to signals: {}, {} and {} checked, {} too short\n",
+               counted(report.runs.size(), "run"), report.without_requests, counted(totals.yellows, "yellow"),
+               counted(totals.reds, "red clearance"), counted(totals.greens, "green"), totals.findings);
+}
+
+bool nothing_audited(const AuditReport& report) {
+    const Totals totals = totals_of(report);
+    return report.failed.empty() && totals.yellows + totals.reds + totals.greens == 0;
+}
+
+std::string nothing_audited_text(const AuditReport& report, const std::string& what) {
+    if (report.runs.empty())
+        return fmt::format(
+            "{}: nothing to audit: none of its complete runs asks a signal for anything. Audit "
+            "runs of a policy for signals, as corridor",
+            what);
+    return fmt::format(
+        "{}: nothing to audit: no signal showed a whole colour that its program states in {}. "
+        "`clearway signals SCENARIO` lists the signals of a scenario",
+        what, counted(report.runs.size(), "run"));
+}
+
+core::ExitCode code_of(const AuditReport& report) {
+    return totals_of(report).findings > 0 || !report.failed.empty() ? core::ExitCode::runs_failed
+                                                                    : core::ExitCode::ok;
+}
+
+}  // namespace clearway::campaign

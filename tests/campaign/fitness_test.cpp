@@ -1,0 +1,84 @@
+// What verbs say: what `clearway check` thinks of a baseline run, cures, pages that were written.
+#include "campaign/fitness.hpp"
+
+#include <gmock/gmock.h>
+
+#include "campaign/detail/abort_cure.hpp"
+#include "campaign/replay_page.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+using testing::HasSubstr;
+
+/// 400 vehicles, each 100 s on 10 km of lane, over 200 s: 20 on each km.
+metrics::RunMetrics busy_run() {
+    metrics::RunMetrics run;
+    run.vehicle_count = 400;
+    run.vehicle_steps = 400 * 400;
+    run.simulated_s = 400.0;
+    return run;
+}
+
+RoadUse use_of(const metrics::RunMetrics& run) {
+    scenario::Times time;
+    time.window_s = 200.0;
+    time.step_length_s = 0.25;
+    return road_use(run, time, 10.0);
+}
+
+TEST(RoadUse, counts_the_vehicles_on_a_kilometre_of_lane) {
+    const RoadUse use = use_of(busy_run());
+    EXPECT_DOUBLE_EQ(use.per_lane_km, 20.0);
+    EXPECT_EQ(use.state, TrafficState::fits);
+    EXPECT_EQ(use.factor, 1.0);
+}
+
+TEST(RoadUse, tells_empty_full_and_gridlocked_roads_apart) {
+    metrics::RunMetrics run = busy_run();
+    run.vehicle_steps = 1600;  // 0.2 on a kilometre
+    EXPECT_EQ(use_of(run).state, TrafficState::too_empty);
+    EXPECT_NEAR(use_of(run).factor, 10.0, 1e-9);
+    run = busy_run();
+    run.teleports = 8;
+    EXPECT_EQ(use_of(run).state, TrafficState::too_full);
+    EXPECT_NEAR(use_of(run).factor, 0.8 * 0.98, 1e-9);
+    run.unfinished = 3;
+    EXPECT_EQ(use_of(run).state, TrafficState::too_full);
+    run.unfinished = 5;
+    EXPECT_EQ(use_of(run).state, TrafficState::gridlock);
+    EXPECT_EQ(use_of(run).factor, 0.5);
+    run.teleports = 0;
+    EXPECT_EQ(use_of(run).state, TrafficState::too_full);
+    run.unfinished = 41;
+    EXPECT_EQ(use_of(run).state, TrafficState::gridlock);
+}
+
+TEST(RoadUse, where_vehicles_do_not_get_in_is_too_full) {
+    metrics::RunMetrics run = busy_run();
+    run.not_inserted = 40;
+    EXPECT_EQ(use_of(run).state, TrafficState::fits);
+    run.not_inserted = 80;
+    EXPECT_EQ(use_of(run).state, TrafficState::too_full);
+    EXPECT_NEAR(use_of(run).factor, 0.8 * 0.8, 1e-9);
+}
+
+TEST(AbortCure, goes_by_the_assertion) {
+    results::RunError error;
+    error.cause = results::ErrorCause::signal;
+    error.log_tail = "MSLane.cpp:4258: MSLane* MSLane::getBidiLane() const: Assertion failed";
+    EXPECT_THAT(cure_of_abort(error), HasSubstr("largest_car_component"));
+    error.log_tail = "Assertion `myVehicles.size() > 0' failed";
+    EXPECT_THAT(cure_of_abort(error), HasSubstr("--time-to-teleport -1"));
+    error.cause = results::ErrorCause::simulator;
+    EXPECT_EQ(cure_of_abort(error), "");
+}
+
+TEST(ReplayPage, says_how_large_it_is_and_how_a_large_one_gets_smaller) {
+    EXPECT_EQ(written_words("a.html", 450'000), "written: a.html, 0.5 MB; open it in a browser");
+    EXPECT_THAT(written_words("a.html", 18'200'000),
+                testing::AllOf(HasSubstr("a.html, 18.2 MB"), HasSubstr("--from SECONDS --to SECONDS")));
+}
+
+}  // namespace
+}  // namespace clearway::campaign
