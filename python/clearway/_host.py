@@ -23,6 +23,7 @@ import numpy as np
 
 from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
 from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
+from .torchscript import TorchScript, Unusable
 
 METHODS = {"policy": "act", "predictor": "predict"}
 
@@ -64,7 +65,6 @@ def load(file: Path, name: str, settings: dict[str, str]) -> Any:
     if not name:
         if settings:
             raise SettingError(f"{file.stem}.{next(iter(settings))} is unknown: a TorchScript module has no settings of its own")
-        from .torchscript import TorchScript
         return TorchScript(str(file))
     sys.path.insert(0, str(file.parent))  # so that it can import its neighbours
     spec = importlib.util.spec_from_file_location(file.stem, file)
@@ -142,7 +142,7 @@ def be_part(memory: int, read: int, write: int) -> None:
     channel = Channel(memory, read, write)
     try:
         serve(channel)
-    except SettingError as error:
+    except (SettingError, Unusable) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure

@@ -31,20 +31,26 @@ def pair_features(observation: Observation) -> np.ndarray:
     return (distances / observation.link_radius_m).astype(np.float32)
 
 
+class Unusable(ValueError):
+    """Why a file cannot be a predictor. The message says all, so no traceback is shown."""
+
+
 class TorchScript(Predictor):
     """Loads the module of a file, once a run, on one thread."""
 
     def __init__(self, file: str) -> None:
+        weights = f"weights of the dissertation's net go with `--predictor graphsage_corrected --model {file}`"
         try:
             import torch
-        except ImportError as error:
-            raise ImportError("torch is not installed (Debian: python3-torch); a TorchScript file needs it") from error
+        except ImportError:
+            raise Unusable(f"torch is not installed (Debian: python3-torch), and a TorchScript file needs it; {weights}, which "
+                           "does not") from None
         torch.set_num_threads(1)
         try:
             self._module = torch.jit.load(file, map_location="cpu").eval()
         except RuntimeError as error:
-            raise ValueError(f"{file} is not a TorchScript file (torch.jit.save writes one; weights of the dissertation's net go with "
-                             f"`--predictor graphsage_corrected --model {file}`): {str(error).splitlines()[0]}") from None
+            raise Unusable(f"{file} is not a TorchScript file (torch.jit.save writes one; {weights}): "
+                           f"{str(error).splitlines()[0]}") from None
         self._torch = torch
 
     def predict(self, observation: Observation) -> np.ndarray:

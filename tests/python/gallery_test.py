@@ -82,9 +82,24 @@ class TorchTest(FolderCase):
                                model="good.pth")], seeds=1, out="runs")
         self.assertEqual(results.errors.row_count, 0)
         self.assertIn(f"{self.folder}/good.pth", (self.folder / "runs/manifest.json").read_text())
-        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--predictor", "good.pth", "--policy", "corridor", "--out", "other"], capture_output=True, text=True, check=False)
-        self.assertEqual(ended.returncode, 3)
-        self.assertIn("--predictor graphsage_corrected --model", ended.stderr)
+        said = self.refusal_of("good.pth")  # with torch or without it
+        self.assertIn("good.pth", said)
+
+    def test_without_torch_a_file_is_refused_in_one_message(self) -> None:
+        (self.folder / "hidden").mkdir()
+        self.write("hidden/torch.py", "raise ImportError('as if it were not installed')\n")
+        (self.folder / "net.pt").write_bytes(b"nothing")
+        said = self.refusal_of("net.pt", PYTHONPATH=f"{self.folder}/hidden:{os.environ['PYTHONPATH']}")
+        self.assertIn("torch is not installed (Debian: python3-torch)", said)
+
+    def refusal_of(self, file: str, **environment: str) -> str:
+        """What a run with this file as predictor says: which option takes weights, and no traceback."""
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--predictor", file, "--policy", "corridor",
+                                "--out", "other"], capture_output=True, text=True, check=False, env=os.environ | environment)
+        self.assertEqual(ended.returncode, 3, ended.stderr)
+        self.assertIn(f"--predictor graphsage_corrected --model {self.folder / file}", ended.stderr)
+        self.assertNotIn("Traceback", ended.stderr)
+        return ended.stderr
 
     @unittest.skipUnless(has_torch(), "torch is not installed (Debian: python3-torch)")
     def test_a_torch_script_is_a_predictor(self) -> None:
