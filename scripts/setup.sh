@@ -77,6 +77,25 @@ ensure_packages() {
     ((${#missing_packages[@]} == 0)) || fail_environment "still missing after installation: ${missing_packages[*]}"
 }
 
+# Sets `training` to ON or OFF and `training_packages` to the packages (lines `name version`) that the trainer is built with.
+#   `train`: installs them. `keep PRESET`: ON if the preset has a trainer and its packages are still there, so that it is kept
+#   up to date with the other programs. `find`: ON where they are installed.
+# Call it before ensure_packages, which sets `installed_packages`.
+choose_training() {
+    local mode=$1 names
+    training=OFF
+    training_packages=''
+    if [[ $mode == keep && ! -x $root/build/$2/bin/clearway-train ]]; then return; fi
+    if [[ $mode == train ]]; then ensure_packages run train; fi
+    mapfile -t names < <(packages_of train)
+    if ((${#names[@]} == 0)); then return; fi
+    query_packages "${names[@]}"
+    if ((${#missing_packages[@]} == 0)); then
+        training=ON
+        training_packages=$installed_packages
+    fi
+}
+
 # SUMO finds its schemas and data through SUMO_HOME.
 ensure_sumo_home() {
     local standard=/usr/share/sumo
@@ -97,6 +116,7 @@ fingerprint() {
     done
     printf 'tree %s\n' "$root"
     printf 'package %s\n' "${installed_packages//$'\n'/; }"
+    printf 'training %s %s\n' "$training" "${training_packages//$'\n'/; }"
     (cd -- "$root" && find "${present[@]}" -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum)
 }
 
@@ -114,7 +134,13 @@ change_hidden_from_ninja() {
     local built=$1 line
     while IFS= read -r line; do
         case $line in
-            tree\ *) ;;
+            tree\ * | 'training OFF '*) ;;
+            training\ *) # the first time nothing has been built with these packages
+                if grep -q '^training ON ' "$built"; then
+                    echo yes
+                    return
+                fi
+                ;;
             package\ *)
                 echo yes
                 return
@@ -159,6 +185,16 @@ show_progress() {
     if [[ -t 2 ]]; then printf '\r\e[K' >&2; fi
 }
 
+# Runs a command and adds a line with its name and seconds to `stages`.
+stages=''
+stage() {
+    local name=$1 start=$EPOCHSECONDS
+    shift
+    "$@"
+    stages+=$(printf '%6d s  %s' $((EPOCHSECONDS - start)) "$name")$'\n'
+    say "stage $name: $((EPOCHSECONDS - start)) s"
+}
+
 # Ends the script after a failed step of a build.
 fail_build() {
     local preset=$1 log=$2
@@ -167,9 +203,9 @@ fail_build() {
     fail_environment "the whole log is in $log"
 }
 
-# Configures and builds with the lock held. `wanted_build` is set.
+# Configures and builds with the lock held: all, or one target. `wanted_build` is set.
 configure_and_build() {
-    local preset=$1 folder=$root/build/$1
+    local preset=$1 target=${2:-} folder=$root/build/$1
     local log=$folder/build.log built=$folder/.clearway-built configure=() build=()
     mkdir -p "$folder"
     : >"$log"
@@ -177,15 +213,20 @@ configure_and_build() {
         configure+=(--fresh) # the tree was moved together with its build folder
     fi
     configure+=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(command -v ccache || true)")
+    # Sanitizers look at no library of others, and libtorch is one.
+    if [[ $preset != [at]san ]]; then configure+=("-DCLEARWAY_TRAINING=$training"); fi
+    # One clone finds what another has compiled, where messages do not tell the difference.
+    export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_ABSSTDERR=1
     if [[ -r $built && $(change_hidden_from_ninja "$built" <<<"$wanted_build") == yes ]]; then
         build+=(--clean-first)
     fi
     # Written before the build starts, so that its time is older than any edit made while the build runs.
     printf '%s\n' "$wanted_build" >"$built.new"
     (cd -- "$root" && cmake --preset "$preset" "${configure[@]}") </dev/null >>"$log" 2>&1 || fail_build "$preset" "$log"
+    if [[ -n $target ]]; then build+=(--target "$target"); fi
     cmake --build "$folder" --parallel "$(compile_jobs)" "${build[@]}" </dev/null 2>&1 | show_progress "$log" ||
         fail_build "$preset" "$log"
-    [[ -x $folder/bin/clearway ]] || fail_environment "the build of '$preset' left no $folder/bin/clearway"
+    [[ -n $target || -x $folder/bin/clearway ]] || fail_environment "the build of '$preset' left no $folder/bin/clearway"
     mv -- "$built.new" "$built"
 }
 
@@ -204,12 +245,12 @@ with_build_lock() {
     ) 9>"$root/build/.$preset.lock"
 }
 
-# Configures and builds the preset, current or not.
+# Configures and builds the preset, or one target of it, current or not.
 update_build() {
     wanted_build=$(fingerprint "$1")
     say "building '$1' (log: $root/build/$1/build.log)"
     SECONDS=0
-    configure_and_build "$1"
+    configure_and_build "$@"
     say "built '$1' in $SECONDS s"
 }
 

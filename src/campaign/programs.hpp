@@ -15,6 +15,11 @@ std::optional<std::string> output_of(const std::string& program, const std::vect
 /// Path of another of Clearway's programs, in the folder of this one.
 std::string sister_program(const std::string& name);
 
+inline constexpr const char* why_no_trainer =
+    "only training needs libtorch and XGBoost: `./clearway train` installs them and builds it. Without the "
+    "launcher install the "
+    "packages of part `train` in packaging/packages.txt and build anew";
+
 /// Replaces this process with `program`, a path. Throws core::EnvironmentError when it cannot be started.
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);
 

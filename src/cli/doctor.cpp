@@ -92,6 +92,14 @@ Check check_worker() {
     return check;
 }
 
+/// Needed for training only.
+Check check_trainer() {
+    Check check = check_sister("clearway-train", "");
+    check.severity = Severity::optional;
+    check.cure = fmt::format("Not an error: {}", campaign::why_no_trainer);
+    return check;
+}
+
 Check check_osmium() {
     const std::string text = first_line(campaign::output_of("osmium", {"--version"}).value_or(""));
     return {"osmium", fit_if(!text.empty(), Finding::missing), Severity::optional,
@@ -119,7 +127,7 @@ std::vector<Check> all_checks() {
             check_sumo("netconvert"),
             check_sumo_home(),
             check_worker(),
-            check_sister("clearway-train", "training, holds libtorch"),
+            check_trainer(),
             check_osmium(),
             check_rasteriser(),
             check_folder(),

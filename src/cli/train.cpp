@@ -1,7 +1,12 @@
+#include <filesystem>
+#include <string>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "campaign/programs.hpp"
 #include "cli/verb.hpp"
+#include "core/error.hpp"
 
 namespace clearway::cli {
 
@@ -11,7 +16,11 @@ Action configure_train(CLI::App& app) {
     app.prefix_command();
     CLI::App* const command = &app;
     return [command](const Invocation&) -> core::ExitCode {
-        campaign::become(campaign::sister_program("clearway-train"), command->remaining());
+        const std::string trainer = campaign::sister_program("clearway-train");
+        if (!std::filesystem::exists(trainer))
+            throw core::EnvironmentError(
+                fmt::format("clearway-train is not built, because {}", campaign::why_no_trainer));
+        campaign::become(trainer, command->remaining());
     };
 }
 

@@ -44,6 +44,7 @@ TEST_F(HelpTest, names_every_verb_and_the_exit_codes) {
 TEST_F(HelpTest, of_every_verb_shows_an_example_and_a_default_for_each_option_with_a_value) {
     const std::regex flag("^  -[-a-z,]+(  |$)");
     for (const std::string& verb : every_verb) {
+        if (verb == "train" && !has_trainer()) continue;
         const Ended help = clearway({verb, "--help"});
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_THAT(help.out, HasSubstr("clearway " + verb)) << verb;
@@ -63,7 +64,7 @@ TEST_F(HelpTest, of_every_verb_and_the_list_fit_80_columns) {
     std::vector<std::vector<std::string>> calls = {
         {"--help"}, {"list"}, {"trajectories", "--help"}, {"links", "evaluate", "--help"}};
     for (const std::string& verb : every_verb)
-        calls.push_back({verb, "--help"});
+        if (verb != "train" || has_trainer()) calls.push_back({verb, "--help"});
     for (const std::vector<std::string>& call : calls) {
         std::istringstream lines(clearway(call).out);
         std::size_t count = 0;
@@ -221,6 +222,21 @@ TEST_F(HelpTest, doctor_finds_this_machine_fit) {
     for (const auto& check : nlohmann::json::parse(ended.out)) {
         EXPECT_TRUE(check["passed"] || !check["required"]) << check;
     }
+}
+
+/// A `clearway` without its trainer beside it, as where nobody has trained yet.
+TEST_F(HelpTest, without_the_trainer_train_says_what_to_do_and_doctor_finds_all_else_fit) {
+    for (const char* const program : {"clearway", "clearway-run"})
+        std::filesystem::copy(std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin" / program, folder());
+    const core::Exit trained =
+        core::run({folder() / "clearway", {"train", "graphsage"}, {}, folder() / "train.txt"});
+    EXPECT_EQ(trained.code, 4);
+    EXPECT_THAT(read("train.txt"),
+                AllOf(HasSubstr("clearway-train is not built"), HasSubstr("./clearway train")));
+    const core::Exit fit = core::run({folder() / "clearway", {"doctor"}, {}, folder() / "doctor.txt"});
+    EXPECT_EQ(fit.code, 0);
+    EXPECT_THAT(read("doctor.txt"),
+                AllOf(testing::ContainsRegex("missing +clearway-train"), HasSubstr("./clearway train")));
 }
 
 TEST_F(HelpTest, doctor_tells_a_missing_sumo) {

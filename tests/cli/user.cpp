@@ -48,6 +48,14 @@ const char* const line_edges = R"(<edges>
 
 }  // namespace
 
+bool has_trainer() {
+    const support::TemporaryFolder folder;
+    return core::run({.program = std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin" / "clearway-train",
+                      .arguments = {"--version"},
+                      .output = folder.path() / "said"})
+        .ok();
+}
+
 void UserTest::SetUp() {
     setenv("SUMO_HOME", "/usr/share/sumo", 0);
     unsetenv("CLEARWAY_HOME");

@@ -31,6 +31,9 @@ struct Environment {
     std::string output = {};  ///< Where standard output goes instead of being read.
 };
 
+/// Whether `clearway-train` is built and starts: not without libtorch and XGBoost (packages of part `train`).
+bool has_trainer();
+
 /// A test that drives the real `clearway` in a temporary folder, as a user does.
 class UserTest : public testing::Test {
   protected:

@@ -38,13 +38,15 @@ make_tree() {
     cp -- "$source_dir"/{clearway,test,.clang-format} "$tree/"
     cp -- "$source_dir"/scripts/{setup.sh,check-format} "$tree/scripts/"
     cp -- "$source_dir/.ci/run" "$tree/.ci/"
-    printf '%s\n' '# a comment' '' 'alpha run who' 'beta  run who' 'gamma test who' >"$tree/packaging/packages.txt"
+    printf '%s\n' '# a comment' '' 'alpha run who' 'beta  run who' 'gamma test who' 'delta train who' 'omega extra who' \
+        >"$tree/packaging/packages.txt"
     cat >"$tree/CMakePresets.json" <<'JSON'
 {"version": 6,
  "configurePresets": [
    {"name": "release", "generator": "Ninja", "binaryDir": "${sourceDir}/build/${presetName}"},
-   {"name": "dev", "inherits": "release"}],
- "buildPresets": [{"name": "release", "configurePreset": "release"}, {"name": "dev", "configurePreset": "dev"}]}
+   {"name": "ci", "inherits": "release"}, {"name": "dev", "inherits": "release"}, {"name": "asan", "inherits": "release"},
+   {"name": "tsan", "inherits": "release"}],
+ "testPresets": [{"name": "asan", "configurePreset": "asan"}, {"name": "tsan", "configurePreset": "tsan"}]}
 JSON
     cat >"$tree/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
@@ -55,6 +57,14 @@ file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/*.part)
 add_custom_command(OUTPUT bin/clearway DEPENDS src/build.sh src/program.sh ${parts}
                    COMMAND sh ${CMAKE_SOURCE_DIR}/src/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/bin VERBATIM)
 add_custom_target(tiny ALL DEPENDS bin/clearway)
+if(CLEARWAY_TRAINING)
+    add_custom_command(OUTPUT bin/clearway-train DEPENDS src/trainer.sh
+                       COMMAND cp ${CMAKE_SOURCE_DIR}/src/trainer.sh bin/clearway-train VERBATIM)
+    add_custom_target(trainer ALL DEPENDS tiny bin/clearway-train)
+endif()
+foreach(label fast threads)
+    add_custom_target(tests_${label} COMMAND echo built >>${CMAKE_SOURCE_DIR}/built_${label})
+endforeach()
 CMAKE
     cat >"$tree/src/build.sh" <<'SH'
 set -e
@@ -70,8 +80,19 @@ echo "SUMO_HOME: $SUMO_HOME"
 exit "${1:-0}"
 SH
     chmod +x "$tree/src/program.sh"
+    printf '#!/bin/sh\n' >"$tree/src/trainer.sh"
+    chmod +x "$tree/src/trainer.sh"
     echo 'exit 0' >"$tree/src/verdict.sh"
     fake_machine
+}
+
+# Checks that `./test --full` calls: each prints its name and arguments and ends with what $work/NAME.code holds.
+fake_checks() {
+    local name
+    for name in check-tidy check-alone bare-machine; do
+        printf '#!/bin/sh\necho "%s $1"\nexit "$(cat "%s" 2>/dev/null || echo 0)"\n' "$name" "$work/$name.code" >"$tree/scripts/$name"
+        chmod +x "$tree/scripts/$name"
+    done
 }
 
 # Puts the stand-ins on PATH: what is installed stands in $work/installed (`name version` lines), the user id in $work/uid.
@@ -96,7 +117,7 @@ SH
 echo "\$DEBIAN_FRONTEND \$*" >>"$work/apt"
 [ ! -e "$work/apt_fails" ] || exit 100
 case " \$* " in *' install '*) for name in "\$@"; do case \$name in
-    alpha|beta|gamma) echo "\$name 1" >>"$work/installed" ;;
+    alpha|beta|gamma|delta|omega) echo "\$name 1" >>"$work/installed" ;;
 esac; done ;; esac
 echo "text of apt-get"
 SH
@@ -349,19 +370,62 @@ test_command_checks_the_format() {
     expect_equal "$code" 0 'after --fix'
 }
 
-full_test_also_builds_release_and_runs_clang_tidy() {
+# Each stage has its turn, and the tests of the build come last, so that their summary closes the log.
+full_test_runs_every_stage() {
     make_tree "$work/tree"
-    printf '#!/bin/sh\necho tidy\n. "%s"\n' "$work/tidy" >"$tree/scripts/check-tidy"
-    chmod +x "$tree/scripts/check-tidy"
-    echo 'exit 0' >"$work/tidy"
+    fake_checks
+    printf '%s\n' 'delta 1' 'omega 1' >>"$work/installed"
     run "$tree/.ci/run"
     expect_equal "$code" 0
-    expect_equal "$(grep -oE '^tidy$|^100% tests passed' "$work/out" | tr '\n' ' ')" 'tidy 100% tests passed '
-    [[ -x $tree/build/release/bin/clearway ]] || fail 'release was not built'
-    echo 'exit 1' >"$work/tidy"
+    expect_equal "$(grep -oE '^check-[a-z]*|^bare-machine run|^100% tests passed' "$work/out" | tr '\n' ',')" \
+        'check-alone,check-tidy,100% tests passed,100% tests passed,bare-machine run,100% tests passed,'
+    for stage in packages format 'build of ci' 'changed files' 'thread sanitizer' 'bare machine'; do
+        expect_line "$work/err" "^ +[0-9]+ s  $stage\$"
+    done
+    expect_equal "$(cat "$tree"/built_* | wc -l)" 2 'builds for sanitizers'
+    [[ -x $tree/build/ci/bin/clearway-train ]] || fail 'the trainer was not built'
+}
+
+full_test_fails_with_any_stage() {
+    make_tree "$work/tree"
+    fake_checks
+    printf '%s\n' 'delta 1' 'omega 1' >>"$work/installed"
+    for name in check-alone check-tidy bare-machine; do
+        echo 1 >"$work/$name.code"
+        run "$tree/.ci/run"
+        ((code != 0)) || fail "$name found something, and that passed"
+        rm "$work/$name.code"
+    done
+    echo 77 >"$work/bare-machine.code"
     run "$tree/.ci/run"
-    expect_equal "$code" 1 'findings'
-    expect_no_line "$work/out" 'tests passed'
+    expect_equal "$code" 0 'a machine that cannot make a bare one'
+}
+
+# libtorch is for those who train: `./clearway train` brings it, and from then on the trainer is kept up to date.
+trainer_comes_with_the_first_training() {
+    make_tree "$work/tree"
+    echo 0 >"$work/uid"
+    run "$tree/clearway" 0
+    expect_equal "$(<"$work/apt")" '' 'calls of apt-get for a run'
+    [[ ! -e $tree/build/release/bin/clearway-train ]] || fail 'a run built the trainer'
+    run "$tree/clearway" train
+    expect_line "$work/err" 'installing 1 Debian packages: delta$'
+    expect_line "$work/out" '^arguments: <train>$'
+    [[ -x $tree/build/release/bin/clearway-train ]] || fail 'the trainer was not built'
+    expect_builds 1 'libtorch changes no other program'
+    echo '# new' >>"$tree/src/trainer.sh"
+    run "$tree/clearway" 0
+    expect_equal "$(tail -n 1 "$tree/build/release/bin/clearway-train")" '# new' 'the trainer after a run'
+    sed -i 's/^delta 1$/delta 2/' "$work/installed"
+    run "$tree/clearway" 0
+    expect_builds 2 'another version of libtorch'
+    sed -i '/^delta/d' "$work/installed"
+    run "$tree/clearway" 0
+    expect_equal "$code" 0 'libtorch was removed'
+    echo 1000 >"$work/uid"
+    run "$tree/clearway" train
+    expect_equal "$code" 4
+    expect_line "$work/err" '^sudo apt-get install --no-install-recommends delta$'
 }
 
 package_list_is_well_formed() {
@@ -369,7 +433,7 @@ package_list_is_well_formed() {
     while read -r name part purpose; do
         [[ -z $name || $name == '#'* ]] && continue
         [[ $name =~ ^[a-z0-9][a-z0-9.+-]+$ ]] || fail "not a package name: $name"
-        [[ $part == run || $part == test || $part == cluster ]] || fail "$name: part $part"
+        [[ $part == run || $part == test || $part == train || $part == extra ]] || fail "$name: part $part"
         [[ -n $purpose ]] || fail "$name: who needs it?"
     done <"$source_dir/packaging/packages.txt"
     expect_equal "$(grep -v '^#' "$source_dir/packaging/packages.txt" | cut -d' ' -f1 | sort | uniq -d)" '' 'duplicates'
