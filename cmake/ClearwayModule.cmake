@@ -17,7 +17,8 @@ function(clearway_compile_options target)
         target_compile_options(${target} PRIVATE -UNDEBUG -D_GLIBCXX_ASSERTIONS)
     endif()
     if(CLEARWAY_SANITIZE)
-        target_compile_options(${target} PRIVATE -fsanitize=${CLEARWAY_SANITIZE} -fno-omit-frame-pointer)
+        target_compile_options(${target} PRIVATE -fsanitize=${CLEARWAY_SANITIZE} -fno-sanitize-recover=all
+                                                 -fno-omit-frame-pointer)
         target_link_options(${target} PRIVATE -fsanitize=${CLEARWAY_SANITIZE})
     endif()
 endfunction()
@@ -139,11 +140,18 @@ function(clearway_check_layers)
     endforeach()
 endfunction()
 
-# clearway_test(NAME SOURCES file... USES module... [LINKS ...] [LABELS fast|sumo|torch|slow|browser] [TIMEOUT seconds])
+# clearway_test(NAME SOURCES file... USES module... [LINKS ...] [LABELS fast|sumo|torch|slow|browser|threads|optional]
+#               [TIMEOUT seconds] [COST seconds])
+# A fast program is one entry of CTest, because starting it for each of its tests takes longer than the tests; so is one that
+# links libtorch, which takes longest to start and is not everywhere. Of the others each test is an entry, so that they run side
+# by side. COST is a guess at the time of an entry: the longest start first.
 function(clearway_test name)
-    cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LINKS;LABELS" ${ARGN})
+    cmake_parse_arguments(arg "" "TIMEOUT;COST" "SOURCES;USES;LINKS;LABELS" ${ARGN})
     if(NOT arg_TIMEOUT)
         set(arg_TIMEOUT 120)
+    endif()
+    if(NOT arg_COST)
+        set(arg_COST 1)
     endif()
     add_executable(${name} ${arg_SOURCES})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
@@ -155,6 +163,17 @@ function(clearway_test name)
     target_compile_definitions(${name} PRIVATE CLEARWAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                CLEARWAY_BINARY_DIR="${CMAKE_BINARY_DIR}")
     clearway_compile_options(${name})
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST
-                         PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+    if("fast" IN_LIST arg_LABELS OR "torch" IN_LIST arg_LABELS)
+        add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+        set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+    else()
+        gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST
+                             PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+    endif()
+    foreach(label ${arg_LABELS})
+        if(NOT TARGET tests_${label})
+            add_custom_target(tests_${label})  # the programs with this label
+        endif()
+        add_dependencies(tests_${label} ${name})
+    endforeach()
 endfunction()

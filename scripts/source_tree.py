@@ -1,0 +1,161 @@
+"""What check-tidy and check-alone share: how each source is compiled, what it includes, what changed, what was clean before."""
+
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "clearway/checked"
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+
+
+def digest(*parts):
+    """One name for all of the parts, which are texts or bytes."""
+    total = hashlib.sha256()
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else part
+        total.update(len(data).to_bytes(8, "big"))
+        total.update(data)
+    return total.hexdigest()
+
+
+def git(*words):
+    """Lines that git prints, or nothing when it fails: no git, no repository, no such commit."""
+    try:
+        ended = subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=False)
+    except OSError:
+        return None
+    return ended.stdout.splitlines() if ended.returncode == 0 else None
+
+
+def base():
+    """The commit to compare with: CLEARWAY_BASE, else where this branch left origin/main, else the commit before; or None."""
+    named = os.environ.get("CLEARWAY_BASE")
+    here = git("rev-parse", "HEAD")
+    left = git("merge-base", "HEAD", "origin/main")
+    for commit in ([named] if named else []) + (left if left and left != here else []) + ["HEAD~1"]:
+        found = git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
+        if found:
+            return found[0]
+    return None
+
+
+def changed_files():
+    """Paths that differ from the base, new ones included; None when there is no base."""
+    commit = base()
+    if commit is None:
+        return None
+    return set(git("diff", "--name-only", "--diff-filter=d", commit) or []) | set(
+        git("ls-files", "--others", "--exclude-standard") or [])
+
+
+class Tree:
+    """Sources with a compile command, and what they include of this tree."""
+
+    def __init__(self, build):
+        file = build / "compile_commands.json"
+        if not file.exists():
+            sys.exit(f"no compile_commands.json in {build}; first: cmake --preset dev")
+        self.commands = {}
+        for entry in json.loads(file.read_text()):
+            path = os.path.relpath(os.path.join(entry["directory"], entry["file"]), ROOT)
+            if not path.startswith(("..", "build/")):
+                self.commands[path] = entry
+        self._contents, self._includes, self._reached = {}, {}, {}
+
+    def content(self, path):
+        if path not in self._contents:
+            self._contents[path] = (ROOT / path).read_bytes()
+        return self._contents[path]
+
+    def includes(self, path):
+        """What a file includes, in its order: paths of this tree, or the words as they are written."""
+        if path not in self._includes:
+            self._includes[path] = [self._resolved(path, word) for word in INCLUDE.findall(self.content(path).decode())]
+        return self._includes[path]
+
+    def _resolved(self, path, word):
+        for candidate in (f"src/{word}", f"tests/{word}", os.path.join(os.path.dirname(path), word)):
+            candidate = os.path.normpath(candidate)
+            if (ROOT / candidate).is_file():
+                return candidate
+        return word
+
+    def reached(self, path):
+        """The file and all that it includes, however indirectly; words of libraries among them."""
+        if path not in self._reached:
+            seen, open_files = {path}, [path]
+            while open_files:
+                for part in self.includes(open_files.pop()):
+                    if part not in seen:
+                        seen.add(part)
+                        if (ROOT / part).is_file():
+                            open_files.append(part)
+            self._reached[path] = seen
+        return self._reached[path]
+
+    def key(self, path, *more):
+        """Names the state of a source: its text, that of what it includes, its command, wherever the tree is."""
+        parts = sorted(part for part in self.reached(path) if (ROOT / part).is_file())
+        command = self.commands[path]["command"].replace(str(ROOT), "")
+        return digest(command, *more, *(part for file in parts for part in (file, self.content(file))))
+
+    def stand_in(self, header):
+        """A source that shows how a header is compiled: one that includes it first, or its neighbour, or any that includes it;
+        None when there is none. Second: whether it includes the header first."""
+        includers = [path for path in self.commands if header in self.includes(path)]
+        for path in includers:
+            if self.includes(path)[:1] == [header]:
+                return path, True
+        folder = header.split("/")[:2]
+        near = [path for path in includers if path.split("/")[:2] == folder]
+        near += [path for path in self.commands if path.split("/")[:2] == folder] + includers
+        return (near[0] if near else None), False
+
+
+def packages():
+    """Names and versions of the packages, on which a result depends."""
+    ended = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}\n"], capture_output=True, check=False)
+    return digest(*sorted(ended.stdout.splitlines()))
+
+
+def arguments(description, of_prefixes):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/dev", metavar="DIR",
+                        help="configured folder with compile_commands.json (default: build/dev)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="files at once (default: one per core)")
+    parser.add_argument("--changed", action="store_true", help="only what differs from the base: CLEARWAY_BASE, else where this "
+                        "branch left origin/main, else the commit before")
+    parser.add_argument("prefixes", nargs="*", metavar="PATH_PREFIX", help=of_prefixes)
+    return parser.parse_args()
+
+
+def check_all(name, tasks, jobs):
+    """Runs tasks (key of the state, function that returns what is wrong) side by side, prints what is wrong, remembers the
+    clean ones. Returns the exit code."""
+    CACHE.mkdir(parents=True, exist_ok=True)
+    todo = [(key, task) for key, task in tasks if not (CACHE / key).exists()]
+    start = last = time.monotonic()
+    dirty = done = 0
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        running = {pool.submit(task): key for key, task in todo}
+        for job in concurrent.futures.as_completed(running):
+            done += 1
+            if job.result():
+                dirty += 1
+                print(job.result(), flush=True)
+            else:
+                (CACHE / running[job]).touch()
+            if time.monotonic() - last >= 10:
+                last = time.monotonic()
+                print(f"{name}: {done} of {len(todo)}", file=sys.stderr, flush=True)
+    print(f"{name}: {len(tasks)} files, {len(tasks) - len(todo)} known to be clean, {dirty} with findings; "
+          f"{time.monotonic() - start:.0f} s", file=sys.stderr)
+    return 1 if dirty else 0
