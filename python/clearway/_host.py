@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from . import _program
 from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
 from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
 from .torchscript import TorchScript, Unusable
@@ -111,6 +112,7 @@ def serve(channel: Channel) -> None:
     if channel.wait() == b"":
         return
     greeting = json.loads(channel.read_text())
+    os.environ[_program.PART_VARIABLE] = f"{greeting['file']}:{greeting['object']}"
     part = make_part(greeting)
     answer: Callable[[], None] = lambda: None  # noqa: E731: only checked, never asked
     if greeting["network"] is not None:
@@ -142,7 +144,7 @@ def be_part(memory: int, read: int, write: int) -> None:
     channel = Channel(memory, read, write)
     try:
         serve(channel)
-    except (SettingError, Unusable) as error:
+    except (SettingError, Unusable, _program.InsidePart) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure

@@ -31,6 +31,24 @@ class EnvironmentFault(ClearwayError, OSError):
         return str(self.args[0])
 
 
+class InsidePart(InputError):
+    """A file that holds a part starts runs when it is loaded: each would load it again, and so on without end."""
+
+
+#: Set in the process of a part in Python, and so in all that it starts: the part's name.
+PART_VARIABLE = "CLEARWAY_PART"
+
+
+def require_outside_part(call_name: str) -> None:
+    """Raises ``InsidePart`` in the process of a part in Python."""
+    part = os.environ.get(PART_VARIABLE)
+    if part is not None:
+        file = part.rpartition(":")[0]
+        raise InsidePart(f"{part}: {call_name}() was called while a run had loaded this part (allowed: outside of parts only, because "
+                         f"those runs would load {file} again, without end). Put what starts runs below "
+                         "`if __name__ == \"__main__\":`, or into another file")
+
+
 _ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}
 #: The study went on, and what failed is in its tables (1: runs failed, 5: incomplete).
 RUNS_FAILED, INCOMPLETE = 1, 5

@@ -70,6 +70,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     one below ``runs/`` that follows from what is run. Runs that are there already are not repeated. Runs that failed are a
     warning, and rows of ``results.errors``.
     """
+    _program.require_outside_part("clearway.run")
     if isinstance(conditions, (str, Condition)):
         conditions = [conditions]
     if not isinstance(conditions, Iterable):
@@ -106,6 +107,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
           progress: bool = False) -> Results:
     """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
+    _program.require_outside_part("clearway.study")
     words = ["study", str(file), "--json"]
     if out is None:
         out = Path("runs") / (_study_name(Path(file)) + ("-quick" if quick else ""))

@@ -549,5 +549,40 @@ class FaultTest(FolderCase):
         self.assertEqual(hosts_of(self.folder), [])
 
 
+# A policy and what runs it, in one file, as one would write it first.
+SCRIPT = """
+import clearway
+class Mine(clearway.Policy):
+    def act(self, belief):
+        return []
+{before}
+print({call})
+"""
+RUN = "clearway.run('intersection', [clearway.Condition('mine', policy=Mine)], seeds=1, out='runs').runs.row_count"
+
+
+class StartedInAPartTest(FolderCase):
+    def ended(self, before: str, call: str) -> subprocess.CompletedProcess:
+        script = self.write("mine.py", "".join(
+            ("    " if line.startswith("print") and before else "") + line + "\n"
+            for line in SCRIPT.format(before=before, call=call).splitlines()))
+        ended = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=False, timeout=100)
+        self.assertEqual(hosts_of(self.folder), [])
+        return ended
+
+    def test_a_file_that_starts_a_study_while_a_part_of_it_is_loaded_is_refused_with_the_cure(self) -> None:
+        for call in (RUN, "clearway.study('study.toml')", "clearway.env('intersection').reset()"):
+            self.write("study.toml", "name = 'own'\nreplications = 1\nscenarios = ['intersection']\n[[condition]]\nname = 'mine'\n"
+                                     "policy = 'mine.py:Mine'\n")
+            ended = self.ended("", call if call != "clearway.env('intersection').reset()" else f"[{call}, {RUN}]")
+            self.assertNotEqual(ended.returncode, 0)
+            self.assertIn("was called while a run had loaded this part", ended.stderr)
+            self.assertIn('below `if __name__ == "__main__":`', ended.stderr)
+
+    def test_with_the_guard_it_runs(self) -> None:
+        ended = self.ended('if __name__ == "__main__":', RUN)
+        self.assertEqual((ended.returncode, ended.stdout), (0, "2\n"), ended.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()
