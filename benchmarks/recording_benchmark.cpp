@@ -14,6 +14,7 @@
 
 #include "core/temporary_folder.hpp"
 #include "trace/recording.hpp"
+#include "truth/snapshot.hpp"
 
 namespace {
 

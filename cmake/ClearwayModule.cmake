@@ -1,5 +1,11 @@
 # Modules: one folder = one target = one namespace. Each has an include root of its own in the build tree, which holds
-# nothing but a link to its folder, so that a file sees only the modules that its own module declares.
+# nothing but a link to its folder. A file sees the roots of the modules that its own module declares, and no others: what a
+# declared module uses is linked, but not seen. So a module also declares what the headers that it includes need.
+# `scripts/count-house` lists both kinds and finds those that nothing needs.
+
+# Who may see the truth and the sensors. All others decide, report or schedule, and must not be able to.
+set(CLEARWAY_SEES_truth sensing actuation drivers sumo metrics pipeline trace view samples links loop)
+set(CLEARWAY_SEES_sensing pipeline trace samples links loop)
 
 # Off: -Wrestrict, -Wnull-dereference and -Wmaybe-uninitialized. At -O3, GCC 12 finds them inside its own std::string (GCC bug
 # 105651), std::vector and std::variant.
@@ -50,16 +56,25 @@ function(clearway_module name)
         set(own INTERFACE)
     endif()
     add_library(clearway::${name} ALIAS ${target})
-    target_include_directories(${target} ${scope} ${root})
     foreach(used ${arg_USES})
         if(NOT TARGET clearway_${used})
             message(FATAL_ERROR "module ${name} uses ${used}, which does not stand below it")
         endif()
-        target_link_libraries(${target} ${scope} clearway_${used})
+        target_link_libraries(${target} ${scope} $<LINK_ONLY:clearway_${used}>)
+        target_link_libraries(${target} ${own} clearway_${used}_externals)
     endforeach()
-    target_link_libraries(${target} ${own} ${arg_LINKS} ${scope} ${arg_PUBLIC_LINKS})
+    # Imported targets are known in this folder alone; what links this library finds them through it.
+    add_library(clearway_${name}_externals INTERFACE)
+    target_link_libraries(clearway_${name}_externals INTERFACE ${arg_PUBLIC_LINKS})
+    target_link_libraries(${target} ${own} ${arg_LINKS} ${scope} clearway_${name}_externals)
     set_property(GLOBAL APPEND PROPERTY CLEARWAY_MODULES ${name})
     set_property(GLOBAL PROPERTY CLEARWAY_USES_${name} ${arg_USES})
+    clearway_roots(declared ${name} ${arg_USES})
+    target_include_directories(${target} ${own} ${declared})
+    # Programs, tests and benchmarks are no modules: they see everything below what they use.
+    clearway_closure(${name} below)
+    clearway_roots(reached ${name} ${below})
+    target_include_directories(${target} INTERFACE ${reached})
 
     foreach(file ${sources} ${headers})
         file(STRINGS ${file} climbing REGEX "#include \"\\.\\./")
@@ -69,8 +84,19 @@ function(clearway_module name)
     endforeach()
     if(CLEARWAY_CHECK_HEADERS AND headers)
         clearway_headers_alone(${name} "${headers}")
-        target_link_libraries(headers_${name} PRIVATE ${arg_LINKS})
+        target_include_directories(headers_${name} PRIVATE ${declared})
+        target_link_libraries(headers_${name} PRIVATE ${arg_LINKS} ${arg_PUBLIC_LINKS})
+        foreach(used ${arg_USES})
+            target_link_libraries(headers_${name} PRIVATE clearway_${used}_externals)
+        endforeach()
     endif()
+endfunction()
+
+# Include roots of these modules.
+function(clearway_roots result)
+    set(roots ${ARGN})
+    list(TRANSFORM roots PREPEND ${CMAKE_BINARY_DIR}/roots/)
+    set(${result} ${roots} PARENT_SCOPE)
 endfunction()
 
 function(clearway_headers_alone name headers)
@@ -83,7 +109,6 @@ function(clearway_headers_alone name headers)
         list(APPEND units ${unit})
     endforeach()
     add_library(headers_${name} OBJECT ${units})
-    target_link_libraries(headers_${name} PRIVATE clearway_${name})
     clearway_compile_options(headers_${name})
 endfunction()
 
@@ -125,9 +150,18 @@ function(clearway_add_build_stamp worker module)
     clearway_compile_options(clearway_build_stamp)
 endfunction()
 
-# Nothing after sensing sees the truth: neither prediction nor policy may reach it, however indirectly.
+# Nothing after sensing sees the truth: neither prediction nor policy may reach it, however indirectly, and no module may
+# see it that has no reason to.
 function(clearway_check_layers)
     get_property(modules GLOBAL PROPERTY CLEARWAY_MODULES)
+    foreach(module ${modules})
+        get_property(uses GLOBAL PROPERTY CLEARWAY_USES_${module})
+        foreach(guarded truth sensing)
+            if(guarded IN_LIST uses AND NOT module IN_LIST CLEARWAY_SEES_${guarded})
+                message(FATAL_ERROR "module ${module} uses ${guarded}: only ${CLEARWAY_SEES_${guarded}} may see it")
+            endif()
+        endforeach()
+    endforeach()
     foreach(blind prediction policy)
         if(blind IN_LIST modules)
             clearway_closure(${blind} closure)

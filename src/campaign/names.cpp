@@ -9,11 +9,11 @@
 
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
+#include "failures/failure_config.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "prediction/python_predictor.hpp"
 #include "python/part_process.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::campaign {
 
@@ -26,7 +26,7 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
 
 std::vector<std::string> failure_names() {
     std::vector<std::string> names;
-    for (const sensing::FailurePreset& preset : sensing::failure_presets()) {
+    for (const failures::FailurePreset& preset : failures::failure_presets()) {
         names.push_back(preset.name);
     }
     return names;
@@ -41,7 +41,7 @@ void check_failure(const std::string& where, const std::string& failure,
         return;
     }
     try {
-        sensing::failure_from(failure);
+        failures::failure_from(failure);
     } catch (const core::InputError& error) {
         for (core::Problem problem : error.problems()) {
             problem.where = fmt::format("{} `{}`: {}", where, failure, problem.where);

@@ -8,7 +8,9 @@
 #include "campaign/recorded_network.hpp"
 #include "core/files.hpp"
 #include "results/run_name.hpp"
+#include "view/drawing.hpp"
 #include "view/player.hpp"
+#include "view/recorded_run.hpp"
 
 namespace clearway::campaign {
 namespace {

@@ -16,8 +16,10 @@
 #include "core/files.hpp"
 #include "scenario/config.hpp"
 #include "trace/recording.hpp"
+#include "view/drawing.hpp"
 #include "view/near_path.hpp"
 #include "view/player.hpp"
+#include "view/recorded_run.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -108,17 +110,6 @@ class MissingRecordings {
     std::vector<WorkerJob> jobs_;
 };
 
-/// Where the emergency vehicle of a trip drove in a run.
-void add_path(const std::filesystem::path& file, const std::string& vehicle,
-              std::vector<roads::Point>& path) {
-    trace::RecordingReader recording(file);
-    const core::VehicleKey key = core::vehicle_key(vehicle);
-    while (const auto step = recording.next()) {
-        if (const auto row = step->snapshot->row_of(key))
-            path.push_back({step->snapshot->x_m[*row], step->snapshot->y_m[*row]});
-    }
-}
-
 class Plays {
   public:
     explicit Plays(const results::Store& store) : store_(store) {}
@@ -140,7 +131,7 @@ class Plays {
                     std::size_t drawing) {
         std::vector<roads::Point> path;
         for (const experiment::RunKey& key : {trip.baseline, trip.condition})
-            add_path(trace::recording_file(store_.folder(), key), trip.vehicle, path);
+            view::add_path(trace::recording_file(store_.folder(), key), trip.vehicle, path);
         const view::Area area = view::near_path(path, detail.radius_m);
         view::Play play{
             .title = trip.title(),

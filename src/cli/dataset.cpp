@@ -163,7 +163,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
         ->group(group);
     app.add_option_function<std::string>(
            "--exits",
-           [&job](const std::string& word) { job.exits = *core::value_from<sensing::Exits>(word); },
+           [&job](const std::string& word) { job.exits = *core::value_from<failures::Exits>(word); },
            "Whether it is known that a vehicle has left the network")
         ->check(CLI::IsMember({"known", "unknown"}))
         ->option_text("known|unknown [known]")

@@ -15,10 +15,10 @@
 #include "core/usage.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"
+#include "failures/failure_config.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "scenario/config.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -71,9 +71,9 @@ Section conditions() {
 }
 
 /// Every parameter of a failure model; its name carries its unit.
-Json parameters_of(const sensing::FailureConfig& config) {
+Json parameters_of(const failures::FailureConfig& config) {
     Json parameters = Json::object();
-    core::for_each_field<sensing::FailureConfig>([&](const auto& field) {
+    core::for_each_field<failures::FailureConfig>([&](const auto& field) {
         const auto& value = config.*field.member;
         using Member = std::remove_cvref_t<decltype(value)>;
         if constexpr (std::is_enum_v<Member>) {
@@ -90,7 +90,7 @@ Section failures() {
                     "Sensor failures (run --failure NAME, NAME,FIELD=VALUE,... or FIELD=VALUE,...; "
                     "docs/reference/sensing.md)",
                     {}};
-    for (const sensing::FailurePreset& preset : sensing::failure_presets()) {
+    for (const failures::FailurePreset& preset : failures::failure_presets()) {
         section.entries.push_back(
             {preset.name,
              preset.summary,

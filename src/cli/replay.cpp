@@ -131,7 +131,7 @@ core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arg
     double end_s = 0.0;
     bool any = false;
     while (const auto step = recording.next()) {
-        end_s = step->snapshot->time.value;
+        end_s = step->time().value;
         if (!begin_s) begin_s = end_s;
         const std::string text = lines(*step);
         if (arguments.from_s && end_s < *arguments.from_s) continue;

@@ -168,7 +168,7 @@ std::string first_differing_step(const std::filesystem::path& one, const std::fi
             const auto now = right.next();
             if (!before && !now) return "";
             if (!before || !now) return "one recording ends earlier";
-            const double time_s = before->snapshot->time.value;
+            const double time_s = before->time().value;
             if (const auto found = trace::difference(*before->snapshot, *now->snapshot))
                 return fmt::format("at {} s, snapshot: {}", time_s, *found);
             if (before->observation != nullptr && now->observation != nullptr)

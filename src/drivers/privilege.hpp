@@ -5,15 +5,13 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "drivers/config.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
-#include "traffic/privilege.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/snapshot.hpp"
 
 namespace clearway::drivers {
-
-using traffic::PrivilegeConfig;
 
 /// What the crew of an emergency vehicle does with its privileges: it passes red signals slowly and yielding,
 /// and in the sublane model it drives between two lanes where it fits.

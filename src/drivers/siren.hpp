@@ -1,43 +1,20 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <vector>
 
-#include "core/fields.hpp"
 #include "core/ids.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "drivers/config.hpp"
 #include "drivers/detail/drawn_reaction.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
-#include "traffic/siren.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/self_knowledge.hpp"
 #include "truth/snapshot.hpp"
 
 namespace clearway::drivers {
-
-using traffic::SirenConfig;
-
-/// Settings of the drivers' reaction to a siren that no scenario sets.
-struct ReactionConfig {
-    double fastest_reaction_s = 0.3;
-    double memory_s = 3.0;
-    double lane_request_s = 2.0;
-
-    static constexpr auto fields() {
-        using C = ReactionConfig;
-        using core::Field;
-        return std::make_tuple(
-            Field{"fastest_reaction_s", "s", &C::fastest_reaction_s, 0.0, 10.0,
-                  "Shortest reaction time of any driver", "assumed: simple reaction time"},
-            Field{"memory_s", "s", &C::memory_s, 0.1, 60.0,
-                  "A siren that was not heard for this long is forgotten", "assumed"},
-            Field{"lane_request_s", "s", &C::lane_request_s, 0.1, 60.0,
-                  "How long a driver tries to reach one lane before choosing again", "assumed"});
-    }
-};
 
 /// Human drivers on the route of an emergency vehicle who hear it behind them. After their reaction time,
 /// those who comply leave its lane as soon as they can, into a lane that continues; those in other lanes stay

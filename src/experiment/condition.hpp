@@ -28,7 +28,7 @@ using core::name;
 /// A named combination of failure, predictor and policies, and the settings that differ from their defaults.
 struct ConditionSpec {
     std::string name;
-    std::string failure = "perfect";  ///< As sensing::failure_from reads it: perfect, B10, ...
+    std::string failure = "perfect";  ///< As failures::failure_from reads it: perfect, B10, ...
     std::string predictor = "none";
     std::vector<std::string> policies;  ///< Applied in this order; empty: the car-following model alone.
     TrafficModel traffic_model = TrafficModel::standard;

@@ -24,7 +24,7 @@ std::string under_policies(const DatasetJob& job) {
 std::filesystem::path sample_file(const DatasetJob& job, const std::string& failure,
                                   std::string_view ending) {
     return job.output / fmt::format("{}-{}{}{}-{:04}{}", job.scenario, failure,
-                                    job.exits == sensing::Exits::unknown ? "-exits-unknown" : "",
+                                    job.exits == failures::Exits::unknown ? "-exits-unknown" : "",
                                     under_policies(job), job.replication, ending);
 }
 

@@ -11,7 +11,7 @@
 #include "core/spellings.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
 
 namespace clearway::experiment {
 
@@ -47,7 +47,7 @@ struct DatasetJob : Simulation, LinkSettings {
     std::uint32_t feature_count = 5;
     std::vector<std::string> failures;
     double interval_s = 5.0;
-    sensing::Exits exits = sensing::Exits::known;
+    failures::Exits exits = failures::Exits::known;
     /// Of samples: what acts on the traffic, in this order, knowing everything; empty: nothing does.
     std::vector<std::string> policies = {};
     core::Settings settings = {};  ///< Settings of the policies that differ from their defaults.

@@ -7,7 +7,7 @@
 #include "core/settings.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/simulation.hpp"
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
 
 namespace clearway::experiment {
 
@@ -36,7 +36,7 @@ struct JudgedPredictor {
 struct LinkJob : Simulation, LinkSettings {
     std::filesystem::path work_folder;
     std::vector<std::string> failures;
-    std::vector<sensing::Exits> exits;
+    std::vector<failures::Exits> exits;
     std::string policy;  ///< Acts on a perfect belief; empty: none.
     std::vector<JudgedPredictor> predictors;
 

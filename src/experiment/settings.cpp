@@ -8,17 +8,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "actuation/actuator_config.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/detail/request_checks.hpp"
 #include "experiment/equipped_signals.hpp"
+#include "experiment/sirens.hpp"
+#include "failures/failure_config.hpp"
 #include "policy/ask.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "python/part_name.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::experiment {
 namespace {
@@ -66,7 +68,7 @@ std::vector<Component> make_components() {
         {loop_name, "The closed loop", core::settings_table<LoopConfig>()},
         {failure_name,
          "Sensors: override the named failure, whose own values may differ from the defaults here",
-         core::settings_table<sensing::FailureConfig>()}};
+         core::settings_table<failures::FailureConfig>()}};
     for (const prediction::PredictorEntry& entry : prediction::predictors())
         all.push_back({entry.name, "Predictor: " + entry.summary, prediction::settings_of(entry.name)});
     for (const policy::PolicyEntry& entry : policy::policies()) {
@@ -149,6 +151,17 @@ void check_model(const ConditionSpec& condition, const std::string& where,
             problems.push_back(std::move(problem));
         }
     }
+}
+
+/// Names of the condition's policies that have this need.
+std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need) {
+    std::vector<std::string> names;
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        if (std::ranges::find(entry.needs, need) != entry.needs.end() &&
+            std::ranges::find(condition.policies, entry.name) != condition.policies.end())
+            names.push_back(entry.name);
+    }
+    return names;
 }
 
 /// Policies that place vehicles within their lane run in the sublane model alone.
@@ -235,7 +248,7 @@ void check_ask(const ConditionSpec& condition, const std::string& where,
 void check_truth(const ConditionSpec& condition, const std::string& where,
                  std::vector<core::Problem>& problems) {
     if (!prediction::knows_truth(condition.predictor) ||
-        !sensing::reports_fail(sensing::failure_from(condition.failure)))
+        !failures::reports_fail(failures::failure_from(condition.failure)))
         return;
     problems.push_back(
         {where + "failure",
@@ -378,14 +391,8 @@ bool reads_links(const ConditionSpec& condition) {
     });
 }
 
-std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need) {
-    std::vector<std::string> names;
-    for (const policy::PolicyEntry& entry : policy::policies()) {
-        if (std::ranges::find(entry.needs, need) != entry.needs.end() &&
-            std::ranges::find(condition.policies, entry.name) != condition.policies.end())
-            names.push_back(entry.name);
-    }
-    return names;
+std::vector<std::string> policies_on_shoulders(const ConditionSpec& condition) {
+    return policies_with(condition, policy::Need::shoulder);
 }
 
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where) {
@@ -471,7 +478,7 @@ actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuat
     return usual;
 }
 
-Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& of_scenario) {
+Sirens siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario) {
     Sirens sirens{of_scenario, {}};
     core::set_all(core::settings_of(condition.settings, siren_name),
                   fmt::format("condition {}: siren.", condition.name), sirens.siren, sirens.reaction);
@@ -486,7 +493,7 @@ drivers::RequestConfig request_config(const ConditionSpec& condition) {
 }
 
 drivers::PrivilegeConfig privilege_config(const ConditionSpec& condition,
-                                          const drivers::PrivilegeConfig& of_scenario) {
+                                          const traffic::PrivilegeConfig& of_scenario) {
     drivers::PrivilegeConfig config = of_scenario;
     core::set_all(core::settings_of(condition.settings, privilege_name),
                   fmt::format("condition {}: privilege.", condition.name), config);

@@ -3,17 +3,27 @@
 #include <string>
 #include <vector>
 
-#include "actuation/actuator_config.hpp"
 #include "core/error.hpp"
 #include "core/settings.hpp"
-#include "drivers/listeners.hpp"
-#include "drivers/privilege.hpp"
-#include "drivers/siren.hpp"
 #include "experiment/condition.hpp"
 #include "experiment/loop_config.hpp"
-#include "policy/policy.hpp"
+
+// The settings of a condition are known by their names and texts. Whoever needs the numbers of a part
+// includes that part.
+namespace clearway::actuation {
+struct ActuatorConfig;
+}
+namespace clearway::drivers {
+struct RequestConfig;
+}
+namespace clearway::traffic {
+struct PrivilegeConfig;
+struct SirenConfig;
+}  // namespace clearway::traffic
 
 namespace clearway::experiment {
+
+struct Sirens;
 
 /// Something with settings that a condition may change: a policy, a predictor, the actuation, ...
 struct Component {
@@ -66,8 +76,8 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// are not checked, nor are settings of classes in Python: python::check_part does it.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
 
-/// Names of the condition's policies that have this need.
-std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need);
+/// Names of the condition's policies that need a shoulder.
+std::vector<std::string> policies_on_shoulders(const ConditionSpec& condition);
 
 /// What is wrong with one setting, regardless of the condition; empty if some condition may have it. Any
 /// setting of `parts`, names of parts in Python, is one.
@@ -89,18 +99,13 @@ core::Settings predictor_settings(const ConditionSpec& condition);
 LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual = {});
 /// Settings of the condition applied to `usual`.
 actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual);
-/// How human drivers react to a siren.
-struct Sirens {
-    drivers::SirenConfig siren;
-    drivers::ReactionConfig reaction;
-};
 /// Settings of the condition applied to what the scenario says.
-Sirens siren_config(const ConditionSpec& condition, const drivers::SirenConfig& of_scenario);
+Sirens siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario);
 
 /// Which human drivers do what a policy asks.
 drivers::RequestConfig request_config(const ConditionSpec& condition);
 /// Settings of the condition applied to what the scenario says.
-drivers::PrivilegeConfig privilege_config(const ConditionSpec& condition,
-                                          const drivers::PrivilegeConfig& of_scenario);
+traffic::PrivilegeConfig privilege_config(const ConditionSpec& condition,
+                                          const traffic::PrivilegeConfig& of_scenario);
 
 }  // namespace clearway::experiment

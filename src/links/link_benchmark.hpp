@@ -7,13 +7,14 @@
 
 #include "core/error.hpp"
 #include "experiment/loop_config.hpp"
+#include "failures/failure_config.hpp"
+#include "links/compared_pair.hpp"
 #include "prediction/candidates.hpp"
 #include "scenario/config.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::links {
 
-using sensing::Exits;
+using failures::Exits;
 
 /// Replications `first` to `first + count - 1`.
 struct SeedRange {
@@ -27,14 +28,6 @@ struct SeedRange {
 /// used for both. `where` is the option or file that set them.
 std::vector<core::Problem> problems_of(const SeedRange& test, const SeedRange& validation,
                                        const std::string& where);
-
-/// Two predictors that a benchmark compares, as it says in advance.
-struct ComparedPair {
-    std::string predictor;
-    std::string against;
-
-    bool operator==(const ComparedPair&) const = default;
-};
 
 /// A scenario of a benchmark, and what acts in its traffic.
 struct BenchmarkScenario {

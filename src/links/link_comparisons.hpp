@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/resampling.hpp"
-#include "links/link_benchmark.hpp"
+#include "links/compared_pair.hpp"
 #include "links/link_judgement.hpp"
 
 namespace clearway::links {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "failures/failure_config.hpp"
 #include "links/link_scores.hpp"
 #include "links/place_errors.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::links {
 
-using sensing::Exits;
+using failures::Exits;
 
 /// What one predictor did in one run under one failure.
 struct LinkCase {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/settings.hpp"
+#include "experiment/sirens.hpp"
 
 namespace clearway::loop {
 namespace {

@@ -36,7 +36,7 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
 
 /// Name of the failure in data sets.
 std::string failure_name(const experiment::DatasetJob& job, const std::string& failure) {
-    return failure + (job.exits == sensing::Exits::unknown ? " exits unknown" : "");
+    return failure + (job.exits == failures::Exits::unknown ? " exits unknown" : "");
 }
 
 /// The policies act on the truth, whatever the sensors of the samples miss.

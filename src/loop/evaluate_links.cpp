@@ -22,7 +22,7 @@ std::unique_ptr<prediction::Predictor> make(const experiment::JudgedPredictor& j
 void add_trials(const experiment::LinkJob& job, const roads::Network& network, const graph::LinkRules& rules,
                 links::LinkEvaluator& evaluator) {
     const core::KeyedRandom random = detail::random_of(job);
-    for (const sensing::Exits exits : job.exits) {
+    for (const failures::Exits exits : job.exits) {
         for (const std::string& failure : job.failures) {
             links::LinkTrial::Setup setup{
                 .failure = failure,

@@ -6,6 +6,7 @@
 #include "roads/network.hpp"
 #include "sumo/drawing.hpp"
 #include "trace/recording.hpp"
+#include "truth/snapshot.hpp"
 
 namespace clearway::loop {
 

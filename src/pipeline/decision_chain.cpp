@@ -4,27 +4,27 @@
 
 #include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
+#include "failures/failure_config.hpp"
 #include "prediction/oracle.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::pipeline {
 namespace {
 
 /// The same channels of requests with sensors that report every vehicle as it is.
-sensing::FailureConfig with_perfect_reports(const sensing::FailureConfig& config) {
-    sensing::FailureConfig exact = sensing::failure_from("perfect");
-    const sensing::RequestChannel& to_vehicles = config;
-    const sensing::SignalRequestChannel& to_signals = config;
-    static_cast<sensing::RequestChannel&>(exact) = to_vehicles;
-    static_cast<sensing::SignalRequestChannel&>(exact) = to_signals;
+failures::FailureConfig with_perfect_reports(const failures::FailureConfig& config) {
+    failures::FailureConfig exact = failures::failure_from("perfect");
+    const failures::RequestChannel& to_vehicles = config;
+    const failures::SignalRequestChannel& to_signals = config;
+    static_cast<failures::RequestChannel&>(exact) = to_vehicles;
+    static_cast<failures::SignalRequestChannel&>(exact) = to_signals;
     exact.emergency_dark = config.emergency_dark;
     return exact;
 }
 
 }  // namespace
 
-sensing::FailureConfig observed_failure(const experiment::ConditionSpec& condition) {
-    sensing::FailureConfig failure = sensing::failure_from(condition.failure);
+failures::FailureConfig observed_failure(const experiment::ConditionSpec& condition) {
+    failures::FailureConfig failure = failures::failure_from(condition.failure);
     if (!prediction::knows_truth(condition.predictor)) return failure;
     failure = with_perfect_reports(failure);
     prediction::OracleConfig oracle;
@@ -39,8 +39,8 @@ sensing::FailureConfig observed_failure(const experiment::ConditionSpec& conditi
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : equipped_(experiment::equipped_signals(condition, context.network)),
       period_s_(context.policy_period_s) {
-    const sensing::FailureConfig failure = observed_failure(condition);
-    if (failure.signals_known == sensing::SignalsKnown::no) shown_.emplace();
+    const failures::FailureConfig failure = observed_failure(condition);
+    if (failure.signals_known == failures::SignalsKnown::no) shown_.emplace();
     sensor_ =
         sensing::make_sensor(failure, context.random, {.network = context.network, .rules = context.rules});
     predictor_ = prediction::make_predictor(condition.predictor,

@@ -32,7 +32,7 @@ struct ChainContext {
 
 /// What the predictor of a condition observes: its failure; for one that knows the truth, sensors without
 /// faults but for the errors that its settings ask for. Throws core::InputError for unknown names.
-sensing::FailureConfig observed_failure(const experiment::ConditionSpec& condition);
+failures::FailureConfig observed_failure(const experiment::ConditionSpec& condition);
 
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
 /// replay agree because both use this class. Requests that go to signals as messages travel within it,

@@ -20,7 +20,7 @@ experiment::ConditionSpec informed(experiment::ConditionSpec condition) {
 }
 
 /// Whether the policies can be asked a second time about the truth, and would say anything else.
-bool needs_second_opinion(const experiment::ConditionSpec& condition, const sensing::FailureConfig& failure,
+bool needs_second_opinion(const experiment::ConditionSpec& condition, const failures::FailureConfig& failure,
                           const ChainContext& context) {
     const bool knows_everything =
         condition.predictor == experiment::ConditionSpec{}.predictor && failure.report_interval_s == 0.0;
@@ -91,10 +91,10 @@ std::uint64_t count_missing(const std::vector<Element>& wanted, const std::vecto
 }  // namespace
 
 Requests::Requests(const experiment::ConditionSpec& condition, const ChainContext& context)
-    : Requests(condition, context, sensing::failure_from(condition.failure)) {}
+    : Requests(condition, context, failures::failure_from(condition.failure)) {}
 
 Requests::Requests(const experiment::ConditionSpec& condition, const ChainContext& context,
-                   const sensing::FailureConfig& failure)
+                   const failures::FailureConfig& failure)
     : vehicles_(failure, context.random, sensing::Channel::Receivers::vehicles),
       signals_(failure, context.random, sensing::Channel::Receivers::signals),
       equipment_(failure, context.random) {

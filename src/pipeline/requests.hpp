@@ -58,7 +58,7 @@ class Requests {
 
   private:
     Requests(const experiment::ConditionSpec& condition, const ChainContext& context,
-             const sensing::FailureConfig& failure);
+             const failures::FailureConfig& failure);
 
     /// Who asks whom for what kind of action.
     struct Asked {

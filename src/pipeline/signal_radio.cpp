@@ -14,7 +14,7 @@ constexpr int cancellations = 3;
 
 }  // namespace
 
-SignalRadio::SignalRadio(const roads::Network& network, const sensing::FailureConfig& failure,
+SignalRadio::SignalRadio(const roads::Network& network, const failures::FailureConfig& failure,
                          const core::KeyedRandom& random)
     : channel_(failure, random, sensing::Channel::Receivers::signals) {
     for (const roads::Signal& signal : network.signals())

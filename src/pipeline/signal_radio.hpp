@@ -28,7 +28,7 @@ namespace clearway::pipeline {
 class SignalRadio {
   public:
     /// The network outlives the radio.
-    SignalRadio(const roads::Network& network, const sensing::FailureConfig& failure,
+    SignalRadio(const roads::Network& network, const failures::FailureConfig& failure,
                 const core::KeyedRandom& random);
 
     bool is_perfect() const { return channel_.is_perfect(); }

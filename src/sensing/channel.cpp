@@ -12,16 +12,18 @@ struct PathLoss {
     double shadowing_db = 0.0;
 };
 
-constexpr PathLoss path_loss(Propagation propagation) {
-    return propagation == Propagation::nlos ? PathLoss{30.0, 4.0} : PathLoss{20.0, 3.0};
+constexpr PathLoss path_loss(failures::Propagation propagation) {
+    return propagation == failures::Propagation::nlos ? PathLoss{30.0, 4.0} : PathLoss{20.0, 3.0};
 }
 
 /// The formulas hold from about here.
 constexpr double least_distance_m = 1.0;
 
-const ChannelConfig& channel_of(const FailureConfig& config, Channel::Receivers receivers) {
-    if (receivers == Channel::Receivers::vehicles) return static_cast<const RequestChannel&>(config);
-    return static_cast<const SignalRequestChannel&>(config);
+const failures::ChannelConfig& channel_of(const failures::FailureConfig& config,
+                                          Channel::Receivers receivers) {
+    if (receivers == Channel::Receivers::vehicles)
+        return static_cast<const failures::RequestChannel&>(config);
+    return static_cast<const failures::SignalRequestChannel&>(config);
 }
 
 double shadowing_correlation(double interval_s) {
@@ -32,11 +34,11 @@ double shadowing_correlation(double interval_s) {
 
 }  // namespace
 
-Channel::Channel(const FailureConfig& config, const core::KeyedRandom& random, Receivers receivers)
+Channel::Channel(const failures::FailureConfig& config, const core::KeyedRandom& random, Receivers receivers)
     : Channel(channel_of(config, receivers), config.emergency_dark, random, receivers) {}
 
-Channel::Channel(const ChannelConfig& config, EmergencyDark sender_dark, const core::KeyedRandom& random,
-                 Receivers receivers)
+Channel::Channel(const failures::ChannelConfig& config, failures::EmergencyDark sender_dark,
+                 const core::KeyedRandom& random, Receivers receivers)
     : config_(config),
       sender_dark_(sender_dark),
       random_(random),
@@ -56,7 +58,7 @@ MessageNumber Channel::message_at(core::Seconds time) const {
 }
 
 bool Channel::is_silent(std::uint64_t sender, MessageNumber message) const {
-    return sender_dark_ == EmergencyDark::yes && outages_.dark(sender, message);
+    return sender_dark_ == failures::EmergencyDark::yes && outages_.dark(sender, message);
 }
 
 bool Channel::hears(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
@@ -80,7 +82,7 @@ bool Channel::is_lost(std::uint64_t from, std::uint64_t to, MessageNumber messag
 
 bool Channel::is_in_reach(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
                           double distance_m) const {
-    if (config_.propagation == Propagation::sharp) return distance_m < config_.range_m;
+    if (config_.propagation == failures::Propagation::sharp) return distance_m < config_.range_m;
     const PathLoss loss = path_loss(config_.propagation);
     const double beyond_db =
         loss.decibel_per_decade * std::log10(std::max(distance_m, least_distance_m) / config_.range_m);

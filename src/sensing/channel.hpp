@@ -5,7 +5,7 @@
 #include "core/keyed_series.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
 
 namespace clearway::sensing {
 
@@ -33,10 +33,10 @@ class Channel {
   public:
     /// Which draws it uses: requests to vehicles and to signals fail independently.
     enum class Receivers : std::uint8_t { vehicles, signals };
-    Channel(const FailureConfig& config, const core::KeyedRandom& random, Receivers receivers);
+    Channel(const failures::FailureConfig& config, const core::KeyedRandom& random, Receivers receivers);
 
-    bool is_perfect() const { return config_.propagation == Propagation::perfect; }
-    const ChannelConfig& config() const { return config_; }
+    bool is_perfect() const { return config_.propagation == failures::Propagation::perfect; }
+    const failures::ChannelConfig& config() const { return config_; }
     /// Number of the latest message that is due at a time of at least 0.
     MessageNumber message_at(core::Seconds time) const;
     /// Whether the sender's own radio is in an outage. `sender` is the value of a vehicle's key.
@@ -50,13 +50,13 @@ class Channel {
 
   private:
     bool is_lost(std::uint64_t from, std::uint64_t to, MessageNumber message) const;
-    Channel(const ChannelConfig& config, EmergencyDark sender_dark, const core::KeyedRandom& random,
-            Receivers receivers);
+    Channel(const failures::ChannelConfig& config, failures::EmergencyDark sender_dark,
+            const core::KeyedRandom& random, Receivers receivers);
     bool is_in_reach(std::uint64_t sender, std::uint64_t receiver, MessageNumber message,
                      double distance_m) const;
 
-    ChannelConfig config_;
-    EmergencyDark sender_dark_;
+    failures::ChannelConfig config_;
+    failures::EmergencyDark sender_dark_;
     core::KeyedRandom random_;
     core::Purpose loss_;
     core::GilbertElliott outages_;

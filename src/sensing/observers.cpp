@@ -41,7 +41,7 @@ std::optional<Place> place_of(const roads::Network& network, const roads::Signal
     return Place{static_cast<float>(x_m / count), static_cast<float>(y_m / count)};
 }
 
-Observers::Observers(const FailureConfig& config, const roads::Network& network)
+Observers::Observers(const failures::FailureConfig& config, const roads::Network& network)
     : onboard_range_m_(config.onboard_range_m),
       onboard_sigma_m_(static_cast<float>(config.onboard_sigma_m)),
       emergency_range_m_(config.emergency_sensor_range_m),

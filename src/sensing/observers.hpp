@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "failures/failure_config.hpp"
 #include "graph/proximity.hpp"
 #include "roads/network.hpp"
-#include "sensing/failure_config.hpp"
 #include "sensing/line_of_sight.hpp"
 #include "truth/snapshot.hpp"
 
@@ -27,9 +27,9 @@ std::optional<Place> place_of(const roads::Network& network, const roads::Signal
 /// identity.
 class Observers {
   public:
-    Observers(const FailureConfig& config, const roads::Network& network);
+    Observers(const failures::FailureConfig& config, const roads::Network& network);
     bool none() const { return units_.empty() && onboard_range_m_ == 0.0 && emergency_range_m_ == 0.0; }
-    bool considers_occlusion() const { return occlusion_ == Occlusion::considered; }
+    bool considers_occlusion() const { return occlusion_ == failures::Occlusion::considered; }
 
     /// Stores the boxes of a snapshot, for `hidden` and `look`.
     void take(const truth::Snapshot& snapshot, const traffic::Roster& roster);
@@ -57,7 +57,7 @@ class Observers {
     float emergency_sigma_m_;
     float roadside_range_m_;
     float roadside_sigma_m_;
-    Occlusion occlusion_;
+    failures::Occlusion occlusion_;
     std::vector<Place> units_;
     std::vector<Box> boxes_;  ///< By row.
     std::vector<float> centre_x_m_, centre_y_m_;

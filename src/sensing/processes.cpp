@@ -14,7 +14,7 @@ double correlation(double interval_s, double correlation_s) {
 
 }  // namespace
 
-LossProcess::LossProcess(const FailureConfig& config, const core::KeyedRandom& random)
+LossProcess::LossProcess(const failures::FailureConfig& config, const core::KeyedRandom& random)
     : random_(random),
       loss_rate_(config.loss_rate),
       outages_(random, core::Purpose::outage,
@@ -31,7 +31,7 @@ bool LossProcess::lost(core::VehicleKey vehicle, ReportNumber report) const {
     return in_outage(vehicle, report);
 }
 
-EquipmentProcess::EquipmentProcess(const FailureConfig& config, const core::KeyedRandom& random)
+EquipmentProcess::EquipmentProcess(const failures::FailureConfig& config, const core::KeyedRandom& random)
     : random_(random), connected_share_(config.connected_share) {}
 
 bool EquipmentProcess::equipped(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const {
@@ -39,7 +39,7 @@ bool EquipmentProcess::equipped(core::VehicleKey vehicle, traffic::VehicleClass 
            random_.uniform(core::Purpose::sensing_share, vehicle.value) < connected_share_;
 }
 
-RouteProcess::RouteProcess(const FailureConfig& config, const core::KeyedRandom& random)
+RouteProcess::RouteProcess(const failures::FailureConfig& config, const core::KeyedRandom& random)
     : random_(random), route_share_(config.route_share) {}
 
 bool RouteProcess::known(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const {
@@ -47,7 +47,7 @@ bool RouteProcess::known(core::VehicleKey vehicle, traffic::VehicleClass vehicle
            random_.uniform(core::Purpose::known_route, vehicle.value) < route_share_;
 }
 
-NoiseProcess::NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random,
+NoiseProcess::NoiseProcess(const failures::FailureConfig& config, const core::KeyedRandom& random,
                            const roads::Network& network)
     : random_(random),
       network_(network),
@@ -115,7 +115,7 @@ void NoiseProcess::move(double x_error_m, double y_error_m, traffic::MotionState
     state.lane_position_m = static_cast<float>(std::clamp(state.lane_position_m + ahead_m, 0.0, length_m));
 }
 
-DetectionProcess::DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random)
+DetectionProcess::DetectionProcess(const failures::FailureConfig& config, const core::KeyedRandom& random)
     : random_(random),
       rate_(config.link_detection_rate),
       detection_(config.detection),
@@ -129,7 +129,7 @@ bool DetectionProcess::detected(core::VehicleKey one, core::VehicleKey other, Re
 
 float DetectionProcess::range_m(core::VehicleKey one, core::VehicleKey other, ReportNumber report,
                                 float true_distance_m) const {
-    if (detection_ == Detection::presence) return -1.0F;
+    if (detection_ == failures::Detection::presence) return -1.0F;
     const double error = random_.normal(core::Purpose::link_detection,
                                         core::pair_subject(one.value, other.value), 2 * report + 1);
     return static_cast<float>(std::max(0.0, true_distance_m + range_sigma_m_ * error));

@@ -5,8 +5,8 @@
 #include "core/ids.hpp"
 #include "core/keyed_series.hpp"
 #include "core/random.hpp"
+#include "failures/failure_config.hpp"
 #include "roads/network.hpp"
-#include "sensing/failure_config.hpp"
 #include "traffic/observation.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -21,7 +21,7 @@ using ReportNumber = std::uint64_t;
 /// with one step a report.
 class LossProcess {
   public:
-    LossProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    LossProcess(const failures::FailureConfig& config, const core::KeyedRandom& random);
     /// Whether this report is lost, for either reason.
     bool lost(core::VehicleKey vehicle, ReportNumber report) const;
     /// Whether the vehicle is in an outage.
@@ -38,7 +38,7 @@ class LossProcess {
 /// vehicles and more.
 class EquipmentProcess {
   public:
-    EquipmentProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    EquipmentProcess(const failures::FailureConfig& config, const core::KeyedRandom& random);
     bool equipped(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const;
 
   private:
@@ -50,7 +50,7 @@ class EquipmentProcess {
 /// share has the same vehicles and more. Emergency vehicles always do.
 class RouteProcess {
   public:
-    RouteProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    RouteProcess(const failures::FailureConfig& config, const core::KeyedRandom& random);
     bool known(core::VehicleKey vehicle, traffic::VehicleClass vehicle_class) const;
 
   private:
@@ -68,7 +68,8 @@ class RouteProcess {
 /// white noise, which does not move the place.
 class NoiseProcess {
   public:
-    NoiseProcess(const FailureConfig& config, const core::KeyedRandom& random, const roads::Network& network);
+    NoiseProcess(const failures::FailureConfig& config, const core::KeyedRandom& random,
+                 const roads::Network& network);
     bool none() const {
         return position_sigma_m_ == 0.0 && speed_sigma_mps_ == 0.0 && heading_sigma_rad_ == 0.0;
     }
@@ -94,7 +95,7 @@ class NoiseProcess {
 /// Which links of dark vehicles are still detected: a pure function of (unordered pair, report number).
 class DetectionProcess {
   public:
-    DetectionProcess(const FailureConfig& config, const core::KeyedRandom& random);
+    DetectionProcess(const failures::FailureConfig& config, const core::KeyedRandom& random);
     bool none() const { return rate_ == 0.0; }
     /// Whether the vehicles are near enough for a detection.
     bool in_range(float true_distance_m) const { return true_distance_m < most_m_; }
@@ -107,7 +108,7 @@ class DetectionProcess {
   private:
     core::KeyedRandom random_;
     double rate_;
-    Detection detection_;
+    failures::Detection detection_;
     double range_sigma_m_;
     double most_m_;
 };

@@ -6,9 +6,9 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "failures/failure_config.hpp"
 #include "graph/proximity.hpp"
 #include "roads/network.hpp"
-#include "sensing/failure_config.hpp"
 #include "traffic/observation.hpp"
 #include "truth/snapshot.hpp"
 
@@ -71,7 +71,7 @@ struct SensorContext {
 /// of a run has the failures of that time; its first call is a report round. With a latency, a vehicle is
 /// fresh when it is in the newest round that has arrived, and `report_time` is the time at which that round
 /// was measured. Throws core::InputError with all problems of the configuration.
-std::unique_ptr<SensorModel> make_sensor(const FailureConfig& config, const core::KeyedRandom& random,
-                                         const SensorContext& context);
+std::unique_ptr<SensorModel> make_sensor(const failures::FailureConfig& config,
+                                         const core::KeyedRandom& random, const SensorContext& context);
 
 }  // namespace clearway::sensing

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "truth/snapshot.hpp"
+
 namespace clearway::trace {
 namespace {
 

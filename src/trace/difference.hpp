@@ -7,7 +7,10 @@
 #include "traffic/belief.hpp"
 #include "traffic/lease.hpp"
 #include "traffic/observation.hpp"
-#include "truth/snapshot.hpp"
+
+namespace clearway::truth {
+struct Snapshot;
+}
 
 namespace clearway::trace {
 

@@ -3,27 +3,40 @@
 #include <fmt/format.h>
 
 #include "core/random.hpp"
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
+#include "metrics/true_links.hpp"
+#include "sensing/sensor.hpp"
 #include "trace/recording_tables.hpp"
+#include "traffic/observation.hpp"
 
 namespace clearway::trace {
 
+struct FailureLogger::State {
+    metrics::TrueLinks true_links;
+    std::unique_ptr<sensing::SensorModel> sensor;
+    traffic::Observation observation = {};
+    sensing::FailureLog log = {};
+};
+
 FailureLogger::FailureLogger(const RecordingInfo& info, const std::string& failure,
-                             const roads::Network& network)
-    : true_links_(loop_of(info).rules()) {
+                             const roads::Network& network) {
+    const graph::LinkRules rules = loop_of(info).rules();
     const core::KeyedRandom random(core::StudySeed{info.provenance.study_seed},
                                    core::Replication{info.key.replication});
-    sensor_ = sensing::make_sensor(sensing::failure_from(failure), random,
-                                   {.network = network, .rules = true_links_.rules()});
+    state_ = std::make_unique<State>(
+        metrics::TrueLinks(rules),
+        sensing::make_sensor(failures::failure_from(failure), random, {.network = network, .rules = rules}));
 }
+
+FailureLogger::~FailureLogger() = default;
 
 const sensing::FailureLog* FailureLogger::step(const RecordedStep& step) {
     const truth::Snapshot& snapshot = *step.snapshot;
-    sensor_->observe(snapshot, *step.roster, observation_);
-    if (!observation_.is_report) return nullptr;
-    true_links_.look(snapshot);
-    sensor_->log_failures(snapshot, true_links_.graph(), log_);
-    return &log_;
+    state_->sensor->observe(snapshot, *step.roster, state_->observation);
+    if (!state_->observation.is_report) return nullptr;
+    state_->true_links.look(snapshot);
+    state_->sensor->log_failures(snapshot, state_->true_links.graph(), state_->log);
+    return &state_->log;
 }
 
 std::string csv_lines(const sensing::FailureLog& log, const traffic::Roster& roster) {

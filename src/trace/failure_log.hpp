@@ -3,11 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "metrics/true_links.hpp"
 #include "roads/network.hpp"
-#include "sensing/sensor.hpp"
 #include "trace/recording.hpp"
-#include "traffic/observation.hpp"
+
+namespace clearway::sensing {
+struct FailureLog;
+}
 
 namespace clearway::trace {
 
@@ -17,16 +18,17 @@ class FailureLogger {
     /// `failure` may differ from the recorded one. `network` outlives the logger. Throws core::InputError for
     /// an unknown failure.
     FailureLogger(const RecordingInfo& info, const std::string& failure, const roads::Network& network);
+    ~FailureLogger();
+    FailureLogger(const FailureLogger&) = delete;
+    FailureLogger& operator=(const FailureLogger&) = delete;
 
     /// Takes every step in the order of the recording. Returns the log of a report round, valid until the
     /// next call; null when the step has none.
     const sensing::FailureLog* step(const RecordedStep& step);
 
   private:
-    std::unique_ptr<sensing::SensorModel> sensor_;
-    traffic::Observation observation_;
-    metrics::TrueLinks true_links_;
-    sensing::FailureLog log_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 /// Header and lines of a log as CSV: `time_s,what,vehicle,other_vehicle,cause`, one line per vehicle that is

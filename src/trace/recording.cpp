@@ -251,6 +251,10 @@ std::filesystem::path recording_file(const std::filesystem::path& run_folder, co
            fmt::format("{:05}.h5", key.replication);
 }
 
+core::Seconds RecordedStep::time() const {
+    return snapshot->time;
+}
+
 experiment::LoopConfig loop_of(const RecordingInfo& info) {
     experiment::LoopConfig loop = experiment::loop_config(info.condition);
     loop.policy_period_s = info.settings.policy_period_s;

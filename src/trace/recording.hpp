@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "core/units.hpp"
 #include "experiment/condition.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_key.hpp"
@@ -16,8 +17,12 @@
 #include "traffic/command.hpp"
 #include "traffic/lease.hpp"
 #include "traffic/observation.hpp"
-#include "truth/events.hpp"
-#include "truth/snapshot.hpp"
+
+// Whoever reads a recording's truth includes it; whoever names a recording does not see it.
+namespace clearway::truth {
+struct Events;
+struct Snapshot;
+}  // namespace clearway::truth
 
 namespace clearway::trace {
 
@@ -60,6 +65,8 @@ experiment::LoopConfig loop_of(const RecordingInfo& info);
 
 /// The state at the end of a step.
 struct RecordedStep {
+    core::Seconds time() const;  ///< Of the snapshot.
+
     const truth::Snapshot* snapshot = nullptr;  ///< Never null.
     const traffic::Roster* roster = nullptr;    ///< The true one; never null.
     const truth::Events* events = nullptr;      ///< Never null.

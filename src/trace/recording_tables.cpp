@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "core/csv.hpp"
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
 
 namespace clearway::trace {
 namespace {

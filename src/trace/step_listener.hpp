@@ -2,7 +2,6 @@
 
 #include "trace/recording.hpp"
 #include "traffic/vehicle.hpp"
-#include "truth/snapshot.hpp"
 
 namespace clearway::trace {
 

@@ -13,6 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "core/csv.hpp"
 #include "roads/geography.hpp"
+#include "truth/snapshot.hpp"
 
 namespace clearway::trace {
 namespace {

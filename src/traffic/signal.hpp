@@ -8,7 +8,7 @@
 namespace clearway::traffic {
 
 /// What every signal shows now, indexed by `core::SignalIndex`. A state holds one of SUMO's letters per link
-/// (`GgyrRuosO`), or nothing where it is not known (see sensing::FailureConfig::signals_known).
+/// (`GgyrRuosO`), or nothing where it is not known (see failures::FailureConfig::signals_known).
 struct SignalStates {
     std::vector<std::string> state;
 };

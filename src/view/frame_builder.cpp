@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
 #include "view/dark_vehicles.hpp"
 
 namespace clearway::view {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -13,11 +12,9 @@
 #include "view/detail/leases_in_force.hpp"
 #include "view/drawing.hpp"
 #include "view/frame.hpp"
+#include "view/stream_config.hpp"
 
 namespace clearway::view {
-
-/// Whether a place of the network's plane (m) is shown.
-using Area = std::function<bool(double x_m, double y_m)>;
 
 /// Makes frames of the steps of a run, recorded or happening. Like a recording it only observes: it sees the
 /// truth, and nothing that makes decisions sees its frames. One thread.

@@ -5,6 +5,9 @@
 #include <set>
 #include <utility>
 
+#include "trace/recording.hpp"
+#include "truth/snapshot.hpp"
+
 namespace clearway::view {
 namespace {
 
@@ -16,6 +19,16 @@ int cell_of(double metres) {
 }
 
 }  // namespace
+
+void add_path(const std::filesystem::path& recording, const std::string& vehicle,
+              std::vector<roads::Point>& path) {
+    trace::RecordingReader reader(recording);
+    const core::VehicleKey key = core::vehicle_key(vehicle);
+    while (const auto step = reader.next()) {
+        if (const auto row = step->snapshot->row_of(key))
+            path.push_back({step->snapshot->x_m[*row], step->snapshot->y_m[*row]});
+    }
+}
 
 Area near_path(const std::vector<roads::Point>& path, double radius_m) {
     const auto cells = std::make_shared<std::set<Cell>>();

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "view/recorded_run.hpp"
+#include "view/run_view.hpp"
 
 namespace clearway::view {
 

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "view/run_stream.hpp"
 
 namespace clearway::view {
 
@@ -24,7 +25,7 @@ RunView view_of(trace::RecordingReader& recording, const roads::Network& network
     std::optional<double> first_s;
     double last_s = 0.0;
     while (const auto step = recording.next()) {
-        last_s = step->snapshot->time.value;
+        last_s = step->time().value;
         if (!first_s) first_s = last_s;
         const bool is_before = window.from_s && last_s < *window.from_s - core::clock_tolerance_s;
         if (is_before) {

@@ -3,17 +3,12 @@
 #include <optional>
 #include <string>
 
+#include "roads/network.hpp"
 #include "trace/recording.hpp"
-#include "view/run_stream.hpp"
+#include "view/run_view.hpp"
+#include "view/stream_config.hpp"
 
 namespace clearway::view {
-
-/// What a page shows of one run.
-struct RunView {
-    std::string about;   ///< JSON: run, scenario, condition, replication, policies, failure, predictor.
-    std::string stream;  ///< Blocks.
-    double begin_s = 0.0, end_s = 0.0;
-};
 
 /// The words about a run that a page shows (`RunView::about`).
 std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition);

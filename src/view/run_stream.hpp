@@ -5,17 +5,9 @@
 
 #include "view/frame_builder.hpp"
 #include "view/frame_encoder.hpp"
+#include "view/stream_config.hpp"
 
 namespace clearway::view {
-
-/// How much of a run a stream holds.
-struct StreamConfig {
-    /// Time between frames, s; 0: one for each step. Marks keep the time of their step.
-    double period_s = 0.0;
-    /// A key frame at least this often, s: how far a viewer decodes to jump, or waits when frames were lost.
-    double key_period_s = 5.0;
-    Area area = {};
-};
 
 /// Turns the steps of a run into the blocks of a stream. One thread.
 class RunStream {

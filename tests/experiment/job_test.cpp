@@ -51,7 +51,7 @@ DatasetJob dataset_job() {
     job.feature_count = 2;
     job.failures = {"B10", "D3"};
     job.interval_s = 2.5;
-    job.exits = sensing::Exits::unknown;
+    job.exits = failures::Exits::unknown;
     job.policies = {"corridor", "red_privilege"};
     job.settings = {{"preempt_signals.lead_s", "12"}};
     return job;
@@ -66,7 +66,7 @@ LinkJob link_job() {
     job.replication = 3;
     job.work_folder = "work";
     job.failures = {"B10", "D3"};
-    job.exits = {sensing::Exits::known};
+    job.exits = {failures::Exits::known};
     job.policy = "corridor";
     job.predictors = {{"kalman", "", {{"link_threshold", "0.25"}}, "out.links"},
                       {"none", "a.weights", {}, "b"},

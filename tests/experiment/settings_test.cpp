@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include "actuation/actuator_config.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiment/settings_page.hpp"
+#include "experiment/sirens.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::experiment {

@@ -1,63 +1,43 @@
 # Run as a script by the tests of this folder. MODULE is the module under test; FOLDERS are the include folders that its
-# own sources are compiled with; FORBIDDEN and USED are modules (with commas); SOURCES is the folder of all modules.
-foreach(list FORBIDDEN USED FOLDERS)
+# own sources are compiled with (with commas); ALLOWED are the modules that it may see (with spaces), MODULES all modules
+# (with commas); SOURCES is their folder.
+cmake_minimum_required(VERSION 3.25)
+string(REPLACE " " ";" ALLOWED "${ALLOWED}")
+foreach(list MODULES FOLDERS)
     string(REPLACE "," ";" ${list} "${${list}}")
 endforeach()
-file(MAKE_DIRECTORY ${WORK})
 set(flags)
 foreach(folder ${FOLDERS})
     list(APPEND flags -I${folder})
 endforeach()
 
-# Compiles a source of MODULE with these lines. `result` is "found", "missing" (a header of `folder` is not found) or
-# "broken" (anything else).
-function(try_lines lines folder result)
-    file(WRITE ${WORK}/probe.cpp "${lines}")
-    execute_process(COMMAND ${COMPILER} -std=c++20 -E ${flags} ${WORK}/probe.cpp -o ${WORK}/probe.ii
-                    RESULT_VARIABLE code ERROR_VARIABLE message)
-    if(code EQUAL 0)
-        set(${result} found PARENT_SCOPE)
-    elseif(message MATCHES "fatal error: ${folder}/[^ ]*: No such file or directory")
-        set(${result} missing PARENT_SCOPE)
-    else()
-        message(STATUS "${message}")
-        set(${result} broken PARENT_SCOPE)
-    endif()
-endfunction()
-
-function(expect lines folder wanted)
-    try_lines("${lines}" ${folder} result)
-    if(NOT result STREQUAL "${wanted}")
-        message(SEND_ERROR "a source of ${MODULE} with ${lines} is ${result}, expected ${wanted}")
-    endif()
-endfunction()
-
-# Positive control: the same probe finds every header that the module may include.
-set(lines)
-foreach(other ${USED})
+# One probe asks for a header of every module: the include root is there for all headers of a module or for none. It also
+# asks for libtorch, which belongs to training alone.
+set(probe "#if __has_include(<torch/torch.h>)\nsees libtorch\n#endif\n")
+foreach(other ${MODULES})
     file(GLOB headers RELATIVE ${SOURCES} ${SOURCES}/${other}/*.hpp)
-    foreach(header ${headers})
-        string(APPEND lines "#include \"${header}\"\n")
-    endforeach()
+    list(GET headers 0 header)
+    string(APPEND probe "#if __has_include(\"${header}\")\nsees ${other}\n#endif\n")
 endforeach()
-expect("${lines}" ${MODULE} found)
+file(WRITE ${WORK}/probe.cpp "${probe}")
+execute_process(COMMAND ${COMPILER} -std=c++20 -E -P ${flags} ${WORK}/probe.cpp OUTPUT_VARIABLE output
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "sees [a-z_]+" seen "${output}")
+list(TRANSFORM seen REPLACE "sees " "")
 
-# One header of each forbidden module is enough: the include root is there for all of them or for none.
-foreach(other ${FORBIDDEN})
-    file(GLOB headers RELATIVE ${SOURCES} ${SOURCES}/${other}/*.hpp)
-    if(headers)
-        list(GET headers 0 header)
-        expect("#include \"${header}\"\n" ${other} missing)
-    endif()
-endforeach()
-
-# libtorch belongs to training alone. SUMO's headers lie in a system folder, where every compiler finds them: there the
-# sources themselves are searched.
+set(expected ${MODULE} ${ALLOWED})
 if(MODULE STREQUAL "training")
-    expect("#include <torch/torch.h>\n" torch found)
-else()
-    expect("#include <torch/torch.h>\n" torch missing)
+    list(APPEND expected libtorch)
 endif()
+foreach(other ${MODULES} libtorch)
+    if(other IN_LIST seen AND NOT other IN_LIST expected)
+        message(SEND_ERROR "a source of ${MODULE} can include headers of ${other}, which allowed.txt does not allow")
+    elseif(other IN_LIST expected AND NOT other IN_LIST seen)
+        message(SEND_ERROR "a source of ${MODULE} cannot include headers of ${other}, which allowed.txt allows")
+    endif()
+endforeach()
+
+# SUMO's headers lie in a system folder, where every compiler finds them: there the sources themselves are searched.
 file(GLOB_RECURSE files ${SOURCES}/${MODULE}/*.hpp ${SOURCES}/${MODULE}/*.cpp)
 set(sumo_users)
 foreach(file ${files})

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "support/ascii_scene.hpp"
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
 
 namespace clearway::loop {
 namespace {

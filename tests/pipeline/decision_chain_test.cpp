@@ -165,22 +165,22 @@ experiment::ConditionSpec oracle(const core::Settings& settings = {}) {
 }
 
 TEST(Oracle, ObservesWhatSensorsWithoutFaultsWould) {
-    EXPECT_EQ(observed_failure(oracle()), sensing::failure_from("perfect"));
-    const sensing::FailureConfig late =
+    EXPECT_EQ(observed_failure(oracle()), failures::failure_from("perfect"));
+    const failures::FailureConfig late =
         observed_failure(oracle({{"oracle.age_s", "3"}, {"oracle.place_error_m", "5"}}));
-    EXPECT_EQ(late, sensing::failure_from("report_interval_s=0.1,latency_s=3,position_sigma_m=5"));
+    EXPECT_EQ(late, failures::failure_from("report_interval_s=0.1,latency_s=3,position_sigma_m=5"));
     experiment::ConditionSpec with_channel = oracle();
     with_channel.failure = "perfect,request_propagation=sharp";
-    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from(with_channel.failure));
+    EXPECT_EQ(observed_failure(with_channel), failures::failure_from(with_channel.failure));
     with_channel.failure =
         "perfect,signal_request_propagation=los,signal_request_range_m=70,request_propagation=nlos,"
         "request_hops=3,emergency_dark=no";
-    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from(with_channel.failure));
+    EXPECT_EQ(observed_failure(with_channel), failures::failure_from(with_channel.failure));
     with_channel.failure = "mixed,signals_known=0";
-    EXPECT_EQ(observed_failure(with_channel), sensing::failure_from("perfect")) << "whatever is asked for";
+    EXPECT_EQ(observed_failure(with_channel), failures::failure_from("perfect")) << "whatever is asked for";
     experiment::ConditionSpec honest;
     honest.failure = "B10";
-    EXPECT_EQ(observed_failure(honest), sensing::failure_from("B10"));
+    EXPECT_EQ(observed_failure(honest), failures::failure_from("B10"));
 }
 
 TEST(Oracle, BelievesThePastAsItWas) {

@@ -27,7 +27,7 @@ class Air {
   public:
     explicit Air(const std::string& failure)
         : scene("10 m per cell, limit 20 m/s, speed 10 m/s\ne...................|G........\n"),
-          radio(scene.network(), sensing::failure_from(failure), random) {}
+          radio(scene.network(), failures::failure_from(failure), random) {}
 
     /// What signals hear at this decision while e1 asks the signal, or no longer does.
     std::vector<traffic::PriorityRequest> decide(bool asks = true) {

@@ -4,6 +4,9 @@
 #include "sensing/traffic_fixture.hpp"
 
 namespace clearway::sensing {
+
+using namespace failures;
+
 namespace {
 
 using testing::Crowd;

@@ -9,6 +9,9 @@
 #include "sensing/traffic_fixture.hpp"
 
 namespace clearway::sensing {
+
+using namespace failures;
+
 namespace {
 
 using testing::Crowd;
@@ -259,6 +262,18 @@ TEST(Sensor, CopesWithAnEmptyRoad) {
             sensor->observe(crowd.snapshot, crowd.roster, observation);
             EXPECT_TRUE(observation.vehicles.empty() && observation.detected_links.empty()) << preset.name;
         }
+    }
+}
+
+TEST(FailureConfig, ThatIsWrongMakesNoSensor) {
+    FailureConfig config;
+    config.loss_rate = -0.1;
+    config.latency_s = 61.0;
+    try {
+        make_sensor(config, testing::draws(), {testing::small_scene().network(), {}});
+        FAIL() << "accepted";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.problems(), SizeIs(2));
     }
 }
 

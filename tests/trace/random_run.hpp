@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "trace/recording.hpp"
+#include "truth/events.hpp"
+#include "truth/snapshot.hpp"
 
 namespace clearway::test {
 

@@ -16,6 +16,7 @@
 #include "trace/detail/seal.hpp"
 #include "trace/difference.hpp"
 #include "trace/random_run.hpp"
+#include "truth/events.hpp"
 
 namespace clearway::results {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
+#include "failures/failure_config.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "prediction/predictor.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::trace {
 namespace {
@@ -75,7 +75,7 @@ TEST_P(EveryCondition, ComesOutOfItsRecordingToTheBit) {
 /// Every way to fail, with the predictors in turn, and every predictor at least once.
 std::vector<ConditionSpec> every_condition() {
     const std::vector<std::string> predictors = prediction::predictor_names();
-    const std::vector<sensing::FailurePreset> failures = sensing::failure_presets();
+    const std::vector<failures::FailurePreset> failures = failures::failure_presets();
     const std::vector<std::vector<std::string>> policies = {
         {"dissertation"}, {"corridor"}, {"preempt_signals", "clear_lane"}, {"listing_5_5"}};
     std::vector<ConditionSpec> conditions;

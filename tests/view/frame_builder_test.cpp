@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/ascii_scene.hpp"
+#include "truth/events.hpp"
 #include "view/dark_vehicles.hpp"
 
 namespace clearway::view {

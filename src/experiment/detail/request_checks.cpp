@@ -8,8 +8,8 @@
 #include "core/settings.hpp"
 #include "core/units.hpp"
 #include "experiment/settings.hpp"
+#include "failures/failure_config.hpp"
 #include "python/part_name.hpp"
-#include "sensing/failure_config.hpp"
 
 namespace clearway::experiment::detail {
 namespace {
@@ -45,18 +45,18 @@ std::optional<double> lifetime_s(const ConditionSpec& condition, const std::stri
 }
 
 /// The channel of requests to vehicles; nothing if it is perfect, or wrong, which is told elsewhere.
-std::optional<sensing::RequestChannel> channel_of(const ConditionSpec& condition) {
+std::optional<failures::RequestChannel> channel_of(const ConditionSpec& condition) {
     try {
-        const sensing::FailureConfig failure = sensing::failure_from(condition.failure);
-        const sensing::RequestChannel& channel = failure;
-        if (channel.propagation != sensing::Propagation::perfect) return channel;
+        const failures::FailureConfig failure = failures::failure_from(condition.failure);
+        const failures::RequestChannel& channel = failure;
+        if (channel.propagation != failures::Propagation::perfect) return channel;
     } catch (const core::InputError&) {
         return std::nullopt;
     }
     return std::nullopt;
 }
 
-void check_latency(const sensing::RequestChannel& channel, const std::string& part, double lives_s,
+void check_latency(const failures::RequestChannel& channel, const std::string& part, double lives_s,
                    const std::string& where, std::vector<core::Problem>& problems) {
     const double arrives_s = channel.latency_s * channel.hops;
     if (arrives_s < lives_s - core::clock_tolerance_s) return;
@@ -68,7 +68,7 @@ void check_latency(const sensing::RequestChannel& channel, const std::string& pa
                                     part, arrives_s)});
 }
 
-void check_interval(const sensing::RequestChannel& channel, const std::string& part, double lives_s,
+void check_interval(const failures::RequestChannel& channel, const std::string& part, double lives_s,
                     const std::string& where, std::vector<core::Problem>& problems) {
     if (channel.interval_s <= lives_s + core::clock_tolerance_s) return;
     problems.push_back(
@@ -82,7 +82,7 @@ void check_interval(const sensing::RequestChannel& channel, const std::string& p
 
 void check_times(const ConditionSpec& condition, const std::string& where,
                  std::vector<core::Problem>& problems) {
-    const std::optional<sensing::RequestChannel> channel = channel_of(condition);
+    const std::optional<failures::RequestChannel> channel = channel_of(condition);
     if (!channel) return;
     for (const std::string& part : parts_of(condition)) {
         const std::optional<double> lives_s = lifetime_s(condition, part);

@@ -2,10 +2,10 @@
 
 namespace clearway::loop::detail {
 
-std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, sensing::Exits exits,
+std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, failures::Exits exits,
                                                 const core::KeyedRandom& random,
                                                 const sensing::SensorContext& context) {
-    sensing::FailureConfig config = sensing::failure_from(failure);
+    failures::FailureConfig config = failures::failure_from(failure);
     config.exits = exits;
     return sensing::make_sensor(config, random, context);
 }

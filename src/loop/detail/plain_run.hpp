@@ -26,8 +26,8 @@ core::KeyedRandom random_of(const Order& job) {
     return core::KeyedRandom(core::StudySeed{job.study_seed}, core::Replication{job.replication});
 }
 
-/// The sensor of a failure (sensing::failure_from). Throws core::InputError for an unknown failure.
-std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, sensing::Exits exits,
+/// The sensor of a failure (failures::failure_from). Throws core::InputError for an unknown failure.
+std::unique_ptr<sensing::SensorModel> sensor_of(const std::string& failure, failures::Exits exits,
                                                 const core::KeyedRandom& random,
                                                 const sensing::SensorContext& context);
 

@@ -22,7 +22,7 @@ bool detects_first(traffic::VehicleClass one, traffic::VehicleClass other) {
 
 }  // namespace
 
-ReportSensor::ReportSensor(const FailureConfig& config, const core::KeyedRandom& random,
+ReportSensor::ReportSensor(const failures::FailureConfig& config, const core::KeyedRandom& random,
                            const SensorContext& context)
     : config_(config),
       equipment_(config, random),
@@ -32,7 +32,7 @@ ReportSensor::ReportSensor(const FailureConfig& config, const core::KeyedRandom&
       detection_(config, random),
       observers_(config, context.network),
       rules_(context.rules) {
-    if (config.map_matching == MapMatching::nearest) matcher_.emplace(context.network);
+    if (config.map_matching == failures::MapMatching::nearest) matcher_.emplace(context.network);
 }
 
 void ReportSensor::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -59,12 +59,12 @@ void ReportSensor::find_reporting(const truth::Snapshot& snapshot, const traffic
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
         const core::VehicleKey key = snapshot.key[row];
         const traffic::VehicleClass vehicle_class = snapshot.vehicle_class[row];
-        const bool never_lost =
-            vehicle_class == traffic::VehicleClass::emergency && config_.emergency_dark == EmergencyDark::no;
+        const bool never_lost = vehicle_class == traffic::VehicleClass::emergency &&
+                                config_.emergency_dark == failures::EmergencyDark::no;
         const bool reports =
             equipment_.equipped(key, vehicle_class) && (never_lost || !loss_.lost(key, *report_));
         reports_[row] = reports ? 1 : 0;
-        if (!reports && config_.dark_commands == DarkCommands::lost) unreachable_.push_back(key);
+        if (!reports && config_.dark_commands == failures::DarkCommands::lost) unreachable_.push_back(key);
     }
     if (!observers_.none() || observers_.considers_occlusion()) observers_.take(snapshot, roster);
     observers_.look(snapshot, reports_, seen_sigma_m_);
@@ -215,7 +215,7 @@ void ReportSensor::drop_gone_and_forgotten(const truth::Snapshot& snapshot) {
     auto present = snapshot.key.begin();
     std::erase_if(last_reports_, [&](const Report& report) {
         if (report.measured_s < oldest_s) return true;
-        if (config_.exits == Exits::unknown) return false;
+        if (config_.exits == failures::Exits::unknown) return false;
         while (present != snapshot.key.end() && *present < report.key) {
             ++present;
         }
@@ -227,7 +227,7 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
                          traffic::Observation& observation) {
     observation.time = snapshot.time;
     observation.report_time = core::Seconds(std::max(newest_measured_s_, 0.0));
-    observation.exits_known = config_.exits == Exits::known;
+    observation.exits_known = config_.exits == failures::Exits::known;
     observation.vehicles.clear();
     for (const Report& report : last_reports_) {
         observation.vehicles.push_back(
@@ -249,7 +249,7 @@ void ReportSensor::write(const truth::Snapshot& snapshot, const traffic::Roster&
             observation.detected_links.push_back(link);
         }
     }
-    if (config_.signals_known == SignalsKnown::yes) {
+    if (config_.signals_known == failures::SignalsKnown::yes) {
         observation.signals = snapshot.signals;
     } else {
         observation.signals.state.assign(snapshot.signals.state.size(), std::string());

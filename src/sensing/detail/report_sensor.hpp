@@ -19,7 +19,8 @@ namespace clearway::sensing::detail {
 /// error.
 class ReportSensor final : public SensorModel {
   public:
-    ReportSensor(const FailureConfig& config, const core::KeyedRandom& random, const SensorContext& context);
+    ReportSensor(const failures::FailureConfig& config, const core::KeyedRandom& random,
+                 const SensorContext& context);
 
     void observe(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                  traffic::Observation& observation) override;
@@ -68,7 +69,7 @@ class ReportSensor final : public SensorModel {
     void log_link(core::VehicleKey left, core::VehicleKey right, FailureLog& log) const;
     bool was_detected(core::VehicleKey left, core::VehicleKey right) const;
 
-    FailureConfig config_;
+    failures::FailureConfig config_;
     EquipmentProcess equipment_;
     LossProcess loss_;
     RouteProcess routes_;

@@ -10,7 +10,7 @@
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
 
-namespace clearway::sensing {
+namespace clearway::failures {
 
 /// What is still known of a dark vehicle that a neighbour detects.
 enum class Detection { presence, range };
@@ -322,4 +322,4 @@ std::vector<FailurePreset> failure_presets();
 /// or contradict each other.
 FailureConfig failure_from(const std::string& text);
 
-}  // namespace clearway::sensing
+}  // namespace clearway::failures

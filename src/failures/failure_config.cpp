@@ -1,4 +1,4 @@
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,7 +10,7 @@
 
 #include "core/settings.hpp"
 
-namespace clearway::sensing {
+namespace clearway::failures {
 namespace {
 
 FailureConfig independent(double loss_rate) {
@@ -385,4 +385,4 @@ FailureConfig failure_from(const std::string& text) {
     return reader.config;
 }
 
-}  // namespace clearway::sensing
+}  // namespace clearway::failures

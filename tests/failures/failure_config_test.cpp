@@ -1,11 +1,8 @@
-#include "sensing/failure_config.hpp"
+#include "failures/failure_config.hpp"
 
 #include <limits>
 
 #include <gmock/gmock.h>
-
-#include "sensing/sensor.hpp"
-#include "sensing/traffic_fixture.hpp"
 
 namespace clearway::sensing {
 namespace {
@@ -209,18 +206,6 @@ TEST(FailureConfig, RefusesValuesThatDoNotGoTogether) {
     EXPECT_THAT(problems_of(too_short, "f")[0].allowed, HasSubstr("= 2 s"));
     too_short.mean_outage_s = 2.0;
     EXPECT_THAT(problems_of(too_short, "f"), SizeIs(0));
-}
-
-TEST(FailureConfig, ThatIsWrongMakesNoSensor) {
-    FailureConfig config;
-    config.loss_rate = -0.1;
-    config.latency_s = 61.0;
-    try {
-        make_sensor(config, testing::draws(), {testing::small_scene().network(), {}});
-        FAIL() << "accepted";
-    } catch (const core::InputError& error) {
-        EXPECT_THAT(error.problems(), SizeIs(2));
-    }
 }
 
 std::string refusal_of(const std::string& text) {
