@@ -13,6 +13,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "clearway/checked"
+BUILD = ROOT / "build/commands"  # configured as `dev`, never built
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
@@ -35,36 +36,56 @@ def git(*words):
     return ended.stdout.splitlines() if ended.returncode == 0 else None
 
 
-def base():
-    """The commit to compare with: CLEARWAY_BASE, else where this branch left origin/main, else the commit before; or None."""
-    named = os.environ.get("CLEARWAY_BASE")
+def clean_commit(check):
+    """The file with the last commit up to which a check has found all changes clean."""
+    return CACHE.parent / f"clean-{check}"
+
+
+def base(check):
+    """The commit to compare with, or None: CLEARWAY_BASE, else where this branch left origin/main, else the last commit below
+    this one that the check found clean on this machine, else the commit before."""
     here = git("rev-parse", "HEAD")
-    left = git("merge-base", "HEAD", "origin/main")
-    for commit in ([named] if named else []) + (left if left and left != here else []) + ["HEAD~1"]:
-        found = git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
-        if found:
+    candidates = [os.environ.get("CLEARWAY_BASE"), *(git("merge-base", "HEAD", "origin/main") or [])]
+    if clean_commit(check).exists():
+        candidates += git("merge-base", "HEAD", clean_commit(check).read_text().strip()) or []
+    for commit in [*candidates, "HEAD~1"]:
+        found = commit and git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
+        if found and found != here:
             return found[0]
     return None
 
 
-def changed_files():
+def remember_clean(check):
+    """Notes that all changes up to this commit are clean, unless there are some that are not committed."""
+    here = git("rev-parse", "HEAD")
+    if here and not git("status", "--porcelain"):
+        clean_commit(check).write_text(here[0])
+
+
+def changed_files(check):
     """Paths that differ from the base, new ones included; None when there is no base."""
-    commit = base()
+    commit = base(check)
     if commit is None:
         return None
     return set(git("diff", "--name-only", "--diff-filter=d", commit) or []) | set(
         git("ls-files", "--others", "--exclude-standard") or [])
 
 
+def configure():
+    """Commands that compile file by file, all of today's files."""
+    ended = subprocess.run(["cmake", "--preset", "dev", "-B", BUILD, "-DCLEARWAY_BENCHMARKS=ON"], cwd=ROOT, capture_output=True,
+                           text=True, check=False)
+    if ended.returncode != 0:
+        sys.exit(f"cmake --preset dev -B {BUILD} failed:\n{ended.stderr}")
+
+
 class Tree:
     """Sources with a compile command, and what they include of this tree."""
 
-    def __init__(self, build):
-        file = build / "compile_commands.json"
-        if not file.exists():
-            sys.exit(f"no compile_commands.json in {build}; first: cmake --preset dev")
+    def __init__(self):
+        configure()
         self.commands = {}
-        for entry in json.loads(file.read_text()):
+        for entry in json.loads((BUILD / "compile_commands.json").read_text()):
             path = os.path.relpath(os.path.join(entry["directory"], entry["file"]), ROOT)
             if not path.startswith(("..", "build/")):
                 self.commands[path] = entry
@@ -128,23 +149,21 @@ def packages():
 
 def arguments(description, of_prefixes):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/dev", metavar="DIR",
-                        help="configured folder with compile_commands.json (default: build/dev)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="files at once (default: one per core)")
     parser.add_argument("--changed", action="store_true", help="only what differs from the base: CLEARWAY_BASE, else where this "
-                        "branch left origin/main, else the commit before")
+                        "branch left origin/main, else the last commit below this one that was clean here, else the commit before")
     parser.add_argument("prefixes", nargs="*", metavar="PATH_PREFIX", help=of_prefixes)
     return parser.parse_args()
 
 
-def check_all(name, tasks, jobs):
+def check_all(name, tasks, options):
     """Runs tasks (key of the state, function that returns what is wrong) side by side, prints what is wrong, remembers the
     clean ones. Returns the exit code."""
     CACHE.mkdir(parents=True, exist_ok=True)
     todo = [(key, task) for key, task in tasks if not (CACHE / key).exists()]
     start = last = time.monotonic()
     dirty = done = 0
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         running = {pool.submit(task): key for key, task in todo}
         for job in concurrent.futures.as_completed(running):
             done += 1
@@ -158,4 +177,6 @@ def check_all(name, tasks, jobs):
                 print(f"{name}: {done} of {len(todo)}", file=sys.stderr, flush=True)
     print(f"{name}: {len(tasks)} files, {len(tasks) - len(todo)} known to be clean, {dirty} with findings; "
           f"{time.monotonic() - start:.0f} s", file=sys.stderr)
+    if not dirty and not options.prefixes:
+        remember_clean(name)
     return 1 if dirty else 0
