@@ -217,7 +217,12 @@ function(clearway_test name)
         set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
     else()
         gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST
-                             PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+                             PROPERTIES TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+        # It takes no list for a property, so CTest reads the labels after the tests.
+        set(labels ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
+        file(CONFIGURE OUTPUT ${labels} @ONLY CONTENT
+            "if(@name@_TESTS)\n    set_tests_properties(\${@name@_TESTS} PROPERTIES LABELS \"@arg_LABELS@\")\nendif()\n")
+        set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
     endif()
     foreach(label ${arg_LABELS})
         if(NOT TARGET tests_${label})
