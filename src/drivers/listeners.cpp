@@ -9,9 +9,9 @@ Listeners::Listeners(const core::KeyedRandom& random, const RequestConfig& confi
       reactions_(random,
                  {.compliance = config.compliance,
                   .mean_s = config.reaction_mean_s,
-                  .deviation_s = config.reaction_deviation_s,
-                  .fastest_s = config.fastest_reaction_s},
+                  .deviation_s = config.reaction_deviation_s},
                  detail::request_draws) {}
+
 std::span<const core::VehicleKey> Listeners::step(const truth::Snapshot& snapshot) {
     ready_.clear();
     if (config_.compliance <= 0.0) return ready_;
@@ -27,7 +27,7 @@ std::span<const core::VehicleKey> Listeners::step(const truth::Snapshot& snapsho
         }
     }
     std::erase_if(heard_, [&](const auto& entry) {
-        return (snapshot.time - entry.second.last).value > config_.memory_s;
+        return (snapshot.time - entry.second.last).value > detail::memory_s;
     });
     for (const auto& [key, hearing] : heard_) {
         if ((snapshot.time - hearing.since).value >= reactions_.reaction_s(key)) ready_.push_back(key);

@@ -6,16 +6,20 @@
 
 namespace clearway::drivers {
 
-Siren::Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
-             const ReactionConfig& reaction)
+namespace {
+
+/// How long a driver tries to reach one lane before choosing again: assumed.
+constexpr core::Seconds lane_request{2.0};
+
+}  // namespace
+
+Siren::Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config)
     : network_(network),
       config_(config),
-      reaction_(reaction),
       reactions_(random,
                  {.compliance = config.compliance,
                   .mean_s = config.reaction_mean_s,
-                  .deviation_s = config.reaction_deviation_s,
-                  .fastest_s = reaction.fastest_reaction_s},
+                  .deviation_s = config.reaction_deviation_s},
                  detail::siren_draws) {}
 
 void Siren::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -27,7 +31,7 @@ void Siren::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
     for (auto& [key, driver] : drivers_)
         act(key, driver, snapshot, self, commands);
     std::erase_if(drivers_, [&](const auto& entry) {
-        const bool is_over = (snapshot.time - entry.second.last_heard).value > reaction_.memory_s;
+        const bool is_over = (snapshot.time - entry.second.last_heard).value > detail::memory_s;
         return is_over && !entry.second.is_holding;
     });
 }
@@ -61,7 +65,7 @@ void Siren::hear(const truth::Snapshot& snapshot, const traffic::Roster& roster,
 void Siren::act(core::VehicleKey key, Driver& driver, const truth::Snapshot& snapshot,
                 const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
     if (!snapshot.row_of(key)) return;
-    const bool is_heard = (snapshot.time - driver.last_heard).value <= reaction_.memory_s;
+    const bool is_heard = (snapshot.time - driver.last_heard).value <= detail::memory_s;
     const bool has_reacted = (snapshot.time - driver.noticed).value >= reactions_.reaction_s(key);
     const bool holds = is_heard && has_reacted && driver.position == Position::beside;
     if (holds != driver.is_holding) {
@@ -86,9 +90,8 @@ void Siren::leave_lane(core::VehicleKey key, Driver& driver, const truth::Snapsh
         const truth::LaneOutlook& there = (*outlook)[static_cast<std::size_t>(number)];
         const bool continues = there.best_offset == 0 || there.drivable_m > roads::worth_following.value;
         if (!continues || !self.could_change_lane(key, side).value_or(false)) continue;
-        commands.push_back(traffic::RequestLane{key, static_cast<std::uint32_t>(number),
-                                                core::Seconds(reaction_.lane_request_s)});
-        driver.asked_until = snapshot.time + core::Seconds(reaction_.lane_request_s);
+        commands.push_back(traffic::RequestLane{key, static_cast<std::uint32_t>(number), lane_request});
+        driver.asked_until = snapshot.time + lane_request;
         return;
     }
 }

@@ -26,8 +26,7 @@ namespace clearway::drivers {
 class Siren {
   public:
     /// The network outlives the object.
-    Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config,
-          const ReactionConfig& reaction = {});
+    Siren(const roads::Network& network, const core::KeyedRandom& random, const SirenConfig& config);
 
     /// Appends the drivers' commands for this step, ordered by vehicle key. Does nothing if compliance is 0.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
@@ -57,7 +56,6 @@ class Siren {
 
     const roads::Network& network_;
     SirenConfig config_;
-    ReactionConfig reaction_;
     detail::DrawnReaction reactions_;
     std::map<core::VehicleKey, Driver> drivers_;
 };

@@ -1,36 +1,9 @@
 #include "experiment/condition.hpp"
 
-#include <fmt/format.h>
-
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 
 namespace clearway::experiment {
-namespace {
-
-/// For compatibility: settings of the loop had this key before other settings existed.
-constexpr const char* loop_component = "loop";
-constexpr const char* loop_key = "loop_settings";
-
-void write_settings(const core::Settings& settings, core::Json& object) {
-    const core::Settings loop = core::settings_of(settings, loop_component);
-    if (!loop.empty()) object[loop_key] = loop;
-    core::Settings others;
-    for (const auto& [name, value] : settings) {
-        if (!name.starts_with(std::string(loop_component) + ".")) others.emplace(name, value);
-    }
-    if (!others.empty()) object["settings"] = others;
-}
-
-void read_settings(core::ObjectReader& reader, core::Settings& settings) {
-    core::Settings loop;
-    reader.read_if_there("settings", settings);
-    reader.read_if_there(loop_key, loop);
-    for (const auto& [name, value] : loop)
-        settings.insert_or_assign(fmt::format("{}.{}", loop_component, name), value);
-}
-
-}  // namespace
 
 core::Json to_json(const ConditionSpec& condition) {
     core::Json object;
@@ -40,7 +13,7 @@ core::Json to_json(const ConditionSpec& condition) {
     object["policies"] = condition.policies;
     object["traffic_model"] = experiment::name(condition.traffic_model);
     object["safety_checks"] = experiment::name(condition.safety_checks);
-    write_settings(condition.settings, object);
+    if (!condition.settings.empty()) object["settings"] = condition.settings;
     if (!condition.model_file.empty())
         object["model"] = {{"file", condition.model_file}, {"hash", condition.model_hash}};
     if (condition.bluelight == traffic::BlueLight::on) object["bluelight"] = "on";
@@ -58,7 +31,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     reader.read("policies", condition.policies);
     reader.read_name("traffic_model", condition.traffic_model, core::value_from<TrafficModel>);
     reader.read_name("safety_checks", condition.safety_checks, core::value_from<traffic::SafetyChecks>);
-    read_settings(reader, condition.settings);
+    reader.read_if_there("settings", condition.settings);
     if (object.contains("model")) {
         core::ObjectReader model(reader.child("model", core::Json::value_t::object), where + ": model",
                                  problems);

@@ -11,11 +11,11 @@
 #include "actuation/actuator_config.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "drivers/config.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/detail/request_checks.hpp"
 #include "experiment/equipped_signals.hpp"
-#include "experiment/sirens.hpp"
 #include "failures/failure_config.hpp"
 #include "policy/ask.hpp"
 #include "policy/policy.hpp"
@@ -77,7 +77,7 @@ std::vector<Component> make_components() {
     all.push_back({actuation_name, "How leases are carried out: signal transitions and their limits",
                    actuation_table()});
     all.push_back({siren_name, "Human drivers who hear a siren: override what the scenario says",
-                   core::settings_table<drivers::SirenConfig, drivers::ReactionConfig>()});
+                   core::settings_table<drivers::SirenConfig>()});
     all.push_back({requests_name, "Human drivers who do what a policy asks",
                    core::settings_table<drivers::RequestConfig>()});
     all.push_back(
@@ -478,11 +478,11 @@ actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuat
     return usual;
 }
 
-Sirens siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario) {
-    Sirens sirens{of_scenario, {}};
+traffic::SirenConfig siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario) {
+    traffic::SirenConfig siren = of_scenario;
     core::set_all(core::settings_of(condition.settings, siren_name),
-                  fmt::format("condition {}: siren.", condition.name), sirens.siren, sirens.reaction);
-    return sirens;
+                  fmt::format("condition {}: siren.", condition.name), siren);
+    return siren;
 }
 
 drivers::RequestConfig request_config(const ConditionSpec& condition) {

@@ -8,8 +8,8 @@
 #include "experiment/condition.hpp"
 #include "experiment/loop_config.hpp"
 
-// The settings of a condition are known by their names and texts. Whoever needs the numbers of a part
-// includes that part.
+// The settings of a condition are known by their names and texts. A file that needs the numbers of a
+// part includes that part.
 namespace clearway::actuation {
 struct ActuatorConfig;
 }
@@ -22,8 +22,6 @@ struct SirenConfig;
 }  // namespace clearway::traffic
 
 namespace clearway::experiment {
-
-struct Sirens;
 
 /// Something with settings that a condition may change: a policy, a predictor, the actuation, ...
 struct Component {
@@ -100,7 +98,7 @@ LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual =
 /// Settings of the condition applied to `usual`.
 actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual);
 /// Settings of the condition applied to what the scenario says.
-Sirens siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario);
+traffic::SirenConfig siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario);
 
 /// Which human drivers do what a policy asks.
 drivers::RequestConfig request_config(const ConditionSpec& condition);

@@ -1,8 +1,10 @@
 #include "failures/failure_config.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
+#include <array>
+#include <cassert>
+#include <iterator>
+#include <set>
 #include <string_view>
 #include <type_traits>
 
@@ -12,63 +14,6 @@
 
 namespace clearway::failures {
 namespace {
-
-FailureConfig independent(double loss_rate) {
-    FailureConfig config;
-    config.loss_rate = loss_rate;
-    return config;
-}
-
-FailureConfig bursty(double mean_outage_s) {
-    FailureConfig config;
-    config.dark_share = 0.3;
-    config.mean_outage_s = mean_outage_s;
-    return config;
-}
-
-FailureConfig detected(Detection detection, double range_sigma_m) {
-    FailureConfig config = bursty(10.0);
-    config.link_detection_rate = 0.5;
-    config.detection = detection;
-    config.range_sigma_m = range_sigma_m;
-    return config;
-}
-
-FailureConfig noisy(FailureConfig config, double position_sigma_m) {
-    config.position_sigma_m = position_sigma_m;
-    return config;
-}
-
-/// Noisy reports that do not tell edge and lane.
-FailureConfig matched(FailureConfig config, double position_sigma_m) {
-    config.position_sigma_m = position_sigma_m;
-    config.heading_sigma_deg = 5.0;  // Assumed: course over ground of a satellite receiver in town traffic.
-    config.map_matching = MapMatching::nearest;
-    return config;
-}
-
-FailureConfig with_routes(FailureConfig config, double route_share) {
-    config.route_share = route_share;
-    return config;
-}
-
-FailureConfig without_signals() {
-    FailureConfig config;
-    config.signals_known = SignalsKnown::no;
-    return config;
-}
-
-FailureConfig perfect() {
-    FailureConfig config;
-    config.report_interval_s = 0.0;
-    return config;
-}
-
-FailureConfig late(double latency_s) {
-    FailureConfig config;
-    config.latency_s = latency_s;
-    return config;
-}
 
 /// Whether the configuration needs report rounds.
 bool needs_rounds(const FailureConfig& config) {
@@ -80,9 +25,15 @@ bool needs_rounds(const FailureConfig& config) {
            config.signals_known != SignalsKnown::yes || config.emergency_sensor_range_m > 0.0;
 }
 
-/// The least mean outage, s: with shorter ones, losses would follow each other less often than by chance.
-double least_outage_s(double interval_s, double dark_share) {
-    return interval_s / (1.0 - dark_share);
+/// With shorter outages, losses would follow each other less often than by chance.
+void check_outages(double mean_s, double dark_share, double interval_s, const std::string& prefix,
+                   std::vector<core::Problem>& problems) {
+    const double least_s = interval_s / (1.0 - dark_share);
+    if (dark_share == 0.0 || mean_s >= least_s - 1e-9) return;
+    problems.push_back({prefix + "mean_outage_s",
+                        fmt::format("{} is too short for a dark share of {}", mean_s, dark_share),
+                        fmt::format("at least interval / (1 - dark share) = {:.4g} s", least_s),
+                        "Use the loss rate for losses without bursts"});
 }
 
 /// Checks the settings of one channel, which start with `prefix`.
@@ -94,13 +45,7 @@ void check_channel(const ChannelConfig& channel, const ChannelConfig& usual, con
                             "sharp, los, nlos", "Give the propagation, or leave the other settings out"});
         return;
     }
-    const double least_s = least_outage_s(channel.interval_s, channel.dark_share);
-    if (channel.dark_share > 0.0 && channel.mean_outage_s < least_s - 1e-9)
-        problems.push_back(
-            {prefix + "mean_outage_s",
-             fmt::format("{} is too short for a dark share of {}", channel.mean_outage_s, channel.dark_share),
-             fmt::format("at least interval / (1 - dark share) = {:.4g} s", least_s),
-             "Use the loss rate for losses without bursts"});
+    check_outages(channel.mean_outage_s, channel.dark_share, channel.interval_s, prefix, problems);
 }
 
 void check_ranges(const FailureConfig& config, const std::string& where,
@@ -149,14 +94,7 @@ void check_together(const FailureConfig& config, const std::string& where,
                             "lost with failures of reports", "Add loss_rate or dark_share, or leave it out"});
     }
     check_errors(config, where, problems);
-    const double least_s = least_outage_s(interval_s, config.dark_share);
-    if (config.dark_share > 0.0 && config.mean_outage_s < least_s - 1e-9) {
-        problems.push_back(
-            {where + ".mean_outage_s",
-             fmt::format("{} is too short for a dark share of {}", config.mean_outage_s, config.dark_share),
-             fmt::format("at least report_interval_s / (1 - dark_share) = {:.4g} s", least_s),
-             "use loss_rate for losses without bursts"});
-    }
+    check_outages(config.mean_outage_s, config.dark_share, interval_s, where + ".", problems);
     if (config.occlusion == Occlusion::considered && config.onboard_range_m == 0.0 &&
         config.link_detection_rate == 0.0) {
         problems.push_back({where + ".occlusion", "considered, but no vehicle looks at others", "ignored",
@@ -172,48 +110,6 @@ std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// Sets one field from its text. Returns what is allowed instead, or nothing when it was set.
-std::optional<std::string> set(double& value, std::string_view text) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return "a number";
-    value = number;
-    return std::nullopt;
-}
-std::optional<std::string> set(int& value, std::string_view text) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return "a whole number";
-    return std::nullopt;
-}
-template <class Enum>
-std::optional<std::string> set(Enum& value, std::string_view text) {
-    const auto known = core::value_from<Enum>(text);
-    if (!known) return core::spelling_list<Enum>();
-    value = *known;
-    return std::nullopt;
-}
-
-core::Problem unknown(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
-    const std::string near = core::nearest(std::string(name), known);
-    return {"failure", fmt::format("'{}' is not a {}", name, what), fmt::format("{}", fmt::join(known, ", ")),
-            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
-}
-
-/// Presets in which a receiver does not know lanes, routes or signals.
-void add_unknown_parts(std::vector<FailurePreset>& presets) {
-    presets.push_back({"B40", "outages of 40 s on average, dark 30 % of the time", bursty(40.0)});
-    for (const int metres : {3, 5}) {
-        presets.push_back(
-            {fmt::format("D{}M", metres),
-             fmt::format("D{} with heading errors of 5 degrees, lanes found by map matching", metres),
-             matched(FailureConfig{}, metres)});
-    }
-    presets.push_back({"R50", "routes of half of the vehicles known", with_routes(FailureConfig{}, 0.5)});
-    presets.push_back({"R0", "routes of emergency vehicles alone known", with_routes(FailureConfig{}, 0.0)});
-    presets.push_back({"S0", "what signals show is not known", without_signals()});
-    presets.push_back({"mixed", "B20, D3M and R50 together", with_routes(matched(bursty(20.0), 3.0), 0.5)});
 }
 
 /// Reach of requests whose loss alone is of interest, m.
@@ -269,30 +165,33 @@ void add_request_presets(std::vector<FailurePreset>& presets) {
     }
 }
 
-/// Reads `FIELD=VALUE` items one after the other.
-class FieldReader {
+/// Calls `visit` with each item of a list with commas, without the blanks around it.
+template <class Visitor>
+void for_each_item(std::string_view text, const Visitor& visit) {
+    for (std::size_t comma = 0; comma != std::string_view::npos;) {
+        comma = text.find(',');
+        visit(trimmed(text.substr(0, comma)));
+        text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
+    }
+}
+
+/// Reads presets and `FIELD=VALUE` items one after the other.
+class ItemReader {
   public:
     void read(std::string_view item) {
         const std::size_t equals = item.find('=');
-        const std::string_view name = trimmed(item.substr(0, equals));
-        const std::string_view value = trimmed(item.substr(equals + 1));
-        std::vector<std::string> names;
-        bool found = false;
-        core::for_each_field<FailureConfig>([&](const auto& field) {
-            names.emplace_back(field.name);
-            if (name != field.name) return;
-            found = true;
-            auto allowed = set(config.*field.member, value);
-            if (!allowed) return;
-            if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(config.*field.member)>>)
-                *allowed += fmt::format(" from {} to {}", field.minimum, field.maximum);
-            problem(name, fmt::format("'{}' is not a valid value", value), *allowed);
-        });
-        if (!found) problems.push_back(unknown("field of a failure", name, names));
-        if (std::ranges::find(seen_, name) != seen_.end()) problem(name, "occurs twice", "once");
-        seen_.emplace_back(name);
+        if (equals == std::string_view::npos) return read_preset(item);
+        const std::string name(trimmed(item.substr(0, equals)));
+        if (!seen_.insert(name).second) problems.push_back({"failure." + name, "occurs twice", "once", ""});
+        std::ranges::move(
+            core::apply_settings({{name, std::string(trimmed(item.substr(equals + 1)))}}, "failure.", config),
+            std::back_inserter(problems));
     }
 
+    FailureConfig config;
+    std::vector<core::Problem> problems;
+
+  private:
     void read_preset(std::string_view item) {
         const std::vector<FailurePreset> presets = failure_presets();
         const auto preset = std::ranges::find(presets, item, &FailurePreset::name);
@@ -300,7 +199,10 @@ class FieldReader {
             std::vector<std::string> names;
             for (const FailurePreset& one : presets)
                 names.push_back(one.name);
-            problems.push_back(unknown("failure preset", item, names));
+            const std::string near = core::nearest(std::string(item), names);
+            problems.push_back({"failure", fmt::format("'{}' is not a failure preset", item),
+                                fmt::format("{}", fmt::join(names, ", ")),
+                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
             return;
         }
         const bool is_late = !seen_.empty() || (preset->kind == PresetKind::reports && !named_.empty());
@@ -314,15 +216,52 @@ class FieldReader {
         apply(*preset, config);
     }
 
-    FailureConfig config;
-    std::vector<core::Problem> problems;
-
-  private:
-    void problem(std::string_view name, const std::string& what, const std::string& allowed) {
-        problems.push_back({fmt::format("failure.{}", name), what, allowed, ""});
-    }
-    std::vector<std::string> seen_;  ///< Fields.
+    std::set<std::string> seen_;  ///< Fields.
     std::vector<PresetKind> named_;
+};
+
+/// A preset of reports, with the fields that differ from reports at 1 Hz that never fail. The heading error
+/// of 5 degrees is assumed: course over ground of a satellite receiver in town traffic.
+struct ReportPreset {
+    const char* name;
+    const char* summary;
+    const char* fields;
+};
+constexpr std::array report_presets = {
+    ReportPreset{"perfect", "every vehicle reports its exact state at every step", "report_interval_s=0"},
+    ReportPreset{"A.1", "10 % of the reports lost independently", "loss_rate=0.1"},
+    ReportPreset{"A.2", "20 % of the reports lost independently", "loss_rate=0.2"},
+    ReportPreset{"A.3", "30 % of the reports lost independently", "loss_rate=0.3"},
+    ReportPreset{"A.4", "40 % of the reports lost independently", "loss_rate=0.4"},
+    ReportPreset{"A.5", "50 % of the reports lost independently", "loss_rate=0.5"},
+    ReportPreset{"A.6", "60 % of the reports lost independently", "loss_rate=0.6"},
+    ReportPreset{"A.7", "70 % of the reports lost independently", "loss_rate=0.7"},
+    ReportPreset{"B5", "outages of 5 s on average, dark 30 % of the time", "dark_share=0.3,mean_outage_s=5"},
+    ReportPreset{"B10", "outages of 10 s on average, dark 30 % of the time",
+                 "dark_share=0.3,mean_outage_s=10"},
+    ReportPreset{"B20", "outages of 20 s on average, dark 30 % of the time",
+                 "dark_share=0.3,mean_outage_s=20"},
+    ReportPreset{"C.link", "B10, half of the dark links still detected",
+                 "dark_share=0.3,mean_outage_s=10,link_detection_rate=0.5"},
+    ReportPreset{"C.range", "B10, half of the dark links still detected with their range, 1 m error",
+                 "dark_share=0.3,mean_outage_s=10,link_detection_rate=0.5,detection=range,range_sigma_m=1"},
+    ReportPreset{"D1", "white position noise of 1 m", "position_sigma_m=1"},
+    ReportPreset{"D3", "white position noise of 3 m", "position_sigma_m=3"},
+    ReportPreset{"D5", "white position noise of 5 m", "position_sigma_m=5"},
+    ReportPreset{"DL2", "every report arrives 2 s late", "latency_s=2"},
+    ReportPreset{"D3B10", "D3 and B10 together", "dark_share=0.3,mean_outage_s=10,position_sigma_m=3"},
+    ReportPreset{"B40", "outages of 40 s on average, dark 30 % of the time",
+                 "dark_share=0.3,mean_outage_s=40"},
+    ReportPreset{"D3M", "D3 with heading errors of 5 degrees, lanes found by map matching",
+                 "position_sigma_m=3,heading_sigma_deg=5,map_matching=nearest"},
+    ReportPreset{"D5M", "D5 with heading errors of 5 degrees, lanes found by map matching",
+                 "position_sigma_m=5,heading_sigma_deg=5,map_matching=nearest"},
+    ReportPreset{"R50", "routes of half of the vehicles known", "route_share=0.5"},
+    ReportPreset{"R0", "routes of emergency vehicles alone known", "route_share=0"},
+    ReportPreset{"S0", "what signals show is not known", "signals_known=0"},
+    ReportPreset{"mixed", "B20, D3M and R50 together",
+                 "dark_share=0.3,mean_outage_s=20,position_sigma_m=3,heading_sigma_deg=5,"
+                 "map_matching=nearest,route_share=0.5"},
 };
 
 }  // namespace
@@ -339,47 +278,23 @@ std::vector<core::Problem> problems_of(const FailureConfig& config, const std::s
 }
 
 std::vector<FailurePreset> failure_presets() {
-    std::vector<FailurePreset> presets = {
-        {"perfect", "every vehicle reports its exact state at every step", perfect()}};
-    for (int tenths = 1; tenths <= 7; ++tenths) {
-        presets.push_back({fmt::format("A.{}", tenths),
-                           fmt::format("{} % of the reports lost independently", 10 * tenths),
-                           independent(tenths / 10.0)});
-    }
-    for (const int seconds : {5, 10, 20}) {
-        presets.push_back({fmt::format("B{}", seconds),
-                           fmt::format("outages of {} s on average, dark 30 % of the time", seconds),
-                           bursty(seconds)});
-    }
-    presets.push_back(
-        {"C.link", "B10, half of the dark links still detected", detected(Detection::presence, 0.0)});
-    presets.push_back({"C.range", "B10, half of the dark links still detected with their range, 1 m error",
-                       detected(Detection::range, 1.0)});
-    for (const int metres : {1, 3, 5}) {
-        presets.push_back({fmt::format("D{}", metres), fmt::format("white position noise of {} m", metres),
-                           noisy(FailureConfig{}, metres)});
-    }
-    presets.push_back({"DL2", "every report arrives 2 s late", late(2.0)});
-    presets.push_back({"D3B10", "D3 and B10 together", noisy(bursty(10.0), 3.0)});
-    add_unknown_parts(presets);
-    add_request_presets(presets);
-    return presets;
+    static const std::vector<FailurePreset> all = [] {
+        std::vector<FailurePreset> presets;
+        for (const ReportPreset& row : report_presets) {
+            ItemReader reader;
+            for_each_item(row.fields, [&](std::string_view item) { reader.read(item); });
+            assert(reader.problems.empty());
+            presets.push_back({row.name, row.summary, reader.config});
+        }
+        add_request_presets(presets);
+        return presets;
+    }();
+    return all;
 }
 
 FailureConfig failure_from(const std::string& text) {
-    FieldReader reader;
-    std::string_view rest = text;
-    for (bool more = true; more;) {
-        const std::size_t comma = rest.find(',');
-        const std::string_view item = trimmed(rest.substr(0, comma));
-        more = comma != std::string_view::npos;
-        if (more) rest.remove_prefix(comma + 1);
-        if (item.find('=') != std::string_view::npos) {
-            reader.read(item);
-        } else {
-            reader.read_preset(item);
-        }
-    }
+    ItemReader reader;
+    for_each_item(text, [&](std::string_view item) { reader.read(item); });
     if (reader.problems.empty()) reader.problems = problems_of(reader.config, "failure");
     if (!reader.problems.empty()) throw core::InputError(std::move(reader.problems));
     return reader.config;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "experiment/settings.hpp"
-#include "experiment/sirens.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -38,10 +37,9 @@ Controller make_controller(const experiment::ConditionSpec& condition, const Con
                                   : traffic::LateralModel::lane;
     controller.actuator = std::make_unique<actuation::Actuator>(context.network, actuation);
     controller.greens = std::make_unique<pipeline::GreenWatch>(context.network);
-    const experiment::Sirens sirens = experiment::siren_config(condition, context.siren);
-    if (sirens.siren.compliance > 0.0)
-        controller.siren =
-            std::make_unique<drivers::Siren>(context.network, context.random, sirens.siren, sirens.reaction);
+    const traffic::SirenConfig siren = experiment::siren_config(condition, context.siren);
+    if (siren.compliance > 0.0)
+        controller.siren = std::make_unique<drivers::Siren>(context.network, context.random, siren);
     const drivers::RequestConfig requests = experiment::request_config(condition);
     if (requests.compliance > 0.0)
         controller.listeners = std::make_unique<drivers::Listeners>(context.random, requests);

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "traffic/step_length.hpp"
+
 namespace clearway::report {
 namespace {
 
@@ -242,12 +244,11 @@ constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost"
 }  // namespace
 
 std::string coarse_step_sentence(const ScenarioFacts& scenario) {
-    constexpr double coarsest_trusted_s = 0.25;  // docs/decisions/0001-step-length.md
-    if (scenario.step_length_s <= coarsest_trusted_s) return "";
+    if (scenario.step_length_s <= traffic::coarsest_trusted_step_s) return "";
     return fmt::format(
         "steps of {:g} s: only for a comparison with figures made with such steps. Vehicles react "
         "late and pass signals otherwise than at {:g} s, and some collide.",
-        scenario.step_length_s, coarsest_trusted_s);
+        scenario.step_length_s, traffic::coarsest_trusted_step_s);
 }
 
 std::string few_seeds_sentence(const StudyFacts& study) {

@@ -1,20 +1,15 @@
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <vector>
 
 #include "roads/network.hpp"
+#include "roads/reach.hpp"
 
 namespace clearway::roads {
 namespace {
 
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-
-bool open_to_cars(const Network& network, core::EdgeIndex index) {
-    const Edge& edge = network.edge(index);
-    if (edge.internal) return false;
-    const auto lanes = network.lanes().subspan(edge.first_lane, edge.lane_count);
-    return std::ranges::any_of(lanes, &Lane::allows_cars);
-}
 
 /// Tarjan's strongly connected components (1972) without recursion, because real networks would overflow the
 /// stack.
@@ -24,9 +19,9 @@ class ComponentSearch {
         : network_(network), number_(network.edges().size(), unseen), low_(network.edges().size(), unseen) {}
 
     std::vector<core::EdgeIndex> largest() {
-        for (std::uint32_t row = 0; row < network_.edges().size(); ++row) {
-            const core::EdgeIndex edge{row};
-            if (number_[row] == unseen && open_to_cars(network_, edge)) search_from(edge);
+        for (const core::EdgeIndex edge : car_edges(network_)) {
+            if (number_[edge.value] == unseen) search_from(edge);
+            assert(open_.empty() && visits_.empty());
         }
         std::ranges::sort(best_);
         return std::move(best_);
@@ -64,6 +59,7 @@ class ComponentSearch {
 
     void leave() {
         const core::EdgeIndex edge = visits_.back().edge;
+        assert(low_[edge.value] <= number_[edge.value]);
         visits_.pop_back();
         if (!visits_.empty()) {
             std::uint32_t& parent_low = low_[visits_.back().edge.value];
@@ -73,6 +69,7 @@ class ComponentSearch {
     }
 
     void close_component(core::EdgeIndex root) {
+        assert(std::ranges::find(open_, root) != open_.end());
         const auto first = std::find(open_.rbegin(), open_.rend(), root).base() - 1;
         for (auto member = first; member != open_.end(); ++member) {
             number_[member->value] = closed;

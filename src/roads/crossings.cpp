@@ -1,6 +1,7 @@
 #include "roads/crossings.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <set>
 
@@ -53,6 +54,7 @@ class FootWays {
 
     /// Sidewalks at a walking area, or else those that crossings other than `crossing` lead to.
     std::vector<SidewalkEnd> sidewalks(core::LaneIndex area, core::LaneIndex crossing) const {
+        assert(is_crossing(crossing));
         std::set<core::LaneIndex> seen = {crossing, area};
         std::vector<core::LaneIndex> front = {area};
         while (!front.empty()) {

@@ -1,6 +1,7 @@
 #include "roads/geography.hpp"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -109,10 +110,12 @@ std::optional<Geography> Geography::of(const Location& location) {
     } else {
         return std::nullopt;
     }
+    if (!(geography.scale_ > 0.0)) return std::nullopt;
     return geography;
 }
 
 Point Geography::point(Coordinates place) const {
+    assert(scale_ > 0.0);
     const Series series = series_of(equator_m_, third_flattening_);
     const double tangent =
         conformal(std::tan(place.latitude_deg * degree), eccentricity_of(third_flattening_));
@@ -131,6 +134,7 @@ Point Geography::point(Coordinates place) const {
 }
 
 Coordinates Geography::coordinates(double x_m, double y_m) const {
+    assert(scale_ > 0.0);
     const Series series = series_of(equator_m_, third_flattening_);
     const double xi = (y_m - offset_y_m_ - false_northing_m_) / (scale_ * series.radius_m);
     const double eta = (x_m - offset_x_m_ - false_easting_m_) / (scale_ * series.radius_m);

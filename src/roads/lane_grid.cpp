@@ -1,6 +1,7 @@
 #include "roads/lane_grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,7 @@ std::uint32_t cell_at(double offset_m, std::uint32_t count) {
 }
 
 std::uint32_t cell_count(float low_m, float high_m) {
+    assert(low_m <= high_m);
     return 1U + static_cast<std::uint32_t>(std::max(0.0, std::floor((high_m - low_m) / cell_m)));
 }
 
@@ -72,6 +74,7 @@ void LaneGrid::for_each_cell(const Cells& cells, const Visitor& visit) const {
 }
 
 LaneGrid::Cells LaneGrid::cells_of(const Point& low, const Point& high) const {
+    assert(columns_ > 0 && rows_ > 0);
     return {.first_column = cell_at(low.x_m - low_.x_m, columns_),
             .last_column = cell_at(high.x_m - low_.x_m, columns_),
             .first_row = cell_at(low.y_m - low_.y_m, rows_),
@@ -88,6 +91,7 @@ LaneGrid::Cells LaneGrid::cells_of(const Piece& piece) const {
 
 LanePlace LaneGrid::nearest_on(const Piece& piece, const Point& point) const {
     const Lane& lane = network_.lane(piece.lane);
+    assert(piece.segment + 1 < lane.shape.size());
     const Point& start = lane.shape[piece.segment];
     const double dx_m = lane.shape[piece.segment + 1].x_m - start.x_m;
     const double dy_m = lane.shape[piece.segment + 1].y_m - start.y_m;
@@ -107,6 +111,7 @@ LanePlace LaneGrid::nearest_on(const Piece& piece, const Point& point) const {
 }
 
 void LaneGrid::near(const Point& point, core::Metres reach, std::vector<LanePlace>& places) const {
+    assert(reach.value >= 0.0);
     places.clear();
     if (pieces_.empty()) return;
     const auto reach_m = static_cast<float>(reach.value);

@@ -1,6 +1,7 @@
 #include "roads/map_matching.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -47,6 +48,7 @@ MapMatcher::MapMatcher(const Network& network)
 }
 
 std::optional<MatchedPlace> MapMatcher::match(const Sighting& sighting, Route route) {
+    assert(sighting.position_sigma_m >= 0.0 && sighting.heading_sigma_rad >= 0.0);
     const double sigma_m = sighting.position_sigma_m;
     const double most_turn_rad = least_turn_rad + turn_errors * sighting.heading_sigma_rad;
     grid_.near(sighting.point, core::Metres(least_reach_m + reach_errors * sigma_m), near_);

@@ -1,6 +1,7 @@
 #include "roads/network.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "roads/detail/network_builder.hpp"
@@ -28,6 +29,7 @@ double segment_length(const std::vector<Point>& shape, std::size_t segment) {
 
 /// SUMO stretches positions so that the stated length covers the whole shape.
 ShapePlace place_on_shape(const Lane& lane, core::Metres position) {
+    assert(lane.shape.size() >= 2);
     const double stretch = lane.length_m > 0.0F ? lane.shape_length_m / lane.length_m : 1.0;
     double left_m = std::max(0.0, position.value * stretch);
     const std::size_t last = lane.shape.size() - 2;
@@ -66,16 +68,20 @@ std::optional<core::SignalIndex> Network::find_signal(std::string_view id) const
 }
 
 core::LaneIndex Network::lane_of(core::EdgeIndex edge, std::uint32_t number) const {
+    assert(edge.exists());
     const Edge& owner = edges_[edge.value];
     return number < owner.lane_count ? core::LaneIndex{owner.first_lane + number} : core::LaneIndex::none();
 }
 
 std::span<const Connection> Network::connections_from(core::LaneIndex lane) const {
+    assert(lane.exists());
     const Lane& from = lanes_[lane.value];
     return std::span(connections_).subspan(from.first_connection, from.connection_count);
 }
 
 std::span<const core::EdgeIndex> Network::successors(core::EdgeIndex edge) const {
+    assert(edge.exists());
+    assert(first_successor_.size() == edges_.size() + 1);
     const std::uint32_t first = first_successor_[edge.value];
     return std::span(successors_).subspan(first, first_successor_[edge.value + 1] - first);
 }

@@ -1,6 +1,7 @@
 #include "roads/own_clearance.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 
@@ -32,7 +33,9 @@ bool keeps_waiting(const Signal& signal, const Phase& phase, const Phase& later)
 /// A program, read round and round from one of its phases.
 class Cycle {
   public:
-    Cycle(const std::vector<Phase>& program, std::size_t start) : program_(program), at_(start) {}
+    Cycle(const std::vector<Phase>& program, std::size_t start) : program_(program), at_(start) {
+        assert(!program.empty());
+    }
     const Phase& phase() const { return program_[at_ % program_.size()]; }
     double advance() { return program_[at_++ % program_.size()].duration_s; }
 
@@ -91,6 +94,7 @@ AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) 
 }  // namespace
 
 std::vector<OwnClearance> own_clearances(const Signal& signal) {
+    assert(signal.crossings.size() == signal.links.size());
     std::vector<OwnClearance> all(signal.links.size());
     const std::size_t rows = signal.program.size();
     for (std::size_t link = 0; link < signal.links.size(); ++link) {

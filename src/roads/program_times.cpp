@@ -1,6 +1,7 @@
 #include "roads/program_times.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "traffic/signal.hpp"
@@ -66,6 +67,7 @@ class Playback {
   private:
     void note(std::size_t link, const Clock& clock) {
         const double lasted_s = now_s_ - clock.since_s;
+        assert(lasted_s >= 0.0);
         if (clock.colour == 'y') take_least(times_.yellow_s[link], lasted_s);
         if (clock.colour == 'g') take_least(times_.green_s[link], lasted_s);
     }
@@ -133,6 +135,7 @@ void limit_greens(const Signal& signal, ProgramTimes& times) {
 }  // namespace
 
 ProgramTimes program_times(const Signal& signal) {
+    assert(signal.crossings.size() == signal.links.size());
     const std::vector<std::optional<double>> none(signal.links.size());
     ProgramTimes times{none, none, none};
     if (runs_side_by_side(signal)) {

@@ -1,6 +1,7 @@
 #include "roads/reach.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::roads {
 
@@ -26,6 +27,7 @@ bool Reach::is_end(core::EdgeIndex edge, Way way) const {
 }
 
 std::vector<bool> Reach::from(core::EdgeIndex start, Way way) const {
+    assert(start.exists());
     std::vector<bool> reached(network_.edges().size(), false);
     std::vector<core::EdgeIndex> open = {start};
     reached[start.value] = true;

@@ -1,6 +1,7 @@
 #include "roads/route.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 #include "roads/detail/walk.hpp"
@@ -61,6 +62,7 @@ std::vector<std::uint16_t> links_between(const Network& network, core::EdgeIndex
 /// Follows a route without lane changes from `lane` on route[route_edge]; the longest of the ways counts.
 double drivable_from(const Network& network, Route route, std::uint32_t route_edge, core::LaneIndex lane,
                      double horizon_m) {
+    assert(route_edge < route.size());
     const double length_m = network.lane(lane).length_m;
     if (length_m >= horizon_m || route_edge + 1 >= route.size()) return length_m;
     double onward_m = 0.0;
@@ -105,6 +107,7 @@ bool lanes_ahead(const Network& network, Route route, const traffic::MotionState
         step.lane = walk.lane();
         step.start_m = static_cast<float>(walk.start_m());
         step.end_m = static_cast<float>(walk.end_m());
+        assert(step.start_m <= step.end_m);
         step.route_edge = walk.route_edge();
         const Connection* const onward = walk.onward();
         if (onward == nullptr) return false;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -30,6 +31,7 @@ class Dijkstra {
   public:
     Dijkstra(const Network& network, core::EdgeIndex from)
         : network_(network), time_s_(network.edges().size(), unreachable), before_(network.edges().size()) {
+        assert(from.exists());
         time_s_[from.value] = 0.0;
         queue_.emplace(0.0, from);
     }
@@ -64,6 +66,8 @@ class Dijkstra {
         detail::for_each_inner_lane(network_, connection, [&](core::LaneIndex inner) {
             arrival_s += free_flow_s(network_.lane(inner));
         });
+        // Dijkstra takes an edge out of the queue once: no way may shorten what was already final.
+        assert(arrival_s >= time_s_[from.value]);
         double& known_s = time_s_[to.value];
         core::EdgeIndex& before = before_[to.value];
         if (arrival_s < known_s) {
@@ -80,6 +84,7 @@ class Dijkstra {
         std::vector<core::EdgeIndex> path;
         for (core::EdgeIndex edge = to; edge.exists(); edge = before_[edge.value]) {
             path.push_back(edge);
+            assert(path.size() <= before_.size());
         }
         std::ranges::reverse(path);
         return path;

@@ -1,6 +1,7 @@
 #include "roads/signal_numbers.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <map>
 #include <string>
@@ -54,6 +55,7 @@ std::uint32_t number_of(std::map<Key, std::uint32_t>& numbers, const Key& key) {
 
 SignalNumbers signal_numbers(const Network& network, const Signal& signal) {
     const std::size_t count = signal.links.size();
+    assert(signal.crossings.size() == count);
     SignalNumbers numbers{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
     const bool is_numbered = has_numbered_phases(signal);
     std::map<std::string, std::uint32_t> phases;

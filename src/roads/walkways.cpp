@@ -1,6 +1,7 @@
 #include "roads/walkways.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -49,6 +50,7 @@ std::optional<std::string> Walkways::fault(std::span<const core::EdgeIndex> edge
     if (either_is_sound || (both ? holds(forward) && holds(backward) : holds(forward) || holds(backward)))
         return std::nullopt;
     const std::size_t row = std::max(forward.first_gap, backward.first_gap);
+    assert(row > 0);
     return fmt::format("its walk has a gap: nobody gets from edge \"{}\" to \"{}\" on foot", id(row - 1),
                        id(row));
 }

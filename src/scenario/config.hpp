@@ -104,9 +104,6 @@ struct NetworkSource {
     }
 };
 
-/// Coarser steps are for a comparison with figures made with such steps, and output marks them: decision 1.
-inline constexpr double coarsest_trusted_step_s = 0.25;
-
 /// Table `[time]`.
 struct Times {
     double warm_up_s = 60.0;

@@ -27,6 +27,7 @@
 #include "scenario_import/osm/sites.hpp"
 #include "scenario_import/sumo/configuration.hpp"
 #include "scenario_import/sumo/demand.hpp"
+#include "traffic/step_length.hpp"
 
 namespace clearway::scenario_import {
 
@@ -275,7 +276,7 @@ scenario::Prepared try_out_demand(Import& import, scenario::ScenarioConfig& conf
 /// Steps that are too coarse are not taken over; `compare_steps` says what that changes.
 void take_over_times(const Sources& sources, scenario::ScenarioConfig& config) {
     constexpr double finest_s = 0.1;
-    if (sources.step_length_s >= finest_s && sources.step_length_s <= scenario::coarsest_trusted_step_s)
+    if (sources.step_length_s >= finest_s && sources.step_length_s <= traffic::coarsest_trusted_step_s)
         config.time.step_length_s = sources.step_length_s;
     config.time.time_to_teleport_s = sources.time_to_teleport_s;
 }

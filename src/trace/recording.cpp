@@ -1,5 +1,6 @@
 #include "trace/recording.hpp"
 
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -96,6 +97,8 @@ struct RecordingWriter::State {
     }
 
     void write(const RecordedStep& step) {
+        assert(step.roster != nullptr && step.snapshot != nullptr && step.events != nullptr);
+        assert(step.belief == nullptr || step.observation != nullptr);
         steps.roster.code(*step.roster);
         steps.snapshot.code(*step.snapshot, steps.known);
         steps.events.code(*step.events);
@@ -252,6 +255,7 @@ std::filesystem::path recording_file(const std::filesystem::path& run_folder, co
 }
 
 core::Seconds RecordedStep::time() const {
+    assert(snapshot != nullptr);
     return snapshot->time;
 }
 

@@ -18,7 +18,7 @@
 #include "traffic/lease.hpp"
 #include "traffic/observation.hpp"
 
-// Whoever reads a recording's truth includes it; whoever names a recording does not see it.
+// A file that reads the truth of a recording includes it; one that only names recordings does not see it.
 namespace clearway::truth {
 struct Events;
 struct Snapshot;

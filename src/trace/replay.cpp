@@ -1,5 +1,7 @@
 #include "trace/replay.hpp"
 
+#include <cassert>
+
 #include <fmt/format.h>
 
 #include "experiment/settings.hpp"
@@ -40,6 +42,7 @@ class CandidateGatherer {
     void add(const truth::Snapshot& snapshot, const metrics::TrueLinks& truth,
              const prediction::CandidateScores& scores) {
         core::match_rows(scores.scene->tracks.key, snapshot.key, true_row_);
+        assert(scores.probability.size() <= scores.scene->candidates.rows.size());
         for (std::size_t at = 0; at < scores.probability.size(); ++at) {
             const prediction::RowPair pair = scores.scene->candidates.rows[at];
             probability_.push_back(scores.probability[at]);

@@ -1,5 +1,6 @@
 #include "trace/trajectories.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -49,6 +50,7 @@ class Writer {
     }
 
     void take(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+        assert(options_.every.value > 0.0);
         if (snapshot.time.value < next_s_ - core::clock_tolerance_s) return;
         next_s_ = snapshot.time.value + options_.every.value;
         const auto count = static_cast<std::uint32_t>(snapshot.size());
@@ -89,6 +91,7 @@ class Writer {
 
     void write(const truth::Snapshot& snapshot, const traffic::Roster& roster, std::uint32_t row,
                const std::optional<Nearest>& nearest) {
+        assert(roster.find(snapshot.key[row]) != nullptr);
         const traffic::VehicleInfo& info = *roster.find(snapshot.key[row]);
         std::string coordinates = ",";
         std::optional<roads::Coordinates> place;
@@ -116,6 +119,7 @@ class Writer {
         line.time_s.push_back(snapshot.time.value);
         line.speed_mps.push_back(snapshot.speed_mps[row]);
         line.places.push_back(*place);
+        assert(line.places.size() == line.time_s.size());
     }
 
     void write_geojson(const std::filesystem::path& file) const {

@@ -1,6 +1,7 @@
 #include "view/frame_builder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -60,6 +61,7 @@ struct Amount {
 }  // namespace
 
 void FrameBuilder::look(const trace::RecordedStep& step) {
+    assert(step.snapshot != nullptr && step.roster != nullptr && step.events != nullptr);
     const truth::Snapshot& snapshot = *step.snapshot;
     if (is_shown_) frame_.marks.clear();
     is_shown_ = false;
@@ -223,6 +225,7 @@ void FrameBuilder::draw_vehicles(const trace::RecordedStep& step) {
                                    std::ranges::binary_search(dark_, key)});
     }
     std::ranges::sort(frame_.vehicles, {}, &SeenVehicle::slot);
+    assert(std::ranges::adjacent_find(frame_.vehicles, {}, &SeenVehicle::slot) == frame_.vehicles.end());
 }
 
 void FrameBuilder::draw_leases(const trace::RecordedStep& step) {

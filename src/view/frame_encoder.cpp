@@ -1,6 +1,7 @@
 #include "view/frame_encoder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
@@ -38,6 +39,7 @@ void write_link_list(const std::vector<Link>& links, ByteWriter& writer) {
     Slot one = 0;
     Slot other = 0;
     for (const Link& link : links) {
+        assert(link.one >= one && link.one < link.other);
         if (link.one != one) other = link.one;
         writer.number(link.one - one);
         writer.number(link.other - other);
@@ -56,6 +58,7 @@ void write_marks(const Frame& frame, ByteWriter& writer) {
     writer.number(frame.marks.size());
     for (const Mark& mark : frame.marks) {
         writer.byte(static_cast<std::uint8_t>(mark.kind));
+        assert(mark.time_s <= frame.time_s);
         writer.number(milliseconds(frame.time_s) - milliseconds(mark.time_s));
         writer.number(mark.vehicle);
         writer.number(mark.other);
@@ -131,6 +134,7 @@ void FrameEncoder::write_vehicles(const Frame& frame) {
 
 /// One column after the other, because like numbers next to each other compress better.
 void FrameEncoder::write_columns(const Frame& frame, const std::vector<const SeenVehicle*>& before) {
+    assert(before.size() == frame.vehicles.size() && last_motion_.size() == last_.vehicles.size());
     static const SeenVehicle nowhere;
     const auto each = [&](const auto& write) {
         for (std::size_t i = 0; i < frame.vehicles.size(); ++i)

@@ -277,7 +277,7 @@ TEST_F(ReplayTest, bad_input_of_replay_is_told) {
 
 TEST_F(ReplayTest, settings_that_only_a_run_uses_are_refused) {
     ASSERT_EQ(run({"--record"}).code, 0);
-    for (const char* const setting : {"actuation.hold_cap_s=30", "siren.memory_s=5"}) {
+    for (const char* const setting : {"actuation.hold_cap_s=30", "siren.audible_m=50"}) {
         const Ended ended = clearway({"replay", recording, "--set", setting});
         EXPECT_EQ(ended.code, 3) << setting;
         const std::string name = std::string(setting).substr(0, std::string(setting).find('='));

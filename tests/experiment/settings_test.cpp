@@ -7,8 +7,8 @@
 #include "actuation/actuator_config.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "drivers/config.hpp"
 #include "experiment/settings_page.hpp"
-#include "experiment/sirens.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::experiment {
@@ -60,7 +60,6 @@ TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
     EXPECT_TRUE(names.contains("kalman.along_psd"));
     EXPECT_TRUE(names.contains("actuation.hold_cap_s"));
     EXPECT_TRUE(names.contains("siren.compliance"));
-    EXPECT_TRUE(names.contains("siren.memory_s"));
     EXPECT_TRUE(names.contains("loop.policy_period_s"));
     EXPECT_TRUE(names.contains("failure.dark_share"));
 }
@@ -193,14 +192,12 @@ TEST(Settings, ReachTheConfigurations) {
     set(condition, "loop.link_radius_m", "80");
     set(condition, "actuation.hold_cap_s", "30");
     set(condition, "siren.compliance", "0.25");
-    set(condition, "siren.memory_s", "9");
     EXPECT_DOUBLE_EQ(loop_config(condition).link_radius_m, 80.0);
     EXPECT_DOUBLE_EQ(loop_config(condition).policy_period_s, 0.5);
     EXPECT_DOUBLE_EQ(actuator_config(condition, {}).hold_cap_s, 30.0);
-    const Sirens sirens = siren_config(condition, {.compliance = 1.0, .audible_m = 77.0});
-    EXPECT_DOUBLE_EQ(sirens.siren.compliance, 0.25);
-    EXPECT_DOUBLE_EQ(sirens.siren.audible_m, 77.0);
-    EXPECT_DOUBLE_EQ(sirens.reaction.memory_s, 9.0);
+    const traffic::SirenConfig siren = siren_config(condition, {.compliance = 1.0, .audible_m = 77.0});
+    EXPECT_DOUBLE_EQ(siren.compliance, 0.25);
+    EXPECT_DOUBLE_EQ(siren.audible_m, 77.0);
     set(condition, "loop.policy_period_s", "99");
     EXPECT_THROW(loop_config(condition), core::InputError);
 }

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace clearway::sensing {
+namespace clearway::failures {
 namespace {
 
 using ::testing::AllOf;
@@ -90,7 +90,7 @@ TEST(FailureText, IsRefusedWithAllThatIsWrong) {
     EXPECT_THAT(refusal("perfect,loss_rate=0.1"),
                 HasSubstr("Add report_interval_s=1 to the failure, or --set failure.report_interval_s=1"));
     EXPECT_THAT(refusal("B10,dark_shore=0.5"), HasSubstr("Did you mean 'dark_share'?"));
-    EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: 'half'"));
+    EXPECT_THAT(refusal("B10,dark_share=half"), HasSubstr("failure.dark_share: \"half\" is not a number"));
     EXPECT_THAT(refusal("B10,dark_share="), HasSubstr("a number"));
     EXPECT_THAT(refusal("B10,exits=maybe"), HasSubstr("known, unknown"));
     EXPECT_THAT(refusal("B10,dark_share=0.1,dark_share=0.2"), HasSubstr("occurs twice"));
@@ -256,7 +256,7 @@ TEST(RequestChannel, RefusesWhatIsOutOfRangeOrContradictory) {
                 AllOf(HasSubstr("request_hops"), HasSubstr("1 to 5")));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=1.5"), HasSubstr("a whole number"));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_hops=99999999999"),
-                HasSubstr("'99999999999' is not a valid value (allowed: a whole number from 1 to 5)"));
+                HasSubstr("99999999999 is out of range (allowed: 1 to 5)"));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_loss_rate=1.1"), HasSubstr("0 to 1"));
     EXPECT_THAT(refusal_of("request_propagation=far"), HasSubstr("perfect, sharp, los, nlos"));
     EXPECT_THAT(refusal_of("request_propagation=sharp,request_dark_share=0.9,request_mean_outage_s=4"),
@@ -272,4 +272,4 @@ TEST(RequestChannel, NeedsNoReportsThatFail) {
 }
 
 }  // namespace
-}  // namespace clearway::sensing
+}  // namespace clearway::failures

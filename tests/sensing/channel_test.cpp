@@ -136,13 +136,14 @@ TEST(Channel, ToSignalsFailsIndependentlyOfTheOneToVehicles) {
     const std::string both =
         "request_propagation=sharp,request_loss_rate=0.5,signal_request_propagation=sharp,"
         "signal_request_loss_rate=0.5";
-    const Channel vehicles = channel(both);
-    const Channel signals = channel(both, Channel::Receivers::signals);
+    const Channel to_vehicles = channel(both);
+    const Channel to_signals = channel(both, Channel::Receivers::signals);
     int agree = 0;
     for (std::uint64_t receiver = 0; receiver < receivers; ++receiver)
-        agree += vehicles.hears(ambulance, receiver, 5, 10.0) == signals.hears(ambulance, receiver, 5, 10.0)
-                     ? 1
-                     : 0;
+        agree +=
+            to_vehicles.hears(ambulance, receiver, 5, 10.0) == to_signals.hears(ambulance, receiver, 5, 10.0)
+                ? 1
+                : 0;
     EXPECT_NEAR(static_cast<double>(agree) / receivers, 0.5, 0.03);
 }
 

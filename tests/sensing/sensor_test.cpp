@@ -273,7 +273,7 @@ TEST(FailureConfig, ThatIsWrongMakesNoSensor) {
         make_sensor(config, testing::draws(), {testing::small_scene().network(), {}});
         FAIL() << "accepted";
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.problems(), SizeIs(2));
+        EXPECT_THAT(error.problems(), ::testing::SizeIs(2));
     }
 }
 

@@ -179,9 +179,6 @@ TEST_F(Recording, RefusesAnotherVersion) {
     bytes[bytes.find("format 4") + 7] = '9';
     core::write_atomically(file, bytes);
     EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 4")));
-    const std::string before_hdf5("CLEARWAY\1\0\0\0 blocks", 19);
-    EXPECT_THAT(problem_of(folder_.write("older", before_hdf5)),
-                testing::AllOf(HasSubstr("older format"), HasSubstr("record the run again")));
 }
 
 TEST_F(Recording, RefusesHdf5ThatItDidNotSeal) {

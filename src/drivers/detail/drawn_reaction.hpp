@@ -8,12 +8,16 @@
 
 namespace clearway::drivers::detail {
 
+/// Shortest reaction time of any driver, s: a simple reaction.
+inline constexpr double fastest_reaction_s = 0.3;
+/// An emergency vehicle that was not heard for this long is forgotten, s: assumed.
+inline constexpr double memory_s = 3.0;
+
 /// Reaction times of drivers, s, normal but never below the fastest, and the share that complies.
 struct ReactionLaw {
     double compliance = 0.0;
     double mean_s = 0.0;
     double deviation_s = 0.0;
-    double fastest_s = 0.0;
 };
 
 /// Whether a driver complies and how fast, drawn by driver, so that it is the same in every condition.
@@ -28,7 +32,7 @@ class DrawnReaction {
     }
     double reaction_s(core::VehicleKey driver) const {
         const double deviation = random_.normal(core::Purpose::siren_reaction, driver.value, first_draw_ + 1);
-        return std::max(law_.fastest_s, law_.mean_s + law_.deviation_s * deviation);
+        return std::max(fastest_reaction_s, law_.mean_s + law_.deviation_s * deviation);
     }
 
   private:

@@ -1,5 +1,6 @@
 // The part of NetworkBuilder that needs the whole file: it links the elements to each other.
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <utility>
 
@@ -30,6 +31,8 @@ Network NetworkBuilder::finish() {
 }
 
 void NetworkBuilder::group_connections() {
+    assert(network_.lanes_.size() == network_.lane_rows_.size());
+    assert(network_.edges_.size() == network_.edge_rows_.size());
     std::ranges::stable_sort(network_.connections_, {}, &Connection::from);
     for (std::uint32_t row = 0; row < network_.connections_.size(); ++row) {
         Lane& lane = network_.lanes_[network_.connections_[row].from.value];

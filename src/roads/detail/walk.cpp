@@ -1,6 +1,7 @@
 #include "roads/detail/walk.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <span>
 #include <stdexcept>
@@ -25,6 +26,7 @@ const Connection* nearest_connection(const Network& network, core::LaneIndex lan
     const Edge& edge = network.edge(network.lane(lane).edge);
     const int own = static_cast<int>(network.lane(lane).number);
     const int count = static_cast<int>(edge.lane_count);
+    assert(own < count);
     for (int away = 0; away < count; ++away) {
         for (const int number : {own - away, own + away}) {
             if (number < 0 || number >= count) continue;
@@ -81,6 +83,7 @@ bool Walk::next() {
     start_m_ = end_m();
     lane_ = enters_edge ? connection->to : connection->via;
     if (enters_edge) ++route_edge_;
+    assert(route_edge_ < route_.size());
     return true;
 }
 

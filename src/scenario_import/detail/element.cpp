@@ -101,13 +101,22 @@ void for_each_element(const std::filesystem::path& file, const std::function<voi
     core::stream_xml(file, handler);
 }
 
-void shift_stops(Element& user, double begin_s) {
-    for (Element& stop : user.children) {
-        for (const char* const name : {"until", "arrival", "started", "ended"}) {
-            const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
-            if (at_s) stop.set(name, fmt::format("{:.2f}", std::max(0.0, *at_s - begin_s)));
-        }
+void delay_stop(Element& stop, double by_s) {
+    for (const char* const name : {"until", "arrival", "started", "ended"}) {
+        const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
+        if (at_s) stop.set(name, fmt::format("{:.2f}", std::max(0.0, *at_s + by_s)));
     }
+}
+
+std::string departing_xml(Element user, double begin_s, const Departing& departing) {
+    for (Element& stop : user.children)
+        delay_stop(stop, -begin_s);
+    const std::vector<std::pair<std::string, std::string>> head = {
+        {"id", departing.id},
+        {"type", departing.type},
+        {"depart", fmt::format("{:.2f}", departing.depart_s - begin_s)}};
+    user.attributes.insert(user.attributes.begin(), head.begin(), head.end());
+    return user.xml();
 }
 
 std::string file_text(const char* root, const std::string& content) {

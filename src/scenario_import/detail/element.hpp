@@ -32,8 +32,17 @@ struct Element {
 /// Throws core::InputError as core::stream_xml does.
 void for_each_element(const std::filesystem::path& file, const std::function<void(Element&&)>& take);
 
-/// Subtracts `begin_s` from the times at which the `<stop>`s of a vehicle or person end.
-void shift_stops(Element& user, double begin_s);
+/// Adds `by_s` to the times at which a `<stop>` ends; none becomes negative.
+void delay_stop(Element& stop, double by_s);
+
+/// A vehicle or person as it departs.
+struct Departing {
+    const std::string& id;
+    const std::string& type;
+    double depart_s = 0.0;
+};
+/// As XML, with id, type and departure first. All times, those of its stops too, count from `begin_s`.
+std::string departing_xml(Element user, double begin_s, const Departing& departing);
 
 /// A complete SUMO file with `content` in its root element.
 std::string file_text(const char* root, const std::string& content);

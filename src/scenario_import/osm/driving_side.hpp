@@ -23,4 +23,7 @@ DrivingSideChoice choose_driving_side(DrivingSide asked, const MapContents& map)
 /// accurate to about a tenth of a degree, so places within some 10 km of a border may be wrong.
 std::string left_driving_land(roads::Coordinates place);
 
+/// The text of driving_sides.csv.
+extern const char* const driving_sides;
+
 }  // namespace clearway::scenario_import::detail

@@ -90,17 +90,11 @@ std::string vehicle_xml(RoadUser& vehicle, double begin_s, LeftOut& left_out) {
     end_waiting(element, left_out);
     take_out_devices(element, left_out);
     element.remove("id");
-    shift_stops(element, begin_s);
     Element route;
     route.name = "route";
     route.set("edges", fmt::format("{}", fmt::join(vehicle.edges, " ")));
     element.children.insert(element.children.begin(), std::move(route));
-    std::vector<std::pair<std::string, std::string>> head = {
-        {"id", vehicle.id},
-        {"type", vehicle.type},
-        {"depart", fmt::format("{:.2f}", vehicle.depart_s - begin_s)}};
-    element.attributes.insert(element.attributes.begin(), head.begin(), head.end());
-    return element.xml();
+    return departing_xml(std::move(element), begin_s, {vehicle.id, vehicle.type, vehicle.depart_s});
 }
 
 bool is_car(const Demand& demand, const RoadUser& vehicle) {

@@ -62,7 +62,8 @@ void drive(const Element& route, double delay_s, RoadUser& vehicle) {
         for (const Element& child : route.children) {
             if (child.name != "stop") continue;
             vehicle.element.children.push_back(child);
-            delay_stop(vehicle.element.children.back(), delay_s + row * cycle_s);
+            if (const double by_s = delay_s + row * cycle_s; by_s != 0.0)
+                delay_stop(vehicle.element.children.back(), by_s);
         }
         if (edges.empty()) return;
     }
@@ -235,7 +236,7 @@ void DemandReader::add(const Pending& pending, const std::string& id, const Depa
     for (const Element& child : source.children) {
         if (child.name != "stop" && child.name != "param") continue;
         vehicle.element.children.push_back(child);
-        delay_stop(vehicle.element.children.back(), vehicle.later_s);
+        if (vehicle.later_s != 0.0) delay_stop(vehicle.element.children.back(), vehicle.later_s);
     }
     if (set_type(source, vehicle) && set_way(source, vehicle)) demand_.vehicles.push_back(std::move(vehicle));
 }

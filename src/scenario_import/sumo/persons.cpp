@@ -35,17 +35,6 @@ bool trim(Person& person, double end_s) {
     return plan.size() < before;
 }
 
-std::string person_xml(Person& person, double begin_s) {
-    Element element = std::move(person.element);
-    shift_stops(element, begin_s);
-    const std::vector<std::pair<std::string, std::string>> head = {
-        {"id", person.id},
-        {"type", person.type},
-        {"depart", fmt::format("{:.2f}", person.depart_s - begin_s)}};
-    element.attributes.insert(element.attributes.begin(), head.begin(), head.end());
-    return element.xml();
-}
-
 void keep_window(const Window& window, std::vector<Person>& persons, Findings& findings) {
     const std::size_t all = persons.size();
     std::erase_if(persons, [&](const Person& person) { return !window.holds(person.depart_s); });
@@ -93,7 +82,8 @@ void add_persons(Import& import, Demand& demand, const roads::Network& network, 
     std::ranges::stable_sort(persons, {}, &Person::depart_s);
     std::string xml = types_xml(demand, import.findings);
     for (Person& person : persons)
-        xml += person_xml(person, window.begin_s);
+        xml += departing_xml(std::move(person.element), window.begin_s,
+                             {person.id, person.type, person.depart_s});
     import.findings.persons = persons.size();
     config.measured->persons = {"persons.rou.xml"};
     core::write_atomically(import.scenario / config.measured->persons.front(), file_text("routes", xml));

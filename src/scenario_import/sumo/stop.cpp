@@ -27,14 +27,6 @@ bool waits(const Element& stop) {
 
 }  // namespace
 
-void delay_stop(Element& stop, double by_s) {
-    if (by_s == 0.0) return;
-    for (const char* const name : {"until", "arrival", "started", "ended"}) {
-        const auto at_s = stop.has(name) ? time_s(stop.text(name)) : std::nullopt;
-        if (at_s) stop.set(name, fmt::format("{:.2f}", *at_s + by_s));
-    }
-}
-
 void end_waiting(Element& vehicle, LeftOut& left_out) {
     std::erase_if(vehicle.children, [&](Element& stop) {
         if (stop.name != "stop" || !waits(stop)) return false;

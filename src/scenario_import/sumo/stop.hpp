@@ -11,9 +11,6 @@
 
 namespace clearway::scenario_import::detail {
 
-/// Adds `by_s` to the times that a `<stop>` states.
-void delay_stop(Element& stop, double by_s);
-
 /// Lets stops of a vehicle that wait for a passenger, goods or another vehicle end after `duration` or at
 /// `until`, because what they wait for may not exist here. Stops with neither are removed.
 void end_waiting(Element& vehicle, LeftOut& left_out);

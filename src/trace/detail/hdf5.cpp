@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -205,6 +206,7 @@ core::Json read_attributes(hid_t object) {
 }
 
 Handle named_type(std::span<const std::string_view> names) {
+    assert(!names.empty() && names.size() <= 256);  // numbered by one byte
     Handle type(H5Tenum_create(H5T_STD_U8LE), H5Tclose);
     std::uint8_t number = 0;
     for (const std::string_view name : names) {
@@ -216,6 +218,7 @@ Handle named_type(std::span<const std::string_view> names) {
 
 Handle text_type(std::size_t length) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    assert(length > 0);  // HDF5 has no text of no bytes
     check(H5Tset_size(type.get(), length));
     check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD));
     check(H5Tset_cset(type.get(), H5T_CSET_UTF8));
@@ -250,6 +253,7 @@ DataSet::DataSet(hid_t group, const std::string& name, hid_t type)
 }
 
 Handle DataSet::select(std::size_t first, std::size_t count) const {
+    assert(count > 0);
     Handle space(H5Dget_space(set_.get()), H5Sclose);
     const hsize_t start = first;
     const hsize_t length = count;
@@ -272,6 +276,7 @@ void DataSet::read(std::size_t first, std::size_t count, void* elements) {
     if (count == 0) return;
     const hsize_t length = count;
     const Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose);
+    assert(first + count <= size_);
     check(H5Dread(set_.get(), type_, memory.get(), select(first, count).get(), H5P_DEFAULT, elements));
     hash_.add({static_cast<const char*>(elements), count * width_});
 }

@@ -1,5 +1,6 @@
 #include "trace/detail/seal.hpp"
 
+#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -17,13 +18,12 @@ namespace clearway::trace::detail {
 namespace {
 
 constexpr std::string_view first_words = "CLEARWAY recording, format ";
-/// Start of files of formats 1 and 2, which were not HDF5.
-constexpr std::string_view older_word = "CLEARWAY";
 constexpr std::size_t piece_length = std::size_t{1} << 20U;
 
 std::string seal_text(std::uint64_t length, const std::string& hash) {
     std::string text = fmt::format("{}{}\nHDF5 follows this block.\nlength {:020}\nhash {}\n", first_words,
                                    recording_format, length, hash);
+    assert(text.size() < seal_length);
     text.resize(seal_length, '\0');
     return text;
 }
@@ -46,19 +46,15 @@ bool hash_rest(std::ifstream& stream, RunningHash& hash, std::uint64_t& length) 
 }
 
 void refuse_other_formats(const std::filesystem::path& file, const std::string& head) {
-    const bool is_older = head.size() > older_word.size() && head.starts_with(older_word) &&
-                          head[older_word.size()] < ' ' && head[older_word.size()] > '\0';
-    if (!is_older && !head.starts_with(first_words))
+    if (!head.starts_with(first_words))
         throw core::InputError({file.string(), "is not a recording",
                                 "a file written with --record, in recordings/ of a run folder",
                                 "Give the file as Clearway wrote it: tools that rewrite HDF5 drop its seal"});
     int format = 0;
     const char* const begin = head.data() + first_words.size();
-    if (!is_older) std::from_chars(begin, head.data() + head.size(), format);
+    std::from_chars(begin, head.data() + head.size(), format);
     if (format == recording_format) return;
-    throw core::InputError({file.string(),
-                            is_older ? "is a recording of an older format, which was not HDF5"
-                                     : fmt::format("is a recording of format {}", format),
+    throw core::InputError({file.string(), fmt::format("is a recording of format {}", format),
                             fmt::format("{}", recording_format),
                             "Read it with the version of Clearway that wrote it, or record the run again"});
 }

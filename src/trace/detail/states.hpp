@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -24,6 +25,7 @@ class KnownStates {
     /// row of the step in /snapshot.
     void start_step(const truth::Snapshot& now, const std::vector<std::uint32_t>& vehicles,
                     std::uint64_t first_row) {
+        assert(vehicles.size() == now.size());
         ++step_;
         for (std::uint32_t row = 0; row < vehicles.size(); ++row) {
             if (vehicles[row] == none) continue;
