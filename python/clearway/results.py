@@ -217,7 +217,7 @@ def _read_table(database: Path, name: str) -> Table:
 
 
 def _column(values: tuple[Any, ...], declared: str) -> np.ndarray:
-    if declared == "TEXT":
+    if declared == "TEXT" or any(isinstance(value, str) for value in values):
         return np.array(["" if value is None else str(value) for value in values], dtype=str)
     array = np.array([np.nan if value is None else value for value in values], dtype=object)
     if len(array) > 0 and all(isinstance(value, int) for value in values):

@@ -75,6 +75,7 @@ std::optional<WorkerIdentity> identity_from(const std::string& text) {
     if (const std::size_t build = text.find(last, sumo); build != std::string::npos) {
         const std::size_t from = build + last.size();
         identity.build = text.substr(from, text.find('\n', from) - from);
+        identity.versions.build = identity.build;
     }
     return identity;
 }

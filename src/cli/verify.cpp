@@ -75,6 +75,9 @@ void require_same_versions(const results::Manifest& manifest) {
     if (manifest.clearway_version != here.clearway)
         differing += fmt::format("{}Clearway {} in the study, {} here", differing.empty() ? "" : "; ",
                                  manifest.clearway_version, here.clearway);
+    if (!manifest.clearway_build.empty() && manifest.clearway_build != here.build)
+        differing += fmt::format("{}build {} of Clearway in the study, {} here",
+                                 differing.empty() ? "" : "; ", manifest.clearway_build, here.build);
     if (!differing.empty())
         throw core::EnvironmentError(
             fmt::format("this study was made with other versions ({}): a run made here may differ. Verify "

@@ -1,6 +1,6 @@
 #include "results/factor_columns.hpp"
 
-#include <set>
+#include <cmath>
 
 namespace clearway::results {
 namespace {
@@ -22,8 +22,11 @@ FactorColumns::FactorColumns(const Manifest& manifest) {
         for (const auto& entry : entries) {
             if (entry.factors.empty()) continue;
             target[entry.name] = entry.factors;
-            for (const auto& [name, value] : entry.factors)
+            for (const auto& [name, value] : entry.factors) {
                 names.insert(name);
+                const auto number = core::number_from(value);
+                if (!number || !std::isfinite(*number)) texts_.insert(name);
+            }
         }
     };
     add(manifest.scenarios, of_scenarios_);

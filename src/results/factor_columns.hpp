@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ class FactorColumns {
     explicit FactorColumns(const Manifest& manifest);
 
     const std::vector<std::string>& names() const { return names_; }
+    /// Whether every value of a column is a number. A database sorts and sums those; all others are texts.
+    bool is_number(const std::string& name) const { return !texts_.contains(name); }
     /// Value of each column for the runs of a condition in a scenario; empty where neither has the factor.
     std::vector<std::string> values(const std::string& scenario, const std::string& condition) const;
     /// The same as pairs of name and value, without empty values.
@@ -22,6 +25,7 @@ class FactorColumns {
 
   private:
     std::vector<std::string> names_;
+    std::set<std::string> texts_;
     std::map<std::string, core::Settings> of_scenarios_;
     std::map<std::string, core::Settings> of_conditions_;
 };

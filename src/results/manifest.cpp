@@ -50,6 +50,7 @@ core::Json to_object(const Manifest& manifest) {
     object["format"] = manifest.format;
     object["study"] = manifest.study;
     object["clearway_version"] = manifest.clearway_version;
+    if (!manifest.clearway_build.empty()) object["clearway_build"] = manifest.clearway_build;
     object["sumo_version"] = manifest.sumo_version;
     object["study_seed"] = manifest.study_seed;
     object["replications"] = manifest.replications;
@@ -133,6 +134,7 @@ std::string differences(const Manifest& left, const Manifest& right) {
     };
     add(left.study != right.study, "study name");
     add(left.clearway_version != right.clearway_version, "Clearway version");
+    add(left.clearway_build != right.clearway_build, another_build);
     add(left.sumo_version != right.sumo_version, "SUMO version");
     add(left.study_seed != right.study_seed, "seed");
     add(left.replications != right.replications, "replications");
@@ -168,6 +170,7 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
     core::ObjectReader reader(object, where, problems);
     reader.read("study", manifest.study);
     reader.read("clearway_version", manifest.clearway_version);
+    reader.read_if_there("clearway_build", manifest.clearway_build);
     reader.read("sumo_version", manifest.sumo_version);
     reader.read("study_seed", manifest.study_seed);
     reader.read("replications", manifest.replications);

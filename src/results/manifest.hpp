@@ -40,6 +40,7 @@ struct Manifest {
     int format = 4;  ///< Format of the run folder; other formats are rejected.
     std::string study;
     std::string clearway_version;
+    std::string clearway_build = {};  ///< Of the programs (core::build_stamp); empty in older folders.
     std::string sumo_version;
     std::uint64_t study_seed = 1;
     std::uint32_t replications = 0;  ///< With a precision target: those asked for so far.
@@ -55,6 +56,13 @@ struct Manifest {
     /// The same one by one, for studies whose list would be large.
     void for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const;
 };
+
+/// How `differences` names another build of the programs.
+inline constexpr const char* another_build = "build of Clearway";
+/// The build as messages name it.
+inline std::string build_of(const Manifest& manifest) {
+    return manifest.clearway_build.empty() ? "an older one" : manifest.clearway_build;
+}
 
 /// Names of what differs between two manifests, `seed, conditions`; empty for the same study.
 std::string differences(const Manifest& left, const Manifest& right);

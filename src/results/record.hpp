@@ -37,6 +37,7 @@ struct RunRecord {
     /// Written but not read back; see Store::read_signal_events. Nothing where no policy could ask for
     /// greens, and in records of older versions.
     std::optional<std::vector<metrics::SignalEvent>> signal_events = {};
+    std::string build = {};  ///< Of the programs. Written from the manifest; empty in older records.
 
     bool operator==(const RunRecord&) const = default;
 };
@@ -47,6 +48,7 @@ struct RunTiming {
     double simulator_s = 0.0;  ///< SUMO's own step.
     double coupling_s = 0.0;   ///< Everything else in the loop.
     long peak_kib = 0;
+    std::string made_at;  ///< UTC, set when it is written.
 
     static constexpr auto fields() {
         using T = RunTiming;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <ctime>
 #include <fstream>
 #include <set>
 #include <system_error>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -99,6 +101,16 @@ void require_continues(const Manifest& wanted, const Manifest& stored, const fs:
              fmt::format("{} or more", stored.replications),
              "Ask for as many to continue or for more to extend it, or choose another folder with --out; "
              "`clearway report` prints what is there"});
+    Manifest of_this_build = wanted;
+    of_this_build.clearway_build = stored.clearway_build;
+    if (continues(of_this_build, stored))
+        throw core::InputError({folder.string(),
+                                fmt::format("was made by another build of Clearway: {}, and this is {}",
+                                            build_of(stored), build_of(wanted)),
+                                "runs of one build in a folder",
+                                "Choose another folder with --out, and see with `clearway compare` whether "
+                                "the builds differ; or "
+                                "continue with the build that made it"});
     throw core::InputError({folder.string(), "holds another study: different " + differing, "",
                             "Choose another folder with --out, or ask for the same study to resume it"});
 }
@@ -172,14 +184,16 @@ fs::path Store::log_file(const std::string& unit) const {
 Store::Written Store::write(const RunRecord& record, const RunTiming& timing) const {
     const fs::path target = run_folder(record.key);
     const std::string vehicles = detail::vehicles_to_csv(record.vehicles);
-    const std::string run = detail::run_to_json(record, vehicles);
+    const std::string run = detail::run_to_json(record, vehicles, manifest_.clearway_build);
     core::make_folder(target.parent_path());
     PartFolder part(target);
     core::write_atomically(part.path() / "vehicles.csv", vehicles);
     if (record.signal_events)
         core::write_atomically(part.path() / signal_events_name,
                                detail::signal_events_to_csv(*record.signal_events));
-    write_unflushed(part.path() / "timing.json", detail::timing_to_json(timing));
+    RunTiming dated = timing;
+    dated.made_at = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+    write_unflushed(part.path() / "timing.json", detail::timing_to_json(dated));
     core::write_atomically(part.path() / "run.json", run);
     const bool first = part.put_in_place();
     if (!first) {

@@ -28,14 +28,14 @@ class RunLines {
             line += "," + csv_text(name);
         core::append_header<metrics::RunMetrics>(line);
         core::append_header<experiment::Provenance>(line);
-        return line;
+        return line + ",clearway_build";
     }
     std::string of(const RunRecord& run) const {
         std::string line = fmt::format("{},ok,,{}{}", key_cells(run.key),
                                        experiment::name(run.condition.safety_checks), factor_cells(run.key));
         core::append_cells(line, run.metrics);
         core::append_cells(line, run.provenance);
-        return line;
+        return line + "," + csv_text(run.build);
     }
     std::string of(const RunError& error) const {
         return without_numbers(error.key, "failed", name(error.cause));
@@ -56,7 +56,7 @@ class RunLines {
         std::string line = fmt::format("{},{},{},{}", key_cells(key), outcome, cause, factor_cells(key));
         core::append_empty_cells<metrics::RunMetrics>(line);
         core::append_empty_cells<experiment::Provenance>(line);
-        return line;
+        return line + ",";
     }
 
     FactorColumns factors_;

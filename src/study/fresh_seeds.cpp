@@ -70,6 +70,7 @@ std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector
 std::string other_settings(const results::Manifest& stored, results::Manifest wanted) {
     wanted.clearway_version = stored.clearway_version;
     wanted.sumo_version = stored.sumo_version;
+    wanted.clearway_build = stored.clearway_build;
     return results::continues(wanted, stored) ? "" : results::differences(stored, wanted);
 }
 

@@ -22,6 +22,12 @@ constexpr std::size_t named_missing = 10;
 void require_same_study(const results::Store& first, const results::Store& other) {
     const std::string differing = results::differences(first.manifest(), other.manifest());
     if (differing.empty()) return;
+    if (differing == results::another_build)
+        throw core::InputError(
+            {other.folder().string(),
+             fmt::format("was made by another build of Clearway than {}: {}, not {}", first.folder().string(),
+                         results::build_of(other.manifest()), results::build_of(first.manifest())),
+             "shards of one build", "Make the shards of one of them again with the build of the others"});
     throw core::InputError(
         {other.folder().string(),
          fmt::format("belongs to another study than {}: different {}", first.folder().string(), differing),

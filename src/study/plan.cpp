@@ -115,6 +115,7 @@ results::Manifest manifest_of(const StudyConfig& config, const Versions& version
     manifest.study = config.name;
     manifest.clearway_version = versions.clearway;
     manifest.sumo_version = versions.sumo;
+    manifest.clearway_build = versions.build;
     manifest.study_seed = config.seed;
     manifest.replications = config.replications;
     for (const scenario::ScenarioConfig& scenario : config.scenarios) {

@@ -42,6 +42,7 @@ struct Plan {
 struct Versions {
     std::string clearway;
     std::string sumo;
+    std::string build = {};  ///< Of this program and its worker: core::build_stamp.
 };
 
 /// What a study is, as its run folder keeps it.

@@ -1,9 +1,11 @@
 """Runs, tables, paired differences and recordings, against the program's own tables and sums made here."""
 import csv
 import io
+import json
 import math
 import os
 import shutil
+import sqlite3
 import tempfile
 import unittest
 
@@ -32,6 +34,40 @@ class ResultsTest(FolderCase):
                         self.assertEqual(cell, value, column)
                     else:
                         self.assertTrue(math.isnan(value) if cell == "" else math.isclose(float(cell), value, rel_tol=1e-12), column)
+
+    def test_every_kind_of_factor_is_the_same_in_csv_sqlite_json_and_python(self) -> None:
+        self.write("study.toml", '''
+name = "factors"
+replications = 1
+scenarios = ["intersection"]
+conditions = ["baseline"]
+
+[[condition]]
+name = "mine"
+policy = ["corridor"]
+
+[factors]
+condition.failure = ["perfect", "B10"]
+preempt_signals.lead_s = [8, 12.5]
+scenario.friction = [1.0, 0.4]
+''')
+        results = clearway.study("study.toml", out="runs")
+        factors = {"condition.failure": str, "preempt_signals.lead_s": float, "scenario.friction": float}
+        runs = results.runs
+        lines = list(csv.DictReader((results.folder / "runs.csv").read_text().splitlines()))
+        printed = json.loads(program("results", str(results.folder), "runs", "--json"))
+        connection = sqlite3.connect(results.folder / "results.sqlite")
+        self.addCleanup(connection.close)
+        self.assertEqual(set(runs["condition.failure"]), {"", "perfect", "B10"})
+        for factor, kind in factors.items():
+            stored = [row[0] for row in connection.execute(f'SELECT "{factor}" FROM runs ORDER BY scenario, condition')]
+            for value, line, row, cell in zip(runs[factor], lines, printed, stored, strict=True):
+                if line[factor] == "":
+                    self.assertEqual((row[factor], cell), (None, None))
+                    self.assertTrue(value == "" if kind is str else math.isnan(value))
+                else:
+                    self.assertEqual((kind(value), kind(row[factor]), kind(cell)), (kind(line[factor]),) * 3)
+        self.assertEqual(runs.where(**{"condition.failure": "B10", "preempt_signals.lead_s": 8.0}).row_count, 2)
 
     def test_where_and_pandas(self) -> None:
         corridor = self.results.runs.where(condition="corridor", replication=2)

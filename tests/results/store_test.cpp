@@ -206,6 +206,33 @@ TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {
     }
 }
 
+TEST(StoreOfABuild, SaysInEachRunWhichBuildMadeItAndWhenAndRefusesAnother) {
+    const support::TemporaryFolder folder;
+    Manifest manifest = synthetic::manifest();
+    manifest.clearway_build = "0123456789abcdef";
+    const Store store = Store::create(folder.path() / "out", manifest);
+    store.write(record(key), {});
+    EXPECT_EQ(Store::open(store.folder()).manifest(), manifest);
+    EXPECT_EQ(store.read(key)->build, manifest.clearway_build);
+    EXPECT_THAT(store.read_timing(key)->made_at, testing::MatchesRegex("20..-..-..T..:..:..Z"));
+    EXPECT_THAT(runs_csv(read_results(store)), testing::HasSubstr(",0123456789abcdef\n"));
+    for (const char* const other : {"fedcba9876543210", ""}) {
+        Manifest longer = manifest;
+        longer.replications += 5;
+        longer.clearway_build = other;
+        EXPECT_EQ(differences(longer, manifest), "build of Clearway, replications");
+        longer.replications = manifest.replications;
+        try {
+            Store::create(store.folder(), longer);
+            FAIL() << other;
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(),
+                        testing::HasSubstr("was made by another build of Clearway: 0123456789abcdef"));
+            EXPECT_THAT(error.what(), testing::HasSubstr("another folder with --out"));
+        }
+    }
+}
+
 TEST_F(StoreOfAStudy, IsExtendedByMoreReplicationsAndNeverCutByFewer) {
     store_.write(record(key), {});
     const Store longer = Store::create(store_.folder(), synthetic::manifest(5));

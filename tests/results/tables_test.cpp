@@ -134,7 +134,9 @@ TEST(Tables, AreInOneDatabaseToo) {
 
 TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     Manifest manifest = synthetic::manifest();
-    manifest.conditions[1].factors = {{"failure.dark_share", "-2"}, {"condition.failure", "B5"}};
+    manifest.conditions[0].factors = {{"part.kind", "auto"}};
+    manifest.conditions[1].factors = {
+        {"failure.dark_share", "-2"}, {"condition.failure", "B5"}, {"part.kind", "0.5"}};
     manifest.scenarios[1].factors = {{"scenario.demand.human", "80"}};
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), manifest);
@@ -142,12 +144,13 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     store.write(record({"beta", "treated", 1}), {});
     const Results results = read_results(store);
     const auto lines = lines_of(runs_csv(results));
-    EXPECT_THAT(lines[0], testing::HasSubstr(
-                              ",safety_checks,condition.failure,failure.dark_share,scenario.demand.human,"
-                              "emergency_restricted_travel_time_s,emergency_travel_time_s,"));
-    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,,,,50.1,"));
-    EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,B5,-2,,"));
-    EXPECT_THAT(lines[8], testing::StartsWith("beta,treated,1,ok,,on,B5,-2,80,50.1,"));
+    EXPECT_THAT(lines[0],
+                testing::HasSubstr(
+                    ",safety_checks,condition.failure,failure.dark_share,part.kind,scenario.demand.human,"
+                    "emergency_restricted_travel_time_s,emergency_travel_time_s,"));
+    EXPECT_THAT(lines[1], testing::StartsWith("alpha,baseline,0,ok,,on,,,auto,,50.1,"));
+    EXPECT_THAT(lines[3], testing::StartsWith("alpha,treated,0,failed,signal,,B5,-2,0.5,,"));
+    EXPECT_THAT(lines[8], testing::StartsWith("beta,treated,1,ok,,on,B5,-2,0.5,80,50.1,"));
     for (const std::string& line : lines)
         EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(lines[0], ',')) << line;
     write_tables(store);
@@ -155,9 +158,20 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
                     "SELECT \"condition.failure\", typeof(\"failure.dark_share\"), \"scenario.demand.human\" "
                     "FROM runs WHERE \"failure.dark_share\" < 0 ORDER BY scenario"),
               "B5|integer|null|B5|integer|80|");
+    EXPECT_EQ(
+        query(folder.path() / "results.sqlite",
+              "SELECT name, type FROM pragma_table_info('runs') WHERE name IN ('condition.failure', "
+              "'failure.dark_share', 'part.kind', 'scenario.demand.human') ORDER BY name"),
+        "condition.failure|TEXT|failure.dark_share|NUMERIC|part.kind|TEXT|scenario.demand.human|NUMERIC|");
+    std::ostringstream json;
+    print_table(store, "runs", TableFormat::json, json);
+    EXPECT_THAT(
+        json.str(),
+        testing::HasSubstr("\"condition.failure\":\"B5\",\"failure.dark_share\":-2,\"part.kind\":\"0.5\","
+                           "\"scenario.demand.human\":80,"));
     std::ostringstream csv;
     print_table(store, "runs", TableFormat::csv, csv);
-    EXPECT_THAT(csv.str(), testing::HasSubstr("beta,treated,1,on,B5,-2,80,50.1,"));
+    EXPECT_THAT(csv.str(), testing::HasSubstr("beta,treated,1,on,B5,-2,0.5,80,50.1,"));
     EXPECT_EQ(Store::open(folder.path()).manifest(), manifest);
 }
 

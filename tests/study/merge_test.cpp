@@ -113,6 +113,22 @@ TEST_F(Merge, RefusesAnotherStudyBeforeItTouchesAnything) {
     EXPECT_THROW(merge_into("out", {folder_.path() / "nothing"}), core::InputError);
 }
 
+TEST_F(Merge, RefusesShardsOfTwoBuilds) {
+    results::Manifest manifest = results::synthetic::manifest(replications);
+    for (const char* const build : {"0123456789abcdef", "fedcba9876543210"}) {
+        manifest.clearway_build = build;
+        Store::create(place(build), manifest);
+    }
+    try {
+        merge_into("out", {place("0123456789abcdef"), place("fedcba9876543210")});
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("another build of Clearway"));
+        EXPECT_THAT(error.what(), HasSubstr("fedcba9876543210, not 0123456789abcdef"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(place("out")));
+}
+
 TEST_F(Merge, SaysWhatIsMissingAndIsCompletedLater) {
     auto sources = divided(4, "a");
     const auto last = sources.back();

@@ -115,20 +115,22 @@ void write_study(Database& database, const Manifest& manifest, const std::string
     }
 }
 
-/// `, "failure.dark_share" NUMERIC`: numbers if the values look like numbers, else text.
+/// `, "failure.dark_share" NUMERIC`.
 std::string columns(const FactorColumns& factors) {
     std::string text;
     for (std::string name : factors.names()) {
+        const char* const type = factors.is_number(name) ? "NUMERIC" : "TEXT";
         for (std::size_t at = 0; (at = name.find('"', at)) != std::string::npos; at += 2)
             name.insert(at, "\"");
-        text += fmt::format(", \"{}\" NUMERIC", name);
+        text += fmt::format(", \"{}\" {}", name, type);
     }
     return text;
 }
 
 void create_tables(Database& database, const FactorColumns& factors) {
     database.execute(fmt::format(
-        "CREATE TABLE runs ({}, safety_checks TEXT{}{}{}, PRIMARY KEY (scenario, condition, replication))",
+        "CREATE TABLE runs ({}, safety_checks TEXT{}{}{}, clearway_build TEXT, PRIMARY KEY (scenario, "
+        "condition, replication))",
         key_columns, columns(factors), columns<metrics::RunMetrics>(), columns<experiment::Provenance>()));
     database.execute(
         fmt::format("CREATE TABLE vehicles ({}, id TEXT, class TEXT, kind TEXT, outcome TEXT{}, "
@@ -162,7 +164,7 @@ struct DatabaseWriter::Tables {
         : database(begin_database(part, manifest, runs_hash)),
           factors(manifest),
           runs(database, "INSERT INTO runs VALUES " + places<metrics::RunMetrics, experiment::Provenance>(
-                                                          1 + static_cast<int>(factors.names().size()))),
+                                                          2 + static_cast<int>(factors.names().size()))),
           vehicles(database, "INSERT INTO vehicles VALUES " + places<metrics::VehicleRow>(4)),
           leases(database, "INSERT INTO leases VALUES (?, ?, ?, ?, ?, ?, ?, ?)"),
           errors(database, "INSERT INTO errors VALUES (?, ?, ?, ?, ?, ?)") {}
@@ -213,6 +215,7 @@ void DatabaseWriter::add(const RunRecord& run) {
         row.add(value.empty() ? std::optional<std::string_view>() : std::string_view(value));
     row.add_fields(run.metrics);
     row.add_fields(run.provenance);
+    row.add(std::string_view(run.build));
     row.insert();
     for (const metrics::VehicleRow& vehicle : run.vehicles)
         add(run.key, vehicle);

@@ -126,9 +126,10 @@ std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json&
 
 }  // namespace
 
-std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv) {
+std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv, const std::string& build) {
     core::Json object;
     write_key(object, record.key);
+    if (!build.empty()) object["build"] = build;
     object["condition_spec"] = to_json(record.condition);
     core::write_fields(object["provenance"], record.provenance);
     core::write_fields(object["metrics"], record.metrics);
@@ -151,6 +152,7 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
     core::ObjectReader reader(object, where, problems);
     reader.read(hash_key, hash);
     read_key(reader, record.key);
+    reader.read_if_there("build", record.build);
     record.condition = experiment::condition_from(reader.child("condition_spec", core::Json::value_t::object),
                                                   where, problems);
     core::ObjectReader(reader.child("provenance", core::Json::value_t::object), where + ": provenance",
@@ -215,6 +217,7 @@ std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, cons
 std::string timing_to_json(const RunTiming& timing) {
     core::Json object;
     core::write_fields(object, timing);
+    object["made_at"] = timing.made_at;
     return core::to_text(object);
 }
 
@@ -222,7 +225,9 @@ RunTiming timing_from_json(const std::string& text, const std::string& where) {
     const core::Json object = core::parse_object(text, where);
     RunTiming timing;
     std::vector<core::Problem> problems;
-    core::ObjectReader(object, where, problems).read_fields(timing);
+    core::ObjectReader reader(object, where, problems);
+    reader.read_fields(timing);
+    reader.read_if_there("made_at", timing.made_at);
     if (!problems.empty()) throw core::InputError(problems);
     return timing;
 }

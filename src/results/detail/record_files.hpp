@@ -12,8 +12,9 @@ inline constexpr const char* signal_events_hash_key = "signal_events_hash";
 
 // The files of one run, to and from text. The readers throw core::InputError, naming `where`.
 
-/// `run.json`: everything but the vehicles, with the hash of vehicles.csv and a hash of itself.
-std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv);
+/// `run.json`: everything but the vehicles, with the build that made it, the hash of vehicles.csv and a hash
+/// of itself.
+std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv, const std::string& build);
 /// The record without vehicles. `vehicles_csv` must have the hash stored in `text`.
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where);
 
