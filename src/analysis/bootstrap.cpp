@@ -185,8 +185,8 @@ std::optional<Interval> bootstrap_bca_of_mean(const Resamples& resamples, std::s
     return bootstrap_bca(resamples, {{values}}, [](std::span<const double> means) { return means[0]; });
 }
 
-std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span<const double> baseline,
-                                    std::span<const double> solo, const Resamples& resamples) {
+MaybeEstimate gap_closed(std::span<const double> condition, std::span<const double> baseline,
+                         std::span<const double> solo, const Resamples& resamples) {
     assert(condition.size() == baseline.size() && solo.size() == baseline.size());
     if (baseline.empty() || !(sum_of(baseline) > sum_of(solo))) return std::nullopt;
     const std::array columns = {condition, baseline, solo};
@@ -194,16 +194,16 @@ std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span
         return (means[1] - means[0]) / (means[1] - means[2]);
     };
     const std::array totals = {sum_of(condition), sum_of(baseline), sum_of(solo)};
-    return GapClosed{share(totals), bootstrap_bca(resamples, columns, share)};
+    return Estimate{baseline.size(), share(totals), 0.0, bootstrap_bca(resamples, columns, share)};
 }
 
-PooledQuantile pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples) {
+MaybeEstimate pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples) {
     assert(clusters.size() == resamples.rows());
     const Pool pool = pool_of(clusters);
     const double observed = quantile_of(pool, share, std::vector<std::uint8_t>(clusters.size(), 1));
     if (!std::isfinite(observed)) return {};
-    return {observed,
-            bootstrap_bca(resamples, [&](RowCounts counts) { return quantile_of(pool, share, counts); })};
+    const auto statistic = [&](RowCounts counts) { return quantile_of(pool, share, counts); };
+    return Estimate{clusters.size(), observed, 0.0, bootstrap_bca(resamples, statistic)};
 }
 
 }  // namespace clearway::analysis

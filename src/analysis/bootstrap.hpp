@@ -63,16 +63,11 @@ std::optional<Interval> bootstrap_bca(const Resamples& resamples,
 /// The same for the mean of one column.
 std::optional<Interval> bootstrap_bca_of_mean(const Resamples& resamples, std::span<const double> values);
 
-/// Gap closed = (sum of baseline - sum of condition) / (sum of baseline - sum of solo) over replications. The
-/// spans have equal lengths.
-struct GapClosed {
-    double value = 0.0;
-    std::optional<Interval> interval;  ///< BCa over replications.
-};
-/// Nothing for empty spans, or when the baseline is not slower than solo on average, so that there is no gap.
-/// `resamples` must have as many rows as the spans.
-std::optional<GapClosed> gap_closed(std::span<const double> condition, std::span<const double> baseline,
-                                    std::span<const double> solo, const Resamples& resamples);
+/// Gap closed = (sum of baseline - sum of condition) / (sum of baseline - sum of solo) over replications,
+/// with its BCa interval. The spans have equal lengths. Nothing for empty spans, or when the baseline is not
+/// slower than solo on average, so that there is no gap. `resamples` must have as many rows as the spans.
+MaybeEstimate gap_closed(std::span<const double> condition, std::span<const double> baseline,
+                         std::span<const double> solo, const Resamples& resamples);
 
 /// The members of one replication, which are not independent: travel times of its vehicles, s. Vehicles
 /// without one (they did not arrive) are counted and rank above all others.
@@ -80,13 +75,9 @@ struct Cluster {
     std::vector<double> values;
     std::size_t without_value = 0;
 };
-/// Quantile of all members of all clusters, with its BCa interval from resampling whole clusters.
-struct PooledQuantile {
-    std::optional<double> value;  ///< Nothing if it falls among the members without a value.
-    std::optional<Interval> interval;
-};
-/// The smallest value that at least `share` of all members do not exceed. `resamples` must have one row per
-/// cluster.
-PooledQuantile pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples);
+/// Quantile of all members of all clusters, with its BCa interval from resampling whole clusters: the
+/// smallest value that at least `share` of all members do not exceed. Nothing if it falls among the members
+/// without a value. `resamples` must have one row per cluster.
+MaybeEstimate pooled_quantile(std::span<const Cluster> clusters, double share, const Resamples& resamples);
 
 }  // namespace clearway::analysis

@@ -39,7 +39,7 @@ double recovered(double from_first, double from_second, double correlation) {
 
 }  // namespace
 
-std::optional<Estimate> estimate_count(std::span<const double> counts, double level) {
+MaybeEstimate estimate_count(std::span<const double> counts, double level) {
     auto estimate = estimate_mean(counts, level);
     if (!estimate || !estimate->interval) return estimate;
     const auto n = static_cast<double>(estimate->n);
@@ -56,8 +56,8 @@ std::optional<Estimate> estimate_count(std::span<const double> counts, double le
     return estimate;
 }
 
-std::optional<Estimate> estimate_count_difference(std::span<const double> condition,
-                                                  std::span<const double> baseline, double level) {
+MaybeEstimate estimate_count_difference(std::span<const double> condition, std::span<const double> baseline,
+                                        double level) {
     assert(condition.size() == baseline.size());
     auto difference = estimate_difference(condition, baseline, level);
     if (!difference || !difference->interval) return difference;

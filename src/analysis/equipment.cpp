@@ -11,7 +11,7 @@ struct Candidate {
     std::size_t number = 0;
     std::size_t measured_in = 0;  ///< Round of `gain`, from 1; 0: never.
     Values values;
-    std::optional<Estimate> gain;
+    MaybeEstimate gain;
 
     /// Without a measurement it may gain anything; measured without a pair, nothing is known in its favour.
     double last_gain() const {
@@ -21,7 +21,7 @@ struct Candidate {
     }
 };
 
-bool has_effect(const std::optional<Estimate>& gain) {
+bool has_effect(const MaybeEstimate& gain) {
     return gain && gain->interval && gain->interval->low > 0.0;
 }
 
@@ -55,7 +55,7 @@ class Greedy {
   private:
     std::size_t round() const { return plan_.steps.size() + 1; }
 
-    std::optional<Estimate> gain_over(const Values& before, const Values& after) const {
+    MaybeEstimate gain_over(const Values& before, const Values& after) const {
         return estimate_paired(before, after, MetricKind::quantity, config_.level);
     }
 

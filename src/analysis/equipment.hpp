@@ -33,8 +33,8 @@ struct EquipConfig {
 /// A signal that was chosen, or would have been the next.
 struct EquipStep {
     std::size_t candidate = 0;
-    std::optional<Estimate> gain;    ///< Less time than without it, s. Nothing without a pair of runs.
-    std::optional<Estimate> so_far;  ///< Less time than with no signal equipped, s.
+    MaybeEstimate gain;    ///< Less time than without it, s. Nothing without a pair of runs.
+    MaybeEstimate so_far;  ///< Less time than with no signal equipped, s.
 };
 
 /// Why no further signal was chosen.

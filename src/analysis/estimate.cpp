@@ -41,7 +41,7 @@ double half_width(double deviation, std::size_t n, double level) {
     return t * deviation / std::sqrt(count);
 }
 
-std::optional<Estimate> estimate_mean(std::span<const double> values, double level) {
+MaybeEstimate estimate_mean(std::span<const double> values, double level) {
     if (values.empty()) return std::nullopt;
     Estimate estimate;
     estimate.n = values.size();
@@ -53,7 +53,7 @@ std::optional<Estimate> estimate_mean(std::span<const double> values, double lev
     return estimate;
 }
 
-std::optional<Estimate> estimate_not_negative(std::span<const double> values, double level) {
+MaybeEstimate estimate_not_negative(std::span<const double> values, double level) {
     auto estimate = estimate_mean(values, level);
     if (!estimate || !estimate->interval || estimate->interval->low >= 0.0 || !(estimate->mean > 0.0))
         return estimate;
@@ -62,13 +62,13 @@ std::optional<Estimate> estimate_not_negative(std::span<const double> values, do
     return estimate;
 }
 
-std::optional<Estimate> estimate_difference(std::span<const double> condition,
-                                            std::span<const double> baseline, double level) {
+MaybeEstimate estimate_difference(std::span<const double> condition, std::span<const double> baseline,
+                                  double level) {
     return estimate_mean(differences(condition, baseline), level);
 }
 
-std::optional<Estimate> relative_difference(std::span<const double> condition,
-                                            std::span<const double> baseline, double level) {
+MaybeEstimate relative_difference(std::span<const double> condition, std::span<const double> baseline,
+                                  double level) {
     auto estimate = estimate_difference(condition, baseline, level);
     if (!estimate) return std::nullopt;
     const double reference = mean_of(baseline);

@@ -21,20 +21,30 @@ struct Interval {
 /// Share of intervals that contain the true value, over many samples.
 inline constexpr double usual_level = 0.95;
 
-/// A mean with its uncertainty.
-struct Estimate {
-    std::size_t n = 0;
-    double mean = 0.0;
-    double deviation = 0.0;            ///< Standard deviation of the sample, n - 1; 0 below two values.
-    std::optional<Interval> interval;  ///< Empty below two values.
-};
-
-/// Mean and t interval: mean +- t(n - 1) s / sqrt(n). Nothing for an empty sample.
-std::optional<Estimate> estimate_mean(std::span<const double> values, double level = usual_level);
-
 /// With fewer values no interval is printed: at four values a t interval is twice as wide as at ten, and with
 /// skewed values it misses the true mean one time in four.
 inline constexpr std::size_t fewest_for_interval = 5;
+
+/// A mean, or another statistic, with its uncertainty.
+struct Estimate {
+    std::size_t n = 0;
+    double mean = 0.0;
+    double deviation = 0.0;  ///< Standard deviation of the sample, n - 1; 0 below two values and for others.
+    std::optional<Interval> interval;  ///< Empty below two values.
+};
+using MaybeEstimate = std::optional<Estimate>;
+
+/// The interval, if it rests on enough values to be printed; else null.
+inline const Interval* shown_interval(const MaybeEstimate& estimate) {
+    const bool shown = estimate && estimate->interval && estimate->n >= fewest_for_interval;
+    return shown ? &*estimate->interval : nullptr;
+}
+inline std::optional<double> mean_of(const MaybeEstimate& estimate) {
+    return estimate ? std::optional(estimate->mean) : std::nullopt;
+}
+
+/// Mean and t interval: mean +- t(n - 1) s / sqrt(n). Nothing for an empty sample.
+MaybeEstimate estimate_mean(std::span<const double> values, double level = usual_level);
 
 /// Mean of values that are never negative (durations, shares), with an interval that does not reach below 0:
 /// the t interval if it stays above 0, else that of the logarithm of the mean, whose standard error is
@@ -43,17 +53,17 @@ inline constexpr std::size_t fewest_for_interval = 5;
 /// four in five are 0, it contains the true mean in 80 % of samples and this interval in 91 %; for 10 values
 /// of which half are 0, 85 % against 93 % (tests/analysis/coverage_test.cpp). A BCa bootstrap of so few
 /// values is no better than t. Nothing for an empty sample.
-std::optional<Estimate> estimate_not_negative(std::span<const double> values, double level = usual_level);
+MaybeEstimate estimate_not_negative(std::span<const double> values, double level = usual_level);
 
 /// Mean of `condition[i] - baseline[i]` with its t interval. The spans have equal lengths.
-std::optional<Estimate> estimate_difference(std::span<const double> condition,
-                                            std::span<const double> baseline, double level = usual_level);
+MaybeEstimate estimate_difference(std::span<const double> condition, std::span<const double> baseline,
+                                  double level = usual_level);
 
 /// The same as a share of the baseline's mean: difference and interval are divided by mean(baseline), which
 /// is taken as known, so the interval ignores the uncertainty of that mean. Nothing when that mean is not
 /// positive.
-std::optional<Estimate> relative_difference(std::span<const double> condition,
-                                            std::span<const double> baseline, double level = usual_level);
+MaybeEstimate relative_difference(std::span<const double> condition, std::span<const double> baseline,
+                                  double level = usual_level);
 
 /// Median; mean of the two middle values for even n. `values` not empty.
 double median(std::span<const double> values);
@@ -72,15 +82,14 @@ std::optional<Interval> quantile_interval(std::span<const double> values, double
 /// Mean of counts (0, 1, 2, ...) with an interval that never reaches below 0: Garwood's exact Poisson
 /// interval (1936) of total / phi, scaled by phi = max(1, variance / mean), with t instead of normal tails if
 /// phi > 1. Simulated coverage: tests/analysis/coverage_test.cpp. Nothing for an empty sample.
-std::optional<Estimate> estimate_count(std::span<const double> counts, double level = usual_level);
+MaybeEstimate estimate_count(std::span<const double> counts, double level = usual_level);
 
 /// Mean of `condition[i] - baseline[i]` of counts; the interval follows from those of the two means by the
 /// method of variance estimates recovery with their correlation (Zou and Donner 2008), so that rare events do
 /// not look like certain differences. A bootstrap and a t interval are too narrow for them: with four
 /// collisions against none they excluded 0.
-std::optional<Estimate> estimate_count_difference(std::span<const double> condition,
-                                                  std::span<const double> baseline,
-                                                  double level = usual_level);
+MaybeEstimate estimate_count_difference(std::span<const double> condition, std::span<const double> baseline,
+                                        double level = usual_level);
 
 /// Mean of the paired differences divided by their standard deviation (Cohen's d for pairs, d_z). Nothing
 /// below two pairs or without variation.

@@ -76,7 +76,7 @@ void Headline::refresh() {
     }
 }
 
-std::optional<Estimate> Headline::estimate() const {
+MaybeEstimate Headline::estimate() const {
     return estimate_mean(values_s_);
 }
 

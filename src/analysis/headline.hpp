@@ -22,7 +22,7 @@ class Headline {
     /// Reads what has been completed since the last call. Throws core::InputError for a damaged record.
     void refresh();
     /// Nothing before the first pair.
-    std::optional<Estimate> estimate() const;
+    MaybeEstimate estimate() const;
     const std::string& scenario() const { return scenario_; }
     const std::string& condition() const { return condition_; }
     /// Empty if nothing is compared.

@@ -41,7 +41,7 @@ struct PairedCounts {
         baseline.push_back(static_cast<double>(without));
     }
     /// The paired difference if its interval lies above 0, else nothing.
-    std::optional<Estimate> surplus(double level) const {
+    MaybeEstimate surplus(double level) const {
         auto difference = estimate_count_difference(condition, baseline, level);
         const bool more = difference && difference->interval && difference->interval->low > 0.0;
         return more ? difference : std::nullopt;

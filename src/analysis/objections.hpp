@@ -41,12 +41,12 @@ OutcomeCounts other_outcomes(const results::RunRecord& run);
 /// Reasons why a condition must not be called better than its baseline, or without effect, whatever the means
 /// are. Verdicts, tables, curves, comparisons and gates all use this.
 struct Objections {
-    OutcomeCounts emergency;               ///< Over the replications that both have.
-    OutcomeCounts baseline_emergency;      ///< Over the same replications.
-    std::optional<Estimate> collisions;    ///< With emergency vehicles: surplus per run over the baseline.
-    std::optional<Estimate> teleported;    ///< Other vehicles: surplus per run over the baseline.
-    std::optional<Estimate> not_inserted;  ///< Likewise.
-    bool unchecked = false;                ///< Ran without the simulator's safety checks.
+    OutcomeCounts emergency;           ///< Over the replications that both have.
+    OutcomeCounts baseline_emergency;  ///< Over the same replications.
+    MaybeEstimate collisions;          ///< With emergency vehicles: surplus per run over the baseline.
+    MaybeEstimate teleported;          ///< Other vehicles: surplus per run over the baseline.
+    MaybeEstimate not_inserted;        ///< Likewise.
+    bool unchecked = false;            ///< Ran without the simulator's safety checks.
 
     /// Whether it loses more than the baseline, in all or of those that were taken off the road. By number:
     /// one lost ambulance needs no interval.

@@ -36,11 +36,11 @@ using core::name;
 struct PlannedFinding {
     results::PlannedComparison comparison;
     std::string scenario;
-    std::size_t pairs = 0;               ///< Complete ones.
-    std::optional<Estimate> difference;  ///< With an interval of the level 1 - alpha, for itself.
-    std::optional<double> p;             ///< Paired t; of equivalence: the two one-sided tests.
-    std::optional<double> holm_p;        ///< Adjusted over all findings of the plan.
-    double margin_s = 0.0;               ///< For equivalence; the greater of both parts of the plan's margin.
+    std::size_t pairs = 0;         ///< Complete ones.
+    MaybeEstimate difference;      ///< With an interval of the level 1 - alpha, for itself.
+    std::optional<double> p;       ///< Paired t; of equivalence: the two one-sided tests.
+    std::optional<double> holm_p;  ///< Adjusted over all findings of the plan.
+    double margin_s = 0.0;         ///< For equivalence; the greater of both parts of the plan's margin.
     Shown shown = Shown::incomplete;
 };
 

@@ -3,8 +3,8 @@
 namespace clearway::analysis {
 namespace {
 
-const std::optional<Estimate>& difference_of(const MetricSummary& metric) {
-    static const std::optional<Estimate> none;
+const MaybeEstimate& difference_of(const MetricSummary& metric) {
+    static const MaybeEstimate none;
     return metric.comparison ? metric.comparison->difference : none;
 }
 
@@ -16,7 +16,7 @@ std::optional<Precision> widest_by(const Summary& summary, const std::string& me
     for (const ScenarioSummary& scenario : summary.scenarios) {
         for (const ConditionSummary& condition : scenario.conditions) {
             const MetricSummary& values = condition.metric(metric);
-            const std::optional<Estimate>& estimate = estimate_of(values);
+            const MaybeEstimate& estimate = estimate_of(values);
             if (!estimate || !estimate->interval) continue;
             const std::size_t required =
                 required_replications(estimate->deviation, half_width, summary.level);
@@ -37,9 +37,8 @@ std::optional<Precision> widest_by(const Summary& summary, const std::string& me
 std::optional<Precision> widest(const Summary& summary, const std::string& metric, double half_width) {
     const auto compared = widest_by(summary, metric, half_width, difference_of);
     if (compared) return compared;
-    return widest_by(
-        summary, metric, half_width,
-        [](const MetricSummary& values) -> const std::optional<Estimate>& { return values.estimate; });
+    return widest_by(summary, metric, half_width,
+                     [](const MetricSummary& values) -> const MaybeEstimate& { return values.estimate; });
 }
 
 }  // namespace clearway::analysis

@@ -85,10 +85,10 @@ Chosen chosen_from(std::span<const results::RunRecord* const> runs,
 
 using Statistic = std::function<double(RowCounts)>;
 
-std::optional<TripStatistic> resampled(std::size_t replications, double level, const Statistic& statistic) {
+MaybeEstimate resampled(std::size_t replications, double level, const Statistic& statistic) {
     if (replications == 0) return std::nullopt;
     const std::vector<std::uint8_t> once(replications, 1);
-    TripStatistic result{statistic(once), std::nullopt};
+    Estimate result{replications, statistic(once), 0.0, std::nullopt};
     if (replications < fewest_for_interval) return result;
     BootstrapConfig config;
     config.level = level;
@@ -148,20 +148,20 @@ ResponseTime response_of(std::span<const results::RunRecord* const> runs,
     const Chosen alone = chosen_from(runs, {});
     const std::vector<Weighted> all = ranked(alone.condition);
     response.trips = all.size();
-    response.replications = alone.condition.size();
-    response.percentile_90_s = resampled(response.replications, level,
-                                         [&](RowCounts counts) { return percentile_90_s(all, counts); });
-    response.in_time = resampled(response.replications, level,
+    const std::size_t replications = alone.condition.size();
+    response.percentile_90_s =
+        resampled(replications, level, [&](RowCounts counts) { return percentile_90_s(all, counts); });
+    response.in_time = resampled(replications, level,
                                  [&](RowCounts counts) { return share_in_time(all, counts, threshold_s); });
     if (baseline.empty()) return response;
     const Chosen both = chosen_from(runs, baseline);
     const std::vector<Weighted> with = ranked(both.condition);
     const std::vector<Weighted> without = ranked(both.baseline);
-    response.pairs = both.condition.size();
-    response.percentile_90_difference_s = resampled(response.pairs, level, [&](RowCounts counts) {
+    const std::size_t pairs = both.condition.size();
+    response.percentile_90_difference_s = resampled(pairs, level, [&](RowCounts counts) {
         return percentile_90_s(with, counts) - percentile_90_s(without, counts);
     });
-    response.in_time_difference = resampled(response.pairs, level, [&](RowCounts counts) {
+    response.in_time_difference = resampled(pairs, level, [&](RowCounts counts) {
         return share_in_time(with, counts, threshold_s) - share_in_time(without, counts, threshold_s);
     });
     return response;

@@ -16,24 +16,17 @@ namespace clearway::analysis {
 /// Suppression Rating Schedule).
 inline constexpr double response_pace_s_per_km = 100.0;
 
-/// A statistic of all trips with its interval, from resampling whole replications.
-struct TripStatistic {
-    double value = 0.0;
-    std::optional<Interval> interval;  ///< BCa; nothing below `fewest_for_interval` replications.
-};
-
-/// How many emergency vehicles come in time, and how late the slow ones are.
+/// How many emergency vehicles come in time, and how late the slow ones are: statistics of all trips, with
+/// BCa intervals from resampling whole replications; none below `fewest_for_interval` replications.
 struct ResponseTime {
     double threshold_s = 0.0;
     std::size_t trips = 0;
-    std::size_t replications = 0;
     /// Nothing without trips. A vehicle that did not arrive counts with the horizon, and as too late.
-    std::optional<TripStatistic> percentile_90_s;
-    std::optional<TripStatistic> in_time;  ///< Share of trips that took no longer than the threshold.
+    MaybeEstimate percentile_90_s;
+    MaybeEstimate in_time;  ///< Share of trips that took no longer than the threshold.
     /// Against the baseline, over the replications that are complete in both.
-    std::size_t pairs = 0;
-    std::optional<TripStatistic> percentile_90_difference_s;
-    std::optional<TripStatistic> in_time_difference;
+    MaybeEstimate percentile_90_difference_s;
+    MaybeEstimate in_time_difference;
 };
 
 /// Travel times of the emergency vehicles of a run, s, those that did not arrive with the horizon. Nothing

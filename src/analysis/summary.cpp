@@ -74,7 +74,7 @@ Pairs pairs_of_common_vehicles(detail::VehicleNumber number, const Runs& conditi
     return pairs;
 }
 
-std::optional<Estimate> difference_of(const Pairs& pairs, MetricKind kind, double level) {
+MaybeEstimate difference_of(const Pairs& pairs, MetricKind kind, double level) {
     return kind == MetricKind::count ? estimate_count_difference(pairs.condition, pairs.baseline, level)
                                      : estimate_difference(pairs.condition, pairs.baseline, level);
 }
@@ -122,7 +122,7 @@ std::vector<double> present_in(const Values& values) {
     return present;
 }
 
-std::optional<Estimate> mean_of(const std::vector<double>& present, MetricKind kind, double level) {
+MaybeEstimate mean_of(const std::vector<double>& present, MetricKind kind, double level) {
     return kind == MetricKind::count ? estimate_count(present, level) : estimate_not_negative(present, level);
 }
 
@@ -249,7 +249,6 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
         without.push_back(*runs[1]->metrics.emergency_restricted_travel_time_s);
         alone.push_back(*runs[2]->metrics.emergency_restricted_travel_time_s);
     }
-    summary.gap_replications = with.size();
     summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
 }
 
@@ -386,20 +385,27 @@ std::vector<MetricInfo> all_metrics() {
     return infos;
 }
 
-std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level) {
+MaybeEstimate estimate_values(const Values& values, MetricKind kind, double level) {
     return mean_of(present_in(values), kind, level);
 }
 
-std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
-                                        double level) {
+MaybeEstimate estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
+                              double level) {
     return difference_of(pairs_of(condition, baseline), kind, level);
 }
 
-const MetricSummary& ConditionSummary::metric(const std::string& name) const {
+const MetricSummary& ConditionSummary::metric(std::string_view name) const {
     for (const MetricSummary& summary : metrics) {
         if (summary.metric.name == name) return summary;
     }
-    throw std::out_of_range("no metric " + name);
+    throw std::out_of_range(fmt::format("no metric {}", name));
+}
+
+double ConditionSummary::total(std::string_view name) const {
+    double sum = 0.0;
+    for (const std::optional<double>& value : metric(name).values)
+        sum += value.value_or(0.0);
+    return sum;
 }
 
 const ConditionSummary* ScenarioSummary::find(const std::string& condition) const {

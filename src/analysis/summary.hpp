@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/bootstrap.hpp"
@@ -33,10 +35,10 @@ struct MetricInfo {
 using Values = std::vector<std::optional<double>>;
 
 /// Mean of the values present, with the interval of the metric's kind.
-std::optional<Estimate> estimate_values(const Values& values, MetricKind kind, double level = usual_level);
+MaybeEstimate estimate_values(const Values& values, MetricKind kind, double level = usual_level);
 /// Mean of the paired differences of the replications where both have a value.
-std::optional<Estimate> estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
-                                        double level = usual_level);
+MaybeEstimate estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
+                              double level = usual_level);
 /// All metrics of a run that are numbers, in the order of their field table.
 std::vector<MetricInfo> all_metrics();
 
@@ -56,8 +58,8 @@ struct Comparison {
     std::size_t vehicles_left_out = 0;
     std::vector<double> condition_values;     ///< Of complete pairs, in the order of the replications.
     std::vector<double> baseline_values;      ///< Of the same pairs.
-    std::optional<Estimate> difference;       ///< Condition - baseline, in the metric's unit.
-    std::optional<Estimate> relative;         ///< As a share of the baseline's mean.
+    MaybeEstimate difference;                 ///< Condition - baseline, in the metric's unit.
+    MaybeEstimate relative;                   ///< As a share of the baseline's mean.
     std::optional<Interval> bootstrap;        ///< BCa interval of the mean difference; not for counts.
     std::optional<double> median;             ///< Of the paired differences.
     std::optional<Interval> median_interval;  ///< From order statistics.
@@ -71,8 +73,8 @@ struct Comparison {
 /// One cell of a table: a metric in a condition of a scenario.
 struct MetricSummary {
     MetricInfo metric;
-    Values values;                     ///< By replication.
-    std::optional<Estimate> estimate;  ///< Over the replications that have a value.
+    Values values;           ///< By replication.
+    MaybeEstimate estimate;  ///< Over the replications that have a value.
     std::optional<double> median;
     std::optional<Interval> median_interval;
     std::optional<double> percentile_95;
@@ -82,8 +84,8 @@ struct MetricSummary {
 
 /// Travel times of all emergency vehicles of a condition. Those that did not arrive rank last.
 struct TravelTimeTail {
-    PooledQuantile median;
-    PooledQuantile percentile_95;
+    MaybeEstimate median;
+    MaybeEstimate percentile_95;
 };
 
 /// A policy of a condition that did nothing, or nothing to others, in some of its runs.
@@ -115,12 +117,12 @@ struct ConditionSummary {
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
     std::optional<Recovery> recovery;      ///< Likewise.
     /// In `primary_metric`. Nothing for baselines, and without a solo condition.
-    std::optional<GapClosed> gap_closed;
-    /// Replications behind `gap_closed`.
-    std::size_t gap_replications = 0;
+    MaybeEstimate gap_closed;
 
     /// Throws std::out_of_range for an unknown name.
-    const MetricSummary& metric(const std::string& name) const;
+    const MetricSummary& metric(std::string_view name) const;
+    /// Sum of a metric over the runs.
+    double total(std::string_view metric) const;
 };
 
 struct ScenarioSummary {
@@ -146,6 +148,8 @@ struct Summary {
     std::vector<Unpaired> unpaired;
     /// In which the conditions of one name of two studies differ; empty for one study.
     std::vector<ConditionDifference> differing;
+    /// Builds of the programs that made two studies, if they differ.
+    std::optional<std::pair<std::string, std::string>> builds;
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario

@@ -15,10 +15,10 @@ namespace clearway::analysis {
 struct ApproachCost {
     std::string edge;
     std::optional<double> baseline_s;     ///< Mean over the baseline's runs.
-    std::optional<Estimate> difference;   ///< Paired, s per run; all classes together.
-    std::optional<Estimate> human;        ///< Of human-driven vehicles alone.
-    std::optional<Estimate> automated;    ///< Of automated ones.
-    std::optional<Estimate> waiting;      ///< Waiting time, all classes.
+    MaybeEstimate difference;             ///< Paired, s per run; all classes together.
+    MaybeEstimate human;                  ///< Of human-driven vehicles alone.
+    MaybeEstimate automated;              ///< Of automated ones.
+    MaybeEstimate waiting;                ///< Waiting time, all classes.
     std::optional<double> vehicles;       ///< Vehicles that enter it, mean over the baseline's runs.
     std::optional<double> per_vehicle_s;  ///< Mean difference per vehicle.
 };
@@ -27,7 +27,7 @@ struct ApproachCost {
 /// the baseline.
 struct RecoveryPoint {
     double offset_s = 0.0;  ///< After the EV passed the stop line.
-    std::optional<Estimate> difference;
+    MaybeEstimate difference;
 };
 /// How long queues must stay back at the baseline's level to count as recovered, s. Assumed: a third of a
 /// usual cycle.

@@ -6,9 +6,8 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "report/detail/factors_json.hpp"
+#include "report/detail/json.hpp"
 #include "report/text.hpp"
 #include "results/factor_columns.hpp"
 
@@ -18,7 +17,8 @@ namespace {
 using analysis::Comparison;
 using analysis::ConditionSummary;
 using analysis::ScenarioSummary;
-using Json = nlohmann::ordered_json;
+using detail::Json;
+using detail::json_of;
 
 constexpr std::size_t comparison_label_width = 34;
 constexpr std::size_t comparison_width = 100;
@@ -80,7 +80,8 @@ class LabelColumns {
         return fmt::format("{:<{}}", text, width);
     }
     std::size_t name_width() const {
-        return width_of_factors_ + 12 <= comparison_label_width ? comparison_label_width - width_of_factors_ : comparison_label_width;
+        return width_of_factors_ + 12 <= comparison_label_width ? comparison_label_width - width_of_factors_
+                                                                : comparison_label_width;
     }
     /// A label that does not fit before the numbers gets a line of its own.
     static std::string on_line(std::string text) {
@@ -107,10 +108,6 @@ std::string p_text(const std::optional<double>& p) {
     return *p < 0.001 ? "<0.001" : number(*p, {.decimals = 3});
 }
 
-std::string optional_text(const std::optional<double>& value, NumberStyle style) {
-    return value ? number(*value, style) : missing(style.script);
-}
-
 std::string numbers_of(const Comparison& comparison) {
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
@@ -130,17 +127,9 @@ std::string numbers_of(const Comparison& comparison) {
                        difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
-                       few ? missing(Script::plain) : optional_text(comparison.effect_size, style),
+                       few ? missing(Script::plain) : number_or_dash(comparison.effect_size, style),
                        few ? missing(Script::plain) : p_text(comparison.holm_p),
                        few ? missing(Script::plain) : p_text(comparison.wilcoxon_p));
-}
-
-Json maybe_number(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-Json bounds_of(const std::optional<analysis::Interval>& interval) {
-    return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
 Json to_json(const Comparison& comparison) {
@@ -148,18 +137,17 @@ Json to_json(const Comparison& comparison) {
     return {{"complete_pairs", comparison.complete_pairs},
             {"incomplete_pairs", comparison.incomplete_pairs},
             {"vehicles_left_out", comparison.vehicles_left_out},
-            {"difference", difference ? Json(difference->mean) : Json(nullptr)},
-            {"interval_95", bounds_of(difference && comparison.complete_pairs >= analysis::fewest_for_interval
-                                          ? difference->interval
-                                          : std::nullopt)},
-            {"relative_1", comparison.relative ? Json(comparison.relative->mean) : Json(nullptr)},
-            {"bca_95", bounds_of(comparison.bootstrap)},
-            {"median", maybe_number(comparison.median)},
-            {"median_95", bounds_of(comparison.median_interval)},
-            {"effect_size_dz", maybe_number(comparison.effect_size)},
-            {"t_p", maybe_number(comparison.t_p)},
-            {"holm_p", maybe_number(comparison.holm_p)},
-            {"wilcoxon_p", maybe_number(comparison.wilcoxon_p)}};
+            {"difference", json_of(mean_of(difference))},
+            {"interval_95",
+             shown_interval(difference) != nullptr ? json_of(difference->interval) : Json(nullptr)},
+            {"relative_1", json_of(mean_of(comparison.relative))},
+            {"bca_95", json_of(comparison.bootstrap)},
+            {"median", json_of(comparison.median)},
+            {"median_95", json_of(comparison.median_interval)},
+            {"effect_size_dz", json_of(comparison.effect_size)},
+            {"t_p", json_of(comparison.t_p)},
+            {"holm_p", json_of(comparison.holm_p)},
+            {"wilcoxon_p", json_of(comparison.wilcoxon_p)}};
 }
 
 }  // namespace
@@ -190,16 +178,6 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
     }
 }
 
-std::string trips_cell(const std::optional<analysis::TripStatistic>& trips, double factor, Sign sign) {
-    if (!trips) return missing(Script::plain);
-    const NumberStyle style{.decimals = 1};
-    std::string text = number(factor * trips->value, {.decimals = 1, .sign = sign});
-    if (trips->interval)
-        text += fmt::format(" [{}, {}]", number(factor * trips->interval->low, style),
-                            number(factor * trips->interval->high, style));
-    return text;
-}
-
 /// Response times of the conditions that are compared; nothing where no EV arrived.
 std::string response_text(const ScenarioSummary& scenario, const LabelColumns& labels) {
     constexpr const char* format = "{:>8}  {:<19}  {:>8}  {:<19}\n";
@@ -209,14 +187,14 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
         const analysis::ResponseTime& response = condition.response;
         if (condition.baseline.empty() || response.threshold_s <= 0.0) continue;
         threshold_s = response.threshold_s;
-        const auto cell = [](const std::optional<analysis::TripStatistic>& trips, double factor) {
-            return trips ? number(factor * trips->value, {.decimals = 1}) : missing(Script::plain);
+        const auto cell = [](const MaybeEstimate& trips, double factor) {
+            return trips ? number(factor * trips->mean, {}) : missing(Script::plain);
         };
         rows += labels.of(condition) +
                 fmt::format(fmt::runtime(format), cell(response.percentile_90_s, 1.0),
-                            trips_cell(response.percentile_90_difference_s, 1.0, Sign::always),
+                            estimate(response.percentile_90_difference_s, {.sign = Sign::always}),
                             cell(response.in_time, 100.0),
-                            trips_cell(response.in_time_difference, 100.0, Sign::always));
+                            estimate(response.in_time_difference, {.sign = Sign::always}, 100.0));
     }
     if (rows.empty()) return rows;
     return fmt::format(
@@ -226,18 +204,19 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
         comparison_width, rows);
 }
 
-Json to_json(const std::optional<analysis::TripStatistic>& trips) {
+Json trips_json(const MaybeEstimate& trips) {
     if (!trips) return nullptr;
-    return {{"value", trips->value}, {"bca_95", bounds_of(trips->interval)}};
+    return {{"value", trips->mean}, {"bca_95", json_of(trips->interval)}};
 }
 
 Json to_json(const analysis::ResponseTime& response) {
+    const MaybeEstimate& difference = response.percentile_90_difference_s;
     return {{"threshold_s", response.threshold_s},
-            {"percentile_90_s", to_json(response.percentile_90_s)},
-            {"percentile_90_difference_s", to_json(response.percentile_90_difference_s)},
-            {"in_time_1", to_json(response.in_time)},
-            {"in_time_difference_1", to_json(response.in_time_difference)},
-            {"complete_pairs", response.pairs}};
+            {"percentile_90_s", trips_json(response.percentile_90_s)},
+            {"percentile_90_difference_s", trips_json(difference)},
+            {"in_time_1", trips_json(response.in_time)},
+            {"in_time_difference_1", trips_json(response.in_time_difference)},
+            {"complete_pairs", difference ? difference->n : 0}};
 }
 
 std::string unpaired_line(const analysis::Unpaired& lost) {
@@ -246,15 +225,20 @@ std::string unpaired_line(const analysis::Unpaired& lost) {
     return fmt::format("Not paired: {}{}{}\n", where, where.empty() ? "" : ": ", lost.why);
 }
 
-/// What differs between the conditions of one name.
+/// What differs between the folders and between their conditions of one name.
 std::string differing_text(const analysis::Summary& summary) {
     std::string text;
+    std::string builds;
+    if (summary.builds)
+        builds = fmt::format(
+            "Made by different builds of Clearway: {} in the first folder and {} in the second.\n\n",
+            printable(summary.builds->first), printable(summary.builds->second));
     for (const analysis::ConditionDifference& one : summary.differing)
         text +=
             fmt::format("{}: {} is {} in the first folder and {} in the second.\n", printable(one.condition),
                         printable(one.setting), printable(one.first.value_or("as shipped")),
                         printable(one.second.value_or("as shipped")));
-    return text.empty() ? text : "Conditions of the same name differ:\n" + text + "\n";
+    return builds + (text.empty() ? text : "Conditions of the same name differ:\n" + text + "\n");
 }
 
 /// The lines before the tables.
@@ -379,11 +363,13 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
     Json unpaired = Json::array();
     for (const analysis::Unpaired& lost : summary.unpaired)
         unpaired.push_back({{"scenario", lost.scenario}, {"condition", lost.condition}, {"why", lost.why}});
-    const Json result = {{"comparisons", std::move(comparisons)},
-                         {"differing_settings", std::move(differing)},
-                         {"unpaired", std::move(unpaired)},
-                         {"short_of_tolerance", std::move(gates)}};
-    return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    Json result = {{"comparisons", std::move(comparisons)},
+                   {"differing_settings", std::move(differing)},
+                   {"unpaired", std::move(unpaired)},
+                   {"short_of_tolerance", std::move(gates)}};
+    if (summary.builds)
+        result["builds"] = {{"first", summary.builds->first}, {"second", summary.builds->second}};
+    return detail::to_text(result);
 }
 
 }  // namespace clearway::report

@@ -46,20 +46,20 @@ void append_row(std::string line, std::string& text) {
 }
 
 std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
-    const auto value = published_value(scenario.published_as, condition.name, measure);
+    const auto value = published_value(scenario.published_as, condition.name(), measure);
     return value ? number(*value, {.decimals = 1}) : std::string();
 }
 
 /// `8.1 +- 0.9`: the mean and half the width of its interval; `0.4 (<2.1)` if the bound at 0 makes it
 /// asymmetric.
-std::string mean_and_half_width(const Estimate& value, NumberStyle style) {
-    if (!value.mean) return missing(style.script);
-    std::string text = number(*value.mean, style);
-    if (!value.has_interval()) return text;
-    const double above = *value.high - *value.mean;
-    const bool is_lopsided = above > 1.001 * (*value.mean - *value.low) + 1e-9;
-    if (is_lopsided) return text + fmt::format(" (<{})", number(*value.high, style));
-    return text + fmt::format(" +- {}", number((*value.high - *value.low) / 2.0, style));
+std::string mean_and_half_width(const MaybeEstimate& value, NumberStyle style) {
+    if (!value) return missing(style.script);
+    const std::string text = number(value->mean, style);
+    const analysis::Interval* const interval = shown_interval(value);
+    if (interval == nullptr) return text;
+    const bool is_lopsided = interval->high - value->mean > 1.001 * (value->mean - interval->low) + 1e-9;
+    return text + (is_lopsided ? fmt::format(" (<{})", number(interval->high, style))
+                               : fmt::format(" +- {}", number(interval->half_width(), style)));
 }
 
 /// Fits a column of TABLES II to IV.
@@ -91,7 +91,7 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
         std::string line = row_start(condition);
         for (const Measure measure : columns) {
             const NumberStyle style{.decimals = decimals_of(scenario, measure)};
-            line += fmt::format("{:>{}}{:>{}}", mean_and_half_width(condition.outcome(measure).value, style),
+            line += fmt::format("{:>{}}{:>{}}", mean_and_half_width(condition.value(measure), style),
                                 here_width, published_text(scenario, condition, measure), published_width);
         }
         append_row(std::move(line), text);
@@ -99,14 +99,13 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
 }
 
 /// Mean right-aligned, then the interval.
-std::string split_cell(const Estimate& value, NumberStyle style, double factor) {
-    if (!value.mean) return fmt::format("{:>7}  {:<14} ", missing(style.script), "");
-    const std::string whole = estimate(value, style, factor);
-    const std::size_t space = whole.find(' ');
-    return fmt::format("{:>7}  {:<14} ", whole.substr(0, space),
-                       space != std::string::npos ? whole.substr(space + 1)
-                       : value.too_few()          ? "too few seeds"
-                                                  : "(no interval)");
+std::string split_cell(const MaybeEstimate& value, NumberStyle style, double factor = 1.0) {
+    const analysis::Interval* const interval = shown_interval(value);
+    return fmt::format("{:>7}  {:<14} ", value ? number(value->mean * factor, style) : missing(style.script),
+                       !value                                     ? ""
+                       : interval != nullptr                      ? interval_text(*interval, style, factor)
+                       : value->n < analysis::fewest_for_interval ? "too few seeds"
+                                                                  : "(no interval)");
 }
 
 bool is_about_emergency(const MeasureInfo& measure) {
@@ -123,10 +122,10 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
     return "others lost";
 }
 
-std::string response_word(const Estimate& difference, Better better) {
-    if (!difference.has_interval()) return "";
-    if (*difference.low <= 0.0 && *difference.high >= 0.0) return "none shown";
-    return (*difference.low > 0.0) == (better == Better::higher) ? "better" : "worse";
+std::string response_word(const MaybeEstimate& difference, Better better) {
+    const Effect effect = effect_of(difference, better);
+    if (effect == Effect::too_few || effect == Effect::undecided) return "";
+    return effect == Effect::none_shown ? "none shown" : std::string(core::name(effect));
 }
 
 void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {
@@ -134,14 +133,13 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
     fmt::format_to(out, "\n{}, {}\n", measure.title, measure.unit);
     const int decimals = decimals_of(scenario, measure.measure);
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Outcome& outcome = condition.outcome(measure.measure);
-        std::string line =
-            row_start(condition) + split_cell(outcome.value, {.decimals = decimals}, measure.printed_factor);
+        std::string line = row_start(condition) + split_cell(condition.value(measure.measure),
+                                                             {.decimals = decimals}, measure.printed_factor);
         if (is_void_for_lost(condition, measure.measure)) {
-            line += std::string(split_cell({}, {}, 1.0).size(), ' ') + "lost EVs";
+            line += std::string(split_cell({}, {}).size(), ' ') + "lost EVs";
         } else if (condition.is_compared()) {
-            line += split_cell(outcome.difference, {.decimals = decimals, .sign = Sign::always},
-                               measure.printed_factor) +
+            line += split_cell(condition.difference(measure.measure),
+                               {.decimals = decimals, .sign = Sign::always}, measure.printed_factor) +
                     effect_word(condition, measure.measure);
         }
         append_row(std::move(line), text);
@@ -175,7 +173,8 @@ void append_runs(const ScenarioFacts& scenario, std::string& text) {
         if (condition.failed.empty()) continue;
         append_wrapped(
             fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
-                        counted(condition.failed.size(), "run"), condition.failed.size() + condition.runs,
+                        counted(condition.failed.size(), "run"),
+                        condition.failed.size() + condition.complete_runs,
                         condition.failed.front().replication, printable(condition.failed.front().cause)),
             text);
     }
@@ -187,32 +186,35 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
     fmt::format_to(out, "\nEV travel time over all EVs, s\n{:<{}}{:>7}  {:<14}{:>8}  {}\n{:-<{}}\n", "",
                    label_width, "median", "95 % interval", "95th pc.", "95 % interval", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        append_row(row_start(condition) + split_cell(condition.travel_time_median, {}, 1.0) +
-                       split_cell(condition.travel_time_percentile_95, {}, 1.0),
+        append_row(row_start(condition) + split_cell(condition.travel_time.median, {}) +
+                       split_cell(condition.travel_time.percentile_95, {}),
                    text);
     }
 }
 
-void append_trips(const ScenarioFacts& scenario, const Outcome ConditionFacts::*member, double factor,
+using Trips = MaybeEstimate analysis::ResponseTime::*;
+
+void append_trips(const ScenarioFacts& scenario, Trips value, Trips difference, double factor,
                   std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Outcome& outcome = condition.*member;
-        std::string line = row_start(condition) + split_cell(outcome.value, {}, factor);
+        const analysis::ResponseTime& response = condition.response;
+        std::string line = row_start(condition) + split_cell(response.*value, {}, factor);
         if (condition.is_compared())
-            line += split_cell(outcome.difference, {.sign = Sign::always}, factor) +
-                    response_word(outcome.difference, factor > 1.0 ? Better::higher : Better::lower);
+            line += split_cell(response.*difference, {.sign = Sign::always}, factor) +
+                    response_word(response.*difference, factor > 1.0 ? Better::higher : Better::lower);
         append_row(std::move(line), text);
     }
 }
 
 /// How many EVs are in time, and how late the slow ones are.
 void append_response(const ScenarioFacts& scenario, std::string& text) {
+    using Response = analysis::ResponseTime;
     if (scenario.response_threshold_s <= 0.0) return;
     constexpr double percent = 100.0;
     text += "\nEV response time, 90th percentile, s\n";
-    append_trips(scenario, &ConditionFacts::response_percentile_90, 1.0, text);
+    append_trips(scenario, &Response::percentile_90_s, &Response::percentile_90_difference_s, 1.0, text);
     fmt::format_to(std::back_inserter(text), "\nEV trips within {:g} s, %\n", scenario.response_threshold_s);
-    append_trips(scenario, &ConditionFacts::response_in_time, percent, text);
+    append_trips(scenario, &Response::in_time, &Response::in_time_difference, percent, text);
 }
 
 /// How signals served EVs, a line for each condition that asked them.
@@ -227,18 +229,12 @@ void append_signals(const ScenarioFacts& scenario, std::string& text) {
     constexpr int width = 9;
     std::string rows;
     for (const ConditionFacts& condition : scenario.conditions) {
+        if (condition.complete_runs == 0 || condition.total("signal_calls") == 0.0) continue;
         std::string line = row_start(condition);
-        bool is_asked = false;
-        for (const auto& [metric, title] : columns) {
-            const std::string_view name = metric;
-            const auto fact = std::ranges::find_if(
-                condition.safety, [&](const SafetyFacts& one) { return one.metric == name; });
-            const bool is_known = fact != condition.safety.end() && fact->value.mean;
-            is_asked = is_asked || is_known;
-            line += fmt::format("{:>{}}", is_known ? number(*fact->value.mean, {}) : missing(Script::plain),
-                                width);
-        }
-        if (is_asked) append_row(std::move(line), rows);
+        for (const auto& [metric, title] : columns)
+            line +=
+                fmt::format("{:>{}}", number_or_dash(mean_of(condition.metric(metric).estimate), {}), width);
+        append_row(std::move(line), rows);
     }
     if (rows.empty()) return;
     text += fmt::format("\n{:<{}}", "Signals, mean of runs", label_width);
@@ -250,7 +246,7 @@ void append_signals(const ScenarioFacts& scenario, std::string& text) {
 /// Pairs and vehicles that the differences of EV travel time leave out.
 void append_censored(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        const auto& paired = condition.outcome(Measure::emergency_travel_time).paired;  // arrived only
+        const auto& paired = condition.outcome(Measure::emergency_travel_time).comparison;  // arrived only
         if (!paired || (paired->incomplete_pairs == 0 && paired->vehicles_left_out == 0)) continue;
         append_wrapped(fmt::format("Left out of the differences of EV travel time, arrived only: {}: {} of "
                                    "{} in which no EV arrived in both conditions, and {} in the other pairs.",
@@ -264,14 +260,14 @@ void append_censored(const ScenarioFacts& scenario, std::string& text) {
 std::uint64_t emergency_vehicles(const ScenarioFacts& scenario) {
     std::uint64_t most = 0;
     for (const ConditionFacts& condition : scenario.conditions)
-        most = std::max(most, condition.emergency.all());
+        most = std::max(most, condition.emergency.total());
     return most;
 }
 
 /// What the policies asked for, because it often explains a null result.
 void append_leases(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.has_policy || condition.runs == 0) continue;
+        if (condition.condition.policies.empty() || condition.complete_runs == 0) continue;
         append_wrapped(
             fmt::format("Actions: {}: {}.", label(condition), printable(lease_sentence(condition))), text);
     }
@@ -282,8 +278,8 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
     fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) per condition\n", "", page_width,
                    printable(scenario.name), counted(scenario.replications, "replication"),
                    counted(emergency, "emergency vehicle"));
-    const bool has_runs =
-        std::ranges::any_of(scenario.conditions, [](const auto& condition) { return condition.runs > 0; });
+    const bool has_runs = std::ranges::any_of(
+        scenario.conditions, [](const auto& condition) { return condition.complete_runs > 0; });
     if (emergency == 0 && has_runs)
         append_wrapped(
             "The demand has no emergency vehicle (emergency = 0): rows about EVs are left out, and there is "
@@ -299,25 +295,19 @@ bool is_essential(Measure measure) {
 /// for them, unless they stand out.
 ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scenario) {
     ScenarioFacts kept = scenario;
-    std::vector<std::size_t> places;
-    kept.conditions.clear();
-    for (const ConditionFacts& condition : scenario.conditions) {
+    std::erase_if(kept.conditions, [&](const ConditionFacts& condition) {
         const ConditionFacts* const reference = reference_of(study, scenario, condition);
-        places.push_back(kept.conditions.size());
-        if (reference == nullptr || stands_out(condition, *reference)) kept.conditions.push_back(condition);
-    }
-    for (ConditionFacts& condition : kept.conditions) {
-        if (condition.baseline) condition.baseline = places[*condition.baseline];
-    }
+        return reference != nullptr && !stands_out(condition, *reference);
+    });
     return kept;
 }
 
 void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
-        append_wrapped(
-            fmt::format("{}: {}", label(condition), printable(verdict(scenario, condition, Script::plain))),
-            text);
+        append_wrapped(fmt::format("{}: {}", label(condition),
+                                   printable(verdict(scenario, condition, Script::plain).text())),
+                       text);
     }
     append_leases(scenario, text);
 }
@@ -364,9 +354,8 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
                 append_wrapped(printable(sensitivity_sentence(sensitivity)) + ".", text);
         }
         append_scenario(tables == Tables::all ? scenario : without_levels(study, scenario), tables, text);
-        any_unsafe =
-            any_unsafe || std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
-                                      [](const ConditionFacts& one) { return one.safety_checks_off; });
+        any_unsafe = any_unsafe || std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
+                                               [](const ConditionFacts& one) { return one.is_unchecked(); });
     }
     text += safe_table(failure_table(study.failure_curves));
     text += safe_table(sensitivity_table(

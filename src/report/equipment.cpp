@@ -16,7 +16,6 @@ namespace clearway::report {
 namespace {
 
 using analysis::EquipEnd;
-using MaybeEstimate = std::optional<analysis::Estimate>;
 using Json = nlohmann::ordered_json;
 
 constexpr double great_share = 0.8;
@@ -132,14 +131,6 @@ void append_row(std::string& csv, std::size_t equipped, const EquipmentFacts& fa
     csv += "\n";
 }
 
-void include(detail::Range& range, const MaybeEstimate& estimate) {
-    if (!estimate) return;
-    range.include(estimate->mean);
-    if (!estimate->interval) return;
-    range.include(estimate->interval->low);
-    range.include(estimate->interval->high);
-}
-
 }  // namespace
 
 std::optional<double> share_of_all(const EquipmentFacts& facts, const EquippedSignal& signal) {
@@ -224,9 +215,9 @@ std::string equipment_curve(const EquipmentFacts& facts) {
     numbers.include(static_cast<double>(std::max<std::size_t>(facts.ranked.size(), 1)));
     detail::Range gains;
     gains.include(0.0);
-    include(gains, facts.all_gain);
+    gains.include_all(facts.all_gain);
     for (const EquippedSignal& signal : facts.ranked)
-        include(gains, signal.so_far);
+        gains.include_all(signal.so_far);
     detail::Plot plot(
         fmt::format("{}: gain against number of signals equipped", facts.title), height,
         {detail::padded(numbers, 0.05), "signals equipped", detail::left_edge, detail::right_edge},

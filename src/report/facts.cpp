@@ -1,5 +1,7 @@
 #include "report/facts.hpp"
 
+#include <algorithm>
+
 namespace clearway::report {
 
 const std::array<MeasureInfo, measure_count>& measures() {
@@ -46,6 +48,21 @@ const std::array<MeasureInfo, measure_count>& measures() {
 
 const MeasureInfo& info(Measure measure) {
     return measures()[static_cast<std::size_t>(measure)];
+}
+
+std::size_t ScenarioFacts::place_of(const std::string& condition) const {
+    const auto found = std::ranges::find(conditions, condition, &ConditionFacts::name);
+    return static_cast<std::size_t>(found - conditions.begin());
+}
+
+const ConditionFacts* ScenarioFacts::baseline_of(const ConditionFacts& condition) const {
+    const std::size_t place = condition.is_compared() ? place_of(condition.baseline) : conditions.size();
+    return place == conditions.size() ? nullptr : &conditions[place];
+}
+
+std::string ScenarioFacts::place_name(const std::string& edge) const {
+    const auto street = streets.find(edge);
+    return street == streets.end() || street->second.empty() ? edge : street->second + " (" + edge + ")";
 }
 
 }  // namespace clearway::report

@@ -3,16 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "analysis/estimate.hpp"
-#include "analysis/objections.hpp"
 #include "analysis/planned_findings.hpp"
+#include "analysis/summary.hpp"
 #include "core/settings.hpp"
-#include "metrics/lease_row.hpp"
 #include "report/failure_curve.hpp"
 #include "report/map.hpp"
 #include "report/sensitivity.hpp"
@@ -35,6 +35,8 @@ enum class Measure : std::uint8_t {
     unfinished,
 };
 inline constexpr std::size_t measure_count = 12;
+/// The measure of verdicts: analysis::primary_metric.
+inline constexpr Measure primary = Measure::emergency_restricted_time;
 
 /// Which direction of a measure is better.
 enum class Better : std::uint8_t { lower, higher };
@@ -64,76 +66,6 @@ struct MeasureInfo {
 const std::array<MeasureInfo, measure_count>& measures();
 const MeasureInfo& info(Measure measure);
 
-/// A mean over replications with its 95 % interval. Fewer than `analysis::fewest_for_interval` replications
-/// have none.
-struct Estimate {
-    std::optional<double> mean;
-    std::optional<double> low;   ///< Exists together with `high`.
-    std::optional<double> high;  ///< 95 %.
-    std::uint64_t count = 0;     ///< Replications (of a difference: complete pairs) behind it.
-
-    bool too_few() const { return mean.has_value() && count < analysis::fewest_for_interval; }
-    bool has_interval() const { return low.has_value() && high.has_value() && !too_few(); }
-};
-
-/// Statistics of a paired difference besides its mean and t interval.
-struct PairedStatistics {
-    std::uint64_t complete_pairs = 0;
-    std::uint64_t incomplete_pairs = 0;   ///< Replications without a value in one of the two conditions.
-    std::uint64_t vehicles_left_out = 0;  ///< EVs of complete pairs that did not arrive in both.
-    Estimate bootstrap;                   ///< The mean difference again, with its BCa interval.
-    Estimate median;                      ///< Of the differences, with an interval from order statistics.
-    std::optional<double> effect_size;    ///< Cohen's d for pairs, d_z.
-    std::optional<double> t_p;
-    std::optional<double> wilcoxon_p;
-    std::optional<double> holm_p;  ///< Over the conditions of the scenario.
-};
-
-/// One measure of one condition.
-struct Outcome {
-    Estimate value;
-    /// Paired, to the baseline of the same replications; empty if nothing is compared.
-    Estimate difference;
-    double least_relevant = 0.0;  ///< Smaller mean differences do not count; in the measure's unit.
-    std::optional<PairedStatistics> paired;
-};
-
-/// How vehicles ended.
-struct Endings {
-    std::uint64_t arrived = 0;
-    std::uint64_t running = 0;  ///< On the road when the run ended.
-    std::uint64_t teleported = 0;
-    std::uint64_t not_inserted = 0;
-    std::uint64_t removed = 0;
-
-    std::uint64_t all() const { return arrived + running + teleported + not_inserted + removed; }
-};
-
-/// What happened to the actions of a condition's policy and to its vehicles, over all completed runs.
-struct Events {
-    std::uint64_t leases_issued = 0;
-    std::uint64_t leases_refused = 0;
-    std::uint64_t leases_expired = 0;
-    std::uint64_t collisions = 0;
-    std::uint64_t emergency_collisions = 0;
-    std::uint64_t teleports = 0;
-};
-
-/// One row of a condition's table of safety, comfort and flow.
-struct SafetyFacts {
-    const char* metric = "";            ///< Name in the tables of runs, unit included; static storage.
-    const char* title = "";             ///< With the unit; static storage.
-    Estimate value;                     ///< Per run.
-    Estimate difference;                ///< Paired, to the baseline; empty if nothing is compared.
-    std::optional<double> per_1000_km;  ///< For counts: over all runs, per 1,000 vehicle-kilometres.
-};
-
-/// EV travel times of one replication, s: restricted means over all EVs.
-struct TravelTimePair {
-    double baseline_s = 0.0;
-    double condition_s = 0.0;
-};
-
 /// Half width of the interval of the difference in restricted mean EV travel time after a number of
 /// replications.
 struct PrecisionPoint {
@@ -151,33 +83,12 @@ struct Precision {
 inline constexpr std::uint64_t most_replications_asked = 200;
 inline constexpr std::size_t precision_points = 200;
 
-/// What a condition costs on one approach against the baseline, s per run, summed over all vehicles that are
-/// not EVs.
-struct ApproachFacts {
-    std::string edge;
-    std::string street;   ///< May be empty.
-    Estimate difference;  ///< Time lost.
-    Estimate human;       ///< Of it, human-driven vehicles.
-    Estimate automated;   ///< Of it, automated vehicles.
-    Estimate waiting;     ///< Waiting time.
-    std::optional<double> baseline_s;
-    std::optional<double> vehicles;       ///< Per run, in the baseline.
-    std::optional<double> per_vehicle_s;  ///< Mean difference per vehicle.
-};
-
 /// A counted flow and the flow of the baseline's runs at the same place.
 struct FlowFacts {
     std::string edge;
-    std::string street;  ///< May be empty.
     double counted_per_hour = 0.0;
     std::optional<double> modelled_per_hour;  ///< Mean over the runs; nothing without a complete run.
     std::optional<double> geh;
-};
-
-/// Difference to the baseline in halted vehicles on the other approaches of a signal, around an EV's passage.
-struct RecoveryFacts {
-    double offset_s = 0.0;
-    Estimate halted;
 };
 
 /// A moment of an EV's journey; times count from its departure.
@@ -202,6 +113,10 @@ struct JourneyFacts {
     std::vector<SignalSpan> signals;
 };
 
+/// The metrics of what happened to the actions of a policy and on the road.
+inline constexpr std::array event_metrics = {"leases_issued", "leases_refused",       "leases_expired",
+                                             "collisions",    "emergency_collisions", "teleports"};
+
 /// A run without a result.
 struct FailedRun {
     std::uint32_t replication = 0;
@@ -223,50 +138,44 @@ struct Distribution {
 };
 inline constexpr std::size_t distribution_points = 200;  // as many as a figure of 400 px can show
 
-struct ConditionFacts {
-    std::string name;
-    std::string title;       ///< As in the dissertation where it has the condition, else the name.
-    std::string recipe;      ///< Failure, predictor and policies, in words.
-    core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
-    /// Index in the scenario of the condition that it is compared with (same traffic model). Empty for a
-    /// baseline and for EVs alone on the road, which are a lower bound and not a condition to judge.
-    std::optional<std::size_t> baseline;
-    bool safety_checks_off = false;
-    analysis::Objections objections;  ///< Against the baseline.
-    bool has_policy = false;
-    bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.
-    std::vector<analysis::IdlePart> idle_parts;
-    /// What its policy asked for, over all complete runs; nothing if the records do not contain it.
-    std::optional<std::vector<metrics::LeaseRow>> leases;
-    std::array<Outcome, measure_count> outcomes;
-    std::uint64_t runs_without_horizon = 0;  ///< See analysis::ConditionSummary.
-    Endings emergency;
-    Endings others;
-    std::uint64_t runs = 0;          ///< Completed.
-    std::uint64_t missing_runs = 0;  ///< Neither completed nor failed: the study is incomplete.
-    std::vector<FailedRun> failed;
-    Distribution travel_time;
-    Estimate travel_time_median;         ///< Over all EVs; without a value if fewer than half arrived.
-    Estimate travel_time_percentile_95;  ///< Likewise.
-    /// Over all EVs; one that did not arrive counts with the horizon. See analysis::ResponseTime.
-    Outcome response_percentile_90;
-    Outcome response_in_time;  ///< Share of trips within ScenarioFacts::response_threshold_s.
-    std::vector<TravelTimePair> travel_time_pairs;  ///< Complete ones, in the order of the replications.
-    std::optional<Precision> precision;             ///< Nothing below two pairs.
-    Events events;
-    std::vector<SafetyFacts> safety;        ///< In the order of the table.
-    std::vector<ApproachFacts> approaches;  ///< Largest changes first; empty if nothing is compared.
-    std::vector<RecoveryFacts> recovery;    ///< Ascending; likewise.
-    std::optional<double> recovered_after_s;
+using analysis::MaybeEstimate;
+using analysis::mean_of;
+using analysis::shown_interval;
 
-    bool is_compared() const { return baseline.has_value(); }
+/// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
+struct ConditionFacts : analysis::ConditionSummary {
+    std::string title;         ///< As in the dissertation where it has the condition, else the name.
+    std::string recipe;        ///< Failure, predictor and policies, in words.
+    core::Settings factors;    ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
+    bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.
+    double least_relevant_s = 0.0;  ///< Smaller mean differences of EV times do not count.
+    std::vector<FailedRun> failed;
+    Distribution distribution;           ///< Of EV travel times.
+    std::optional<Precision> precision;  ///< Nothing below two pairs.
+
+    const std::string& name() const { return condition.name; }
+    /// Not so for baselines, and for EVs alone on the road, which are a lower bound and not a condition to
+    /// judge.
+    bool is_compared() const { return !baseline.empty(); }
+    bool is_unchecked() const { return condition.safety_checks == traffic::SafetyChecks::off; }
     /// The name for tables, legends and figures: the title, with marks if safety checks were off and if it
     /// knows the truth.
     std::string label() const {
-        return title + (safety_checks_off ? " (!)" : "") + (knows_truth ? " (knows the truth)" : "");
+        return title + (is_unchecked() ? " (!)" : "") + (knows_truth ? " (knows the truth)" : "");
     }
-    const Outcome& outcome(Measure measure) const { return outcomes[static_cast<std::size_t>(measure)]; }
-    Outcome& outcome(Measure measure) { return outcomes[static_cast<std::size_t>(measure)]; }
+    const analysis::MetricSummary& outcome(Measure measure) const { return metric(info(measure).field); }
+    const MaybeEstimate& value(Measure measure) const { return outcome(measure).estimate; }
+    /// Paired, to the baseline of the same replications; nothing if nothing is compared.
+    const MaybeEstimate& difference(Measure measure) const {
+        static const MaybeEstimate none;
+        const auto& comparison = outcome(measure).comparison;
+        return comparison ? comparison->difference : none;
+    }
+    /// Smaller mean differences do not count; in the measure's unit.
+    double least_relevant(Measure measure) const {
+        return info(measure).relevance == Relevance::least ? least_relevant_s : 0.0;
+    }
+    std::uint64_t count(std::string_view metric) const { return static_cast<std::uint64_t>(total(metric)); }
 };
 
 /// An edge with at least three lanes for cars; the dissertation's networks are said to have fewer.
@@ -274,15 +183,6 @@ struct WideEdge {
     std::string edge;
     std::string street;  ///< May be empty.
     int car_lanes = 0;
-};
-
-/// An edge outside junctions that emergency vehicles may drive.
-struct NetworkEdge {
-    std::string edge;
-    std::string street;  ///< May be empty.
-    double length_m = 0.0;
-    double limit_mps = 0.0;
-    bool signal = false;  ///< Whether it ends at a signal.
 };
 
 struct ScenarioFacts {
@@ -295,8 +195,8 @@ struct ScenarioFacts {
     std::string attribution;  ///< Credit that the map data requires; may be empty.
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
-    std::vector<NetworkEdge> network_edges;           ///< Empty if the folder does not list them.
-    std::optional<std::uint64_t> signals;             ///< Of the network; nothing if the folder does not say.
+    std::optional<RoadMap> roads;                     ///< Nothing if the folder does not list them.
+    std::map<std::string, std::string> streets;       ///< Their names, by edge.
     double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
@@ -305,6 +205,13 @@ struct ScenarioFacts {
     std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
     std::optional<ScenarioMap> map;          ///< Nothing where the files of the runs do not hold it.
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
+
+    /// Place of a condition by its name; the number of conditions if there is none.
+    std::size_t place_of(const std::string& condition) const;
+    /// What a condition is compared with (same traffic model); null where nothing is.
+    const ConditionFacts* baseline_of(const ConditionFacts& condition) const;
+    /// `Long Street (edge1)`, or the edge alone.
+    std::string place_name(const std::string& edge) const;
 };
 
 /// One training: losses over epochs.

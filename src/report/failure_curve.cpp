@@ -159,7 +159,7 @@ std::string failure_table(const std::vector<FailureCurve>& curves) {
                 const FailurePoint& point = line.points[at];
                 fmt::format_to(out, "{:<22}{:>4.0f} %  {:<20}{:<20}{}{}\n", at == 0 ? line.repair : "",
                                100.0 * point.dark_share,
-                               estimate(point.travel_time, {.decimals = 1, .sign = Sign::always}),
+                               estimate(point.travel_time, {.decimals = 1, .sign = Sign::ends_too}),
                                estimate(point.link_f1, {.decimals = 3}), benefit_word(point),
                                line.break_even == at ? "*" : "");
             }

@@ -1,65 +1,73 @@
-#include <nlohmann/json.hpp>
+#include "report/detail/json.hpp"
 
 #include "report/console.hpp"
-#include "report/detail/factors_json.hpp"
 #include "report/published.hpp"
+#include "report/safety.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using detail::Json;
+using detail::json_of;
 
-Json number_or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
+/// `count` is known also where there is no mean.
+Json to_json(const MaybeEstimate& estimate, const char* count_name, std::optional<std::size_t> count = {}) {
+    Json object = {{"mean", json_of(mean_of(estimate))}};
+    detail::put_ends(object, shown_interval(estimate));
+    object[count_name] = count ? *count : estimate ? estimate->n : 0;
+    return object;
 }
 
-Json to_json(const Estimate& estimate, const char* count_name) {
-    return {{"mean", number_or_null(estimate.mean)},
-            {"low_95", estimate.has_interval() ? Json(*estimate.low) : Json(nullptr)},
-            {"high_95", estimate.has_interval() ? Json(*estimate.high) : Json(nullptr)},
-            {count_name, estimate.count}};
+/// The same with the interval of however few values; null where there is no mean.
+Json with_ends(const MaybeEstimate& estimate, const char* low, const char* high) {
+    if (!estimate) return nullptr;
+    Json object = {{"mean", estimate->mean}};
+    detail::put_ends(object, detail::pointer_to(estimate->interval), low, high);
+    return object;
 }
 
-Json to_json(const Endings& endings) {
-    return {{"arrived", endings.arrived},
-            {"running_at_end", endings.running},
-            {"teleported", endings.teleported},
-            {"not_inserted", endings.not_inserted},
-            {"removed", endings.removed}};
+Json with_count(const MaybeEstimate& estimate) {
+    Json object = with_ends(estimate, "low_95", "high_95");
+    if (estimate) object["replications"] = estimate->n;
+    return object;
 }
 
-Json to_json(const PairedStatistics& paired) {
-    return {{"complete_pairs", paired.complete_pairs},
-            {"incomplete_pairs", paired.incomplete_pairs},
-            {"vehicles_left_out", paired.vehicles_left_out},
-            {"bca_low_95", number_or_null(paired.bootstrap.low)},
-            {"bca_high_95", number_or_null(paired.bootstrap.high)},
-            {"median", number_or_null(paired.median.mean)},
-            {"median_low_95", number_or_null(paired.median.low)},
-            {"median_high_95", number_or_null(paired.median.high)},
-            {"effect_size_dz", number_or_null(paired.effect_size)},
-            {"t_p", number_or_null(paired.t_p)},
-            {"holm_p", number_or_null(paired.holm_p)},
-            {"wilcoxon_p", number_or_null(paired.wilcoxon_p)}};
+Json to_json(const analysis::OutcomeCounts& outcomes) {
+    return {{"arrived", outcomes.arrived},
+            {"running_at_end", outcomes.running_at_end},
+            {"teleported", outcomes.teleported},
+            {"not_inserted", outcomes.not_inserted},
+            {"removed", outcomes.removed}};
 }
 
-Json to_json(const Events& events) {
-    return {{"leases_issued", events.leases_issued},
-            {"leases_refused", events.leases_refused},
-            {"leases_expired", events.leases_expired},
-            {"collisions", events.collisions},
-            {"emergency_collisions", events.emergency_collisions},
-            {"teleports", events.teleports}};
+Json paired_json(const analysis::Comparison& paired) {
+    Json object = {{"complete_pairs", paired.complete_pairs},
+                   {"incomplete_pairs", paired.incomplete_pairs},
+                   {"vehicles_left_out", paired.vehicles_left_out}};
+    detail::put_ends(object, detail::pointer_to(paired.bootstrap), "bca_low_95", "bca_high_95");
+    object["median"] = json_of(paired.median);
+    detail::put_ends(object, detail::pointer_to(paired.median_interval), "median_low_95", "median_high_95");
+    object["effect_size_dz"] = json_of(paired.effect_size);
+    object["t_p"] = json_of(paired.t_p);
+    object["holm_p"] = json_of(paired.holm_p);
+    object["wilcoxon_p"] = json_of(paired.wilcoxon_p);
+    return object;
 }
 
-Json to_json(const std::vector<SafetyFacts>& safety) {
+Json events_of(const ConditionFacts& condition) {
+    Json object;
+    for (const char* const metric : event_metrics)
+        object[metric] = condition.count(metric);
+    return object;
+}
+
+Json safety_of(const ConditionFacts& condition) {
     Json result = Json::object();
-    for (const SafetyFacts& row : safety) {
-        Json entry = to_json(row.value, "replications");
-        if (row.difference.mean) entry["difference"] = to_json(row.difference, "pairs");
+    for (const SafetyRow& row : safety_rows(condition)) {
+        Json& entry = result[row.metric->metric.name] = to_json(row.metric->estimate, "replications");
+        if (row.difference()) entry["difference"] = to_json(row.difference(), "pairs");
         if (row.per_1000_km) entry["per_1000_vehicle_km"] = *row.per_1000_km;
-        result[row.metric] = std::move(entry);
     }
     return result;
 }
@@ -91,16 +99,18 @@ Json to_json(const std::vector<metrics::LeaseRow>& leases) {
 Json measures_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     Json result = Json::object();
     for (const MeasureInfo& measure : measures()) {
-        const Outcome& outcome = condition.outcome(measure.measure);
-        Json entry = to_json(outcome.value, "replications");
+        Json entry = to_json(condition.value(measure.measure), "replications");
         if (condition.is_compared()) {
-            entry["difference"] = to_json(outcome.difference, "pairs");
+            const auto& paired = condition.outcome(measure.measure).comparison;
+            entry["difference"] = to_json(condition.difference(measure.measure), "pairs");
             entry["effect"] = core::name(effect_of(condition, measure.measure));
-            if (outcome.paired) entry["paired"] = to_json(*outcome.paired);
+            // Measures that are no metric of a run have no pairs.
+            if (paired && paired->complete_pairs + paired->incomplete_pairs > 0)
+                entry["paired"] = paired_json(*paired);
         }
         if (is_published(measure.measure)) {
             entry["published"] =
-                number_or_null(published_value(scenario.published_as, condition.name, measure.measure));
+                json_of(published_value(scenario.published_as, condition.name(), measure.measure));
         }
         result[measure.field] = std::move(entry);
     }
@@ -112,28 +122,28 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     for (const FailedRun& run : condition.failed) {
         failed.push_back({{"replication", run.replication}, {"cause", run.cause}});
     }
-    Json result = {
-        {"name", condition.name},
-        {"title", condition.title},
-        {"compared_with",
-         condition.is_compared() ? Json(scenario.conditions[*condition.baseline].name) : Json(nullptr)},
-        {"safety_checks", condition.safety_checks_off ? "off" : "on"},
-        {"runs", condition.runs},
-        {"failed_runs", std::move(failed)},
-        {"measures", measures_of(scenario, condition)},
-        {"emergency_travel_time_median_s", to_json(condition.travel_time_median, "replications")},
-        {"emergency_travel_time_percentile_95_s",
-         to_json(condition.travel_time_percentile_95, "replications")},
-        {"response_percentile_90_s", to_json(condition.response_percentile_90.value, "replications")},
-        {"response_in_time_1", to_json(condition.response_in_time.value, "replications")},
-        {"events", to_json(condition.events)},
-        {"safety", to_json(condition.safety)},
-        {"emergency_outcomes", to_json(condition.emergency)},
-        {"other_outcomes", to_json(condition.others)}};
+    const analysis::ResponseTime& response = condition.response;
+    Json result = {{"name", condition.name()},
+                   {"title", condition.title},
+                   {"compared_with", condition.is_compared() ? Json(condition.baseline) : Json(nullptr)},
+                   {"safety_checks", condition.is_unchecked() ? "off" : "on"},
+                   {"runs", condition.complete_runs},
+                   {"failed_runs", std::move(failed)},
+                   {"measures", measures_of(scenario, condition)},
+                   {"emergency_travel_time_median_s",
+                    to_json(condition.travel_time.median, "replications", condition.complete_runs)},
+                   {"emergency_travel_time_percentile_95_s",
+                    to_json(condition.travel_time.percentile_95, "replications", condition.complete_runs)},
+                   {"response_percentile_90_s", to_json(response.percentile_90_s, "replications")},
+                   {"response_in_time_1", to_json(response.in_time, "replications")},
+                   {"events", events_of(condition)},
+                   {"safety", safety_of(condition)},
+                   {"emergency_outcomes", to_json(condition.emergency)},
+                   {"other_outcomes", to_json(condition.others)}};
     if (condition.is_compared()) {
         result["response_percentile_90_s"]["difference"] =
-            to_json(condition.response_percentile_90.difference, "pairs");
-        result["response_in_time_1"]["difference"] = to_json(condition.response_in_time.difference, "pairs");
+            to_json(response.percentile_90_difference_s, "pairs");
+        result["response_in_time_1"]["difference"] = to_json(response.in_time_difference, "pairs");
     }
     if (condition.leases) result["leases"] = to_json(*condition.leases);
     if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
@@ -144,7 +154,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
             {"replications_needed", open ? Json(condition.precision->needed) : Json(nullptr)}};
     }
     if (condition.is_compared()) result["objections"] = to_json(condition.objections);
-    if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain);
+    if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain).text();
     return result;
 }
 
@@ -156,24 +166,16 @@ Json to_json(const std::vector<WideEdge>& edges) {
     return rows;
 }
 
-Json to_json(const std::optional<analysis::Estimate>& estimate) {
-    if (!estimate) return nullptr;
-    const auto& interval = estimate->interval;
-    return {{"mean", estimate->mean},
-            {"low_95", interval ? Json(interval->low) : Json(nullptr)},
-            {"high_95", interval ? Json(interval->high) : Json(nullptr)},
-            {"replications", estimate->n}};
-}
-
 Json to_json(const FailureCurve& curve) {
     Json repairs = Json::array();
     for (const FailureLine& line : curve.lines) {
         Json points = Json::array();
         for (const FailurePoint& point : line.points) {
-            points.push_back({{"dark_share", point.dark_share},
-                              {"emergency_restricted_travel_time_difference_s", to_json(point.travel_time)},
-                              {"objections", analysis::emergency_objections(point.objections)},
-                              {"link_f1", to_json(point.link_f1)}});
+            points.push_back(
+                {{"dark_share", point.dark_share},
+                 {"emergency_restricted_travel_time_difference_s", with_count(point.travel_time)},
+                 {"objections", analysis::emergency_objections(point.objections)},
+                 {"link_f1", with_count(point.link_f1)}});
         }
         repairs.push_back({{"repair", line.repair},
                            {"break_even_dark_share",
@@ -194,8 +196,8 @@ Json to_json(const Sensitivity& sensitivity) {
             levels.push_back(
                 {{"condition", level.condition},
                  {"value", level.value},
-                 {"emergency_travel_time_difference_s", to_json(level.emergency)},
-                 {"others_time_loss_difference_s", to_json(level.others)},
+                 {"emergency_travel_time_difference_s", with_count(level.emergency)},
+                 {"others_time_loss_difference_s", with_count(level.others)},
                  {"objection", level.objection.empty() ? Json(nullptr) : Json(level.objection)}});
         settings.push_back({{"setting", row.setting},
                             {"shipped", row.shipped.empty() ? Json(nullptr) : Json(row.shipped)},
@@ -204,15 +206,6 @@ Json to_json(const Sensitivity& sensitivity) {
     return {{"scenario", sensitivity.scenario},
             {"condition", sensitivity.condition},
             {"settings", std::move(settings)}};
-}
-
-/// The interval has the level of the plan.
-Json with_bounds(const std::optional<analysis::Estimate>& estimate) {
-    if (!estimate) return nullptr;
-    const auto& interval = estimate->interval;
-    return {{"mean", estimate->mean},
-            {"low", interval ? Json(interval->low) : Json(nullptr)},
-            {"high", interval ? Json(interval->high) : Json(nullptr)}};
 }
 
 Json plan_json(const StudyFacts& study) {
@@ -224,9 +217,9 @@ Json plan_json(const StudyFacts& study) {
                             {"against", finding.comparison.against},
                             {"claim", results::name(finding.comparison.claim)},
                             {"pairs", finding.pairs},
-                            {"difference_s", with_bounds(finding.difference)},
-                            {"p", number_or_null(finding.p)},
-                            {"holm_p", number_or_null(finding.holm_p)},
+                            {"difference_s", with_ends(finding.difference, "low", "high")},
+                            {"p", json_of(finding.p)},
+                            {"holm_p", json_of(finding.holm_p)},
                             {"margin_s", finding.margin_s},
                             {"shown", analysis::name(finding.shown)}});
     }
@@ -258,7 +251,7 @@ std::string json_tables(const StudyFacts& study) {
     for (const Sensitivity& sensitivity : study.sensitivities) {
         result["sensitivities"].push_back(to_json(sensitivity));
     }
-    return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return detail::to_text(result);
 }
 
 }  // namespace clearway::report

@@ -84,7 +84,6 @@ struct Reach {
 
 /// What the maps of a scenario show of one condition.
 struct ScenarioMap {
-    RoadMap roads;
     std::size_t condition = 0;  ///< In the scenario; the one that its first screen is about.
     std::vector<EdgeTimes> times;
     std::vector<SignalHolds> holds;

@@ -9,12 +9,6 @@
 namespace clearway::report {
 namespace {
 
-constexpr Measure primary = Measure::emergency_restricted_time;
-
-const Estimate& difference_of(const ConditionFacts& condition, Measure measure) {
-    return condition.outcome(measure).difference;
-}
-
 /// Seconds without a sign: whole ones from 10 s on, else one decimal.
 std::string seconds(double value, Script script) {
     return number(std::abs(value), {std::abs(value) < 9.95 ? 1 : 0, script}) + " s";
@@ -25,21 +19,13 @@ std::string signed_seconds(double value, Script script) {
 }
 
 /// `95 % interval -30 to -22 s`; empty without one.
-std::string interval_words(const Estimate& difference, Script script) {
-    if (!difference.has_interval()) return {};
-    const double most = std::max(std::abs(*difference.low), std::abs(*difference.high));
+std::string interval_words(const MaybeEstimate& difference, Script script) {
+    const analysis::Interval* const interval = shown_interval(difference);
+    if (interval == nullptr) return {};
+    const double most = std::max(std::abs(interval->low), std::abs(interval->high));
     const NumberStyle style{most < 9.95 ? 1 : 0, script};
-    return fmt::format("95 % interval {} to {} s", number(*difference.low, style),
-                       number(*difference.high, style));
-}
-
-/// Difference in EV travel time as a share of the baseline's, %.
-std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    const auto& difference = difference_of(condition, primary).mean;
-    if (!difference || !condition.baseline) return std::nullopt;
-    const auto& base = scenario.conditions[*condition.baseline].outcome(primary).value.mean;
-    if (!base || *base == 0.0) return std::nullopt;
-    return 100.0 * *difference / *base;
+    return fmt::format("95 % interval {} to {} s", number(interval->low, style),
+                       number(interval->high, style));
 }
 
 /// ` (24 %)`, or nothing.
@@ -53,8 +39,8 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
     const std::string& noun = scenario.emergency_noun;
     if (condition.objections.on_emergency())
         return fmt::format("{} {}", name, analysis::emergency_objections(condition.objections));
-    const Estimate& difference = difference_of(condition, primary);
-    const double mean = difference.mean.value_or(0.0);
+    const MaybeEstimate& difference = condition.difference(primary);
+    const double mean = mean_of(difference).value_or(0.0);
     const std::string share = percent_words(scenario, condition, script);
     switch (effect_of(condition, primary)) {
         case Effect::better:
@@ -68,20 +54,19 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
             return fmt::format("No effect of {} on {} is shown ({} a trip)", name, noun,
                                signed_seconds(mean, script));
         case Effect::too_few:
-            return fmt::format("No verdict on {} yet: {} of at least {} runs", name, difference.count,
+            return fmt::format("No verdict on {} yet: {} of at least {} runs", name, difference->n,
                                analysis::fewest_for_interval);
         case Effect::ruled_out:
         case Effect::undecided:
             break;
     }
-    if (condition.emergency.all() == 0 && condition.runs > 0)
+    if (condition.emergency.total() == 0 && condition.complete_runs > 0)
         return fmt::format("No verdict on {}: the demand has no emergency vehicle", name);
-    return fmt::format("No verdict on {}: {}", name,
-                       difference.mean ? "no interval" : "no complete pair of runs");
+    return fmt::format("No verdict on {}: {}", name, difference ? "no interval" : "no complete pair of runs");
 }
 
 std::string others_clause(const ConditionFacts& condition, Script script) {
-    const double mean = difference_of(condition, Measure::other_time_loss).mean.value_or(0.0);
+    const double mean = mean_of(condition.difference(Measure::other_time_loss)).value_or(0.0);
     switch (effect_of(condition, Measure::other_time_loss)) {
         case Effect::better:
             return fmt::format("other drivers save {} each", seconds(mean, script));
@@ -100,26 +85,25 @@ std::string others_clause(const ConditionFacts& condition, Script script) {
 }
 
 std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    if (condition.runs == 0) return {};
-    const std::uint64_t count = condition.events.collisions;
-    const std::string runs = counted(condition.runs, "run");
+    if (condition.complete_runs == 0) return {};
+    const std::uint64_t count = condition.count("collisions");
+    const std::string runs = counted(condition.complete_runs, "run");
     if (count == 0) return fmt::format("no collision in {}", runs);
     const Effect effect = effect_of(condition, Measure::collisions);
     const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
                              : effect == Effect::better ? "fewer collisions than the baseline"
                                                         : "collisions";
     std::string words = fmt::format("{} ({} in {}", more, grouped(count), runs);
-    if (condition.baseline) {
-        const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
-        words += fmt::format("; baseline {} in {}", grouped(baseline.events.collisions), baseline.runs);
-    }
+    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
+        words += fmt::format("; baseline {} in {}", grouped(baseline->count("collisions")),
+                             baseline->complete_runs);
     return words + ")";
 }
 
 std::string missing_clause(const ConditionFacts& condition) {
     const std::uint64_t absent = condition.failed.size() + condition.missing_runs;
     if (absent == 0) return {};
-    return fmt::format("{} of {} runs {}", absent, absent + condition.runs,
+    return fmt::format("{} of {} runs {}", absent, absent + condition.complete_runs,
                        condition.failed.empty()      ? "missing"
                        : condition.missing_runs == 0 ? "failed"
                                                      : "failed or missing");
@@ -165,9 +149,9 @@ struct TileWords {
 };
 
 Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure measure, Script script) {
-    const Estimate& difference = difference_of(condition, measure);
+    const MaybeEstimate& difference = condition.difference(measure);
     const Effect effect = effect_of(condition, measure);
-    Tile tile{words.subject, difference.mean ? signed_seconds(*difference.mean, script) : missing(script),
+    Tile tile{words.subject, difference ? signed_seconds(difference->mean, script) : missing(script),
               words_of(effect, words.better, words.worse), tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
     return tile;
@@ -183,7 +167,7 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
         const bool helps = effect_of(condition, primary) == Effect::better;
         const int grade = helps ? 0 : condition.objections.on_emergency() ? 2 : 1;
         const std::tuple rank(reference_of(study, scenario, condition) != nullptr, grade,
-                              difference_of(condition, primary).mean.value_or(1e30));
+                              mean_of(condition.difference(primary)).value_or(1e30));
         if (best != nullptr && rank >= best_rank) continue;
         best = &condition;
         best_rank = rank;
@@ -196,8 +180,7 @@ std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFact
     words = joined(std::move(words), others_clause(condition, script));
     words = joined(std::move(words), collisions_clause(scenario, condition));
     words = joined(std::move(words), missing_clause(condition));
-    if (condition.safety_checks_off)
-        words = joined(std::move(words), "the simulator's safety checks were off");
+    if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
     return words + ".";
 }
 
@@ -247,24 +230,21 @@ Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condit
 
 Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     Tile tile{"Safety", missing(script), "no complete run", Tile::Tone::neutral};
-    if (condition.runs == 0) return tile;
-    tile.figure =
-        condition.events.collisions == 0 ? "no collision" : counted(condition.events.collisions, "collision");
-    tile.meaning = "in " + counted(condition.runs, "run");
-    if (condition.baseline) {
-        const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
-        tile.meaning +=
-            fmt::format("; baseline: {} in {}", grouped(baseline.events.collisions), baseline.runs);
-    }
+    if (condition.complete_runs == 0) return tile;
+    const std::uint64_t count = condition.count("collisions");
+    tile.figure = count == 0 ? "no collision" : counted(count, "collision");
+    tile.meaning = "in " + counted(condition.complete_runs, "run");
+    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
+        tile.meaning += fmt::format("; baseline: {} in {}", grouped(baseline->count("collisions")),
+                                    baseline->complete_runs);
     const Effect effect = effect_of(condition, Measure::collisions);
     tile.tone = tone_of(effect);
     if (effect == Effect::better) tile.meaning += "; fewer";
     if (effect == Effect::worse) tile.meaning += "; more";
-    if (condition.events.emergency_collisions > 0)
-        tile.meaning +=
-            fmt::format("; {} with an emergency vehicle", grouped(condition.events.emergency_collisions));
+    if (const std::uint64_t hit = condition.count("emergency_collisions"); hit > 0)
+        tile.meaning += fmt::format("; {} with an emergency vehicle", grouped(hit));
     if (condition.objections.collisions) tile.tone = Tile::Tone::worse;
-    if (condition.safety_checks_off) {
+    if (condition.is_unchecked()) {
         tile.tone = Tile::Tone::worse;
         tile.meaning += "; the simulator's safety checks were off";
     }
@@ -272,10 +252,11 @@ Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition,
 }
 
 Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const Estimate& difference = difference_of(condition, primary);
-    const std::string pairs = counted(difference.count, "pair") + " of runs";
+    const MaybeEstimate& difference = condition.difference(primary);
+    const std::uint64_t count = difference ? difference->n : 0;
+    const std::string pairs = counted(count, "pair") + " of runs";
     // What the intervals alone show: objections are counts and need no interval.
-    switch (effect_of(condition.outcome(primary), Better::lower)) {
+    switch (effect_of(difference, Better::lower, condition.least_relevant(primary))) {
         case Effect::better:
         case Effect::worse:
             return {Badge::Runs::enough, fmt::format("Enough runs: {} show the direction", pairs)};
@@ -284,11 +265,9 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                     fmt::format("Enough runs: {} show that the difference is too small to count", pairs)};
         case Effect::none_shown: {
             const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
-            const std::string least = number(condition.outcome(primary).least_relevant > 0.0
-                                                 ? condition.outcome(primary).least_relevant
-                                                 : usual_least_relevant_s,
-                                             {1, script});
-            if (needed <= difference.count)
+            const double counts_s = condition.least_relevant(primary);
+            const std::string least = number(counts_s > 0.0 ? counts_s : usual_least_relevant_s, {1, script});
+            if (needed <= count)
                 return {Badge::Runs::enough,
                         fmt::format("Enough runs: {} would have shown {} s", pairs, least)};
             const std::string wanted = needed > most_replications_asked

@@ -10,7 +10,7 @@ namespace {
 using analysis::PlannedFinding;
 using analysis::Shown;
 
-std::string p_text(const std::optional<double>& p) {
+std::string four_digits(const std::optional<double>& p) {
     if (!p) return "-";
     return *p < 0.0001 ? "<.0001" : fmt::format("{:.4f}", *p);
 }
@@ -57,8 +57,8 @@ std::string planned_table(const StudyFacts& study) {
         fmt::format_to(out, "{}\n    {:<33} {:<23}{:>5}  {:>7}  {}\n",
                        printable(fmt::format("{} ({})", comparison.name, finding.scenario)),
                        printable(fmt::format("{} - {}", comparison.condition, comparison.against)),
-                       estimate(finding.difference, {.decimals = 2, .sign = Sign::always}), finding.pairs,
-                       p_text(finding.holm_p), finding_words(finding, Script::plain));
+                       estimate(finding.difference, {.decimals = 2, .sign = Sign::ends_too}), finding.pairs,
+                       four_digits(finding.holm_p), finding_words(finding, Script::plain));
     }
     return text + "\nExploratory: everything below. Its intervals and p-values confirm nothing.\n\n";
 }

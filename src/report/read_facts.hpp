@@ -25,8 +25,8 @@ namespace clearway::report {
 StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
 
 /// The same from results that have been read and summarised already.
-StudyFacts facts_of(const results::Results& results, const analysis::Summary& summary,
-                    const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
+StudyFacts facts_of(const results::Store& store, const results::Results& results,
+                    const analysis::Summary& summary, double least_relevant_s = usual_least_relevant_s);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
 /// foreign elements or external resources. Run folders may come from others, so an unsafe picture is left

@@ -142,7 +142,7 @@ std::string sensitivity_sentence(const Sensitivity& sensitivity) {
 std::string sensitivity_table(const std::vector<Sensitivity>& all, SensitivityRows rows) {
     std::string text;
     auto out = std::back_inserter(text);
-    const NumberStyle style{.decimals = 1, .sign = Sign::always};
+    const NumberStyle style{.decimals = 1, .sign = Sign::ends_too};
     for (const Sensitivity& sensitivity : all) {
         fmt::format_to(out, "Sensitivity: {}, {}; differences to the defaults\n\n", sensitivity.scenario,
                        sensitivity.condition);

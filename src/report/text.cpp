@@ -7,14 +7,6 @@
 
 namespace clearway::report {
 
-std::string estimate(const std::optional<analysis::Estimate>& estimate, NumberStyle style) {
-    if (!estimate) return missing(style.script);
-    const std::string mean = number(estimate->mean, style);
-    if (!estimate->interval || estimate->n < analysis::fewest_for_interval) return mean;
-    return fmt::format("{} [{}, {}]", mean, number(estimate->interval->low, style),
-                       number(estimate->interval->high, style));
-}
-
 std::string printable(const std::string& text) {
     std::string result;
     for (const char letter : text) {
@@ -34,24 +26,32 @@ std::string number(double value, NumberStyle style) {
     const bool is_zero = digits.find_first_not_of("0.") == std::string::npos;
     if (is_zero) return digits;
     if (value < 0.0) return (style.script == Script::plain ? "-" : "\u2212") + digits;
-    return style.sign == Sign::always ? "+" + digits : digits;
+    return style.sign == Sign::negative_only ? digits : "+" + digits;
 }
 
-std::string estimate(const Estimate& estimate, NumberStyle style, double factor) {
-    if (!estimate.mean.has_value()) return missing(style.script);
-    std::string text = number(*estimate.mean * factor, style);
-    if (!estimate.has_interval()) return text;
-    NumberStyle bounds = style;
-    bounds.sign = Sign::negative_only;
-    return text + fmt::format(" [{}, {}]", number(*estimate.low * factor, bounds),
-                              number(*estimate.high * factor, bounds));
+std::string number_or_dash(const std::optional<double>& value, NumberStyle style) {
+    return value ? number(*value, style) : missing(style.script);
+}
+
+std::string estimate(const MaybeEstimate& estimate, NumberStyle style, double factor) {
+    if (!estimate) return missing(style.script);
+    std::string text = number(estimate->mean * factor, style);
+    const analysis::Interval* const interval = shown_interval(estimate);
+    if (interval == nullptr) return text;
+    return text + " " + interval_text(*interval, style, factor);
+}
+
+std::string interval_text(const analysis::Interval& interval, NumberStyle style, double factor) {
+    if (style.sign == Sign::always) style.sign = Sign::negative_only;
+    return fmt::format("[{}, {}]", number(interval.low * factor, style),
+                       number(interval.high * factor, style));
 }
 
 int decimals_of(const ScenarioFacts& scenario, Measure measure) {
     if (info(measure).printed_factor != 1.0) return 0;
     double largest = 0.0;
     for (const ConditionFacts& condition : scenario.conditions) {
-        largest = std::max(largest, std::abs(condition.outcome(measure).value.mean.value_or(0.0)));
+        largest = std::max(largest, std::abs(mean_of(condition.value(measure)).value_or(0.0)));
     }
     return largest < 10.0 ? 2 : 1;
 }

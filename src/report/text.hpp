@@ -17,7 +17,11 @@ enum class Script : std::uint8_t {
     typeset,  ///< Minus sign U+2212, for pages.
 };
 
-enum class Sign : std::uint8_t { negative_only, always };
+enum class Sign : std::uint8_t {
+    negative_only,
+    always,  ///< But of an interval's ends only the negative ones.
+    ends_too,
+};
 
 /// How the numbers of one column are written.
 struct NumberStyle {
@@ -30,11 +34,14 @@ struct NumberStyle {
 std::string number(double value, NumberStyle style);
 
 /// `12.3 [10.1, 14.5]`; without an interval `12.3`; without a mean a dash (`-` or U+2013).
-/// `factor` scales to the printed unit.
-std::string estimate(const Estimate& estimate, NumberStyle style, double factor = 1.0);
+/// An interval is printed only when it has enough values. `factor` scales to the printed unit.
+std::string estimate(const MaybeEstimate& estimate, NumberStyle style, double factor = 1.0);
 
-/// The same of an estimate of the analysis, whose interval is printed only when it has enough pairs.
-std::string estimate(const std::optional<analysis::Estimate>& estimate, NumberStyle style);
+/// `[10.1, 14.5]`.
+std::string interval_text(const analysis::Interval& interval, NumberStyle style, double factor = 1.0);
+
+/// A number, or the text for a missing one.
+std::string number_or_dash(const std::optional<double>& value, NumberStyle style);
 
 /// Text for a terminal. Control characters become `?`, because names come from files.
 std::string printable(const std::string& text);

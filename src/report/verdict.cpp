@@ -18,68 +18,52 @@ namespace {
 std::string difference_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure,
                             Script script) {
     const NumberStyle style{decimals_of(scenario, measure), script, Sign::always};
-    const Estimate& difference = condition.outcome(measure).difference;
-    if (!difference.mean.has_value()) return missing(script);
-    NumberStyle bounds = style;
-    bounds.sign = Sign::negative_only;
-    std::string text = fmt::format("{} {}", number(*difference.mean, style), info(measure).unit);
-    if (difference.has_interval()) {
-        text += fmt::format(" [{}, {}]", number(*difference.low, bounds), number(*difference.high, bounds));
-    }
+    const MaybeEstimate& difference = condition.difference(measure);
+    if (!difference) return missing(script);
+    std::string text = fmt::format("{} {}", number(difference->mean, style), info(measure).unit);
+    if (const analysis::Interval* const interval = shown_interval(difference))
+        text += " " + interval_text(*interval, style);
     return text;
 }
 
-/// `, -18 %` of the baseline's mean; empty if that mean is missing or 0.
-std::string relative_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure,
-                          Script script) {
-    const auto& difference = condition.outcome(measure).difference.mean;
-    if (!condition.is_compared()) return {};
-    const auto& base = scenario.conditions[*condition.baseline].outcome(measure).value.mean;
-    if (!base || !difference || *base == 0.0) return {};
-    return fmt::format(", {} %", number(100.0 * *difference / *base, {0, script, Sign::always}));
-}
-
-constexpr Measure primary = Measure::emergency_restricted_time;
-
 /// Why a condition may have no effect; empty if nothing is known.
 const char* reason_for_none(const ScenarioFacts& scenario) {
-    return scenario.signals == 0U ? "; the network has no signals, so policies at signals have nothing to do"
-                                  : "";
+    return scenario.roads && scenario.roads->signals.empty()
+               ? "; the network has no signals, so policies at signals have nothing to do"
+               : "";
 }
 
-std::string lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const Outcome& outcome = condition.outcome(primary);
-    const Estimate& difference = outcome.difference;
-    const std::string amount = difference_text(scenario, condition, primary, script) +
-                               relative_text(scenario, condition, primary, script);
-    const Effect effect = effect_of(outcome, Better::lower);
-    if (condition.objections.on_emergency()) {
-        return fmt::format(
-            "{}{}: {}", analysis::emergency_objections(condition.objections),
-            effect == Effect::worse ? " and harmed" : "",
-            difference.mean ? "EV travel time " + amount : "no complete pair of runs to compare");
-    }
+Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const MaybeEstimate& difference = condition.difference(primary);
+    std::string amount = "EV travel time " + difference_text(scenario, condition, primary, script);
+    if (const auto percent = percent_of_baseline(scenario, condition))
+        amount += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
+    const double least = condition.least_relevant(primary);
+    const Effect effect = effect_of(difference, Better::lower, least);
+    if (condition.objections.on_emergency())
+        return {analysis::emergency_objections(condition.objections) +
+                    (effect == Effect::worse ? " and harmed" : ""),
+                difference ? amount : "no complete pair of runs to compare"};
     switch (effect) {
         case Effect::better:
-            return fmt::format("helped: EV travel time {}", amount);
+            return {"helped", amount};
         case Effect::worse:
-            return fmt::format("harmed: EV travel time {}", amount);
+            return {"harmed", amount};
         case Effect::negligible:
-            return fmt::format("no relevant effect: EV travel time {}, where {} s would count{}", amount,
-                               number(outcome.least_relevant, {1, script}), reason_for_none(scenario));
+            return {"no relevant effect", fmt::format("{}, where {} s would count{}", amount,
+                                                      number(least, {1, script}), reason_for_none(scenario))};
         case Effect::none_shown:
-            return fmt::format("no effect shown: EV travel time {}{}", amount, reason_for_none(scenario));
+            return {"no effect shown", amount + reason_for_none(scenario)};
         case Effect::too_few:
-            return fmt::format("no verdict: too few seeds, {} of at least {} (EV travel time {})",
-                               difference.count, analysis::fewest_for_interval, amount);
+            return {"no verdict", fmt::format("too few seeds, {} of at least {} ({})", difference->n,
+                                              analysis::fewest_for_interval, amount)};
         case Effect::ruled_out:
         case Effect::undecided:
             break;
     }
-    if (condition.emergency.all() == 0 && condition.runs > 0)
-        return "no verdict: the demand has no emergency vehicle";
-    if (!difference.mean) return "no verdict: no complete pair of runs";
-    return fmt::format("no verdict: no interval (EV travel time {})", amount);
+    if (condition.emergency.total() == 0 && condition.complete_runs > 0)
+        return {"no verdict", "the demand has no emergency vehicle"};
+    return {"no verdict", difference ? fmt::format("no interval ({})", amount) : "no complete pair of runs"};
 }
 
 const char* words_of(const std::string& action) {
@@ -127,20 +111,21 @@ std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition
 
 }  // namespace
 
-Effect effect_of(const Outcome& outcome, Better better) {
-    const Estimate& difference = outcome.difference;
-    if (difference.too_few()) return Effect::too_few;
-    if (!difference.has_interval()) return Effect::undecided;
-    const bool excludes_zero = *difference.high < 0.0 || *difference.low > 0.0;
-    const double least = outcome.least_relevant;
-    const bool within = -least < *difference.low && *difference.high < least;
-    if (within || (excludes_zero && std::abs(*difference.mean) < least)) return Effect::negligible;
+Effect effect_of(const MaybeEstimate& difference, Better better, double least_relevant) {
+    if (!difference) return Effect::undecided;
+    if (difference->n < analysis::fewest_for_interval) return Effect::too_few;
+    const analysis::Interval* const interval = shown_interval(difference);
+    if (interval == nullptr) return Effect::undecided;
+    const bool excludes_zero = !interval->contains(0.0);
+    const bool within = -least_relevant < interval->low && interval->high < least_relevant;
+    if (within || (excludes_zero && std::abs(difference->mean) < least_relevant)) return Effect::negligible;
     if (!excludes_zero) return Effect::none_shown;
-    return (*difference.high < 0.0) == (better == Better::lower) ? Effect::better : Effect::worse;
+    return (interval->high < 0.0) == (better == Better::lower) ? Effect::better : Effect::worse;
 }
 
 Effect effect_of(const ConditionFacts& condition, Measure measure) {
-    const Effect effect = effect_of(condition.outcome(measure), info(measure).better);
+    const Effect effect =
+        effect_of(condition.difference(measure), info(measure).better, condition.least_relevant(measure));
     // The gap closed has no difference, and what rules a gain out rules it out, too.
     const bool undecided = effect == Effect::undecided && measure != Measure::gap_closed;
     if (effect == Effect::worse || undecided) return effect;
@@ -155,11 +140,11 @@ Effect effect_of(const ConditionFacts& condition, Measure measure) {
 
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
     return measure == Measure::gap_closed && condition.objections.loses_emergency() &&
-           !condition.outcome(measure).value.mean;
+           !condition.value(measure);
 }
 
 std::string lease_sentence(const ConditionFacts& condition) {
-    if (!condition.has_policy) return "has no policy that could ask for anything";
+    if (condition.condition.policies.empty()) return "has no policy that could ask for anything";
     if (!condition.leases) return "records of an older version hold totals only; run again for actions";
     std::vector<std::string> found;
     bool lane_changes = false;
@@ -197,27 +182,26 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
 
 }  // namespace
 
-std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    std::string text;
+Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const std::size_t all = condition.failed.size() + condition.complete_runs + condition.missing_runs;
+    std::string absent;
     if (!condition.failed.empty())
-        text = fmt::format("{} of {} runs failed; ", condition.failed.size(),
-                           condition.failed.size() + condition.runs + condition.missing_runs);
+        absent = fmt::format("{} of {} runs failed; ", condition.failed.size(), all);
     if (condition.missing_runs > 0)
-        text += fmt::format("{} of {} runs are missing; ", condition.missing_runs,
-                            condition.failed.size() + condition.runs + condition.missing_runs);
-    text += lead(scenario, condition, script);
+        absent += fmt::format("{} of {} runs are missing; ", condition.missing_runs, all);
+    Verdict words = lead(scenario, condition, script);
+    words.finding = absent + words.finding;
+    std::string& text = words.figures;
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
-    if (condition.outcome(Measure::emergency_restricted_time).difference.has_interval()) {
-        text += costs(scenario, condition, script);
-    }
+    if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);
     text += ".";
     text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
     text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
                               &analysis::IdlePart::own_runs);
-    if (condition.safety_checks_off)
+    if (condition.is_unchecked())
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
-    return text;
+    return words;
 }
 
 namespace {
@@ -266,13 +250,21 @@ std::string few_seeds_sentence(const StudyFacts& study) {
     return "";
 }
 
+std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const MaybeEstimate& difference = condition.difference(primary);
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    if (!difference || baseline == nullptr) return std::nullopt;
+    const MaybeEstimate& base = baseline->value(primary);
+    if (!base || base->mean == 0.0) return std::nullopt;
+    return 100.0 * difference->mean / base->mean;
+}
+
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
                                    const ConditionFacts& condition) {
     for (const Sensitivity& sensitivity : study.sensitivities) {
-        if (!sensitivity.has_level(scenario.name, condition.name)) continue;
-        const auto found =
-            std::ranges::find(scenario.conditions, sensitivity.condition, &ConditionFacts::name);
-        if (found != scenario.conditions.end()) return &*found;
+        if (!sensitivity.has_level(scenario.name, condition.name())) continue;
+        const std::size_t place = scenario.place_of(sensitivity.condition);
+        if (place < scenario.conditions.size()) return &scenario.conditions[place];
     }
     return nullptr;
 }

@@ -31,7 +31,7 @@ constexpr core::Spellings<Effect, 7> spellings(Effect) {
 }
 
 /// A bound of exactly 0 counts as included. Objections are ignored.
-Effect effect_of(const Outcome& outcome, Better better);
+Effect effect_of(const MaybeEstimate& difference, Better better, double least_relevant = 0.0);
 /// The same, unless objections against the condition rule it out. All output uses this.
 Effect effect_of(const ConditionFacts& condition, Measure measure);
 
@@ -42,9 +42,17 @@ bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
 /// if none was asked for. Plain text.
 std::string lease_sentence(const ConditionFacts& condition);
 
-/// One sentence on a condition against the baseline: objections on the side of EVs, whether EVs were faster,
-/// by how much, and what it cost the others. Plain text, not escaped.
-std::string verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+/// One sentence on a condition against the baseline. Plain text, not escaped.
+struct Verdict {
+    std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.
+    std::string figures;  ///< By how much, what it cost the others, and what its policies did.
+
+    std::string text() const { return finding + ": " + figures; }
+};
+Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+
+/// Difference in the primary measure as a share of the baseline's, %.
+std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
 /// The condition at its defaults of which this one has a setting turned alone; null for other conditions.
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,

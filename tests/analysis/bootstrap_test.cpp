@@ -112,10 +112,9 @@ TEST(PooledQuantile, CountsMembersWithoutAValueAboveAllOthers) {
     const std::vector<Cluster> clusters = {{{10.0, 30.0}, 0}, {{20.0}, 1}, {{40.0}, 0}, {{50.0}, 0}};
     const Resamples resamples = resamples_of(clusters.size());
     // Ascending: 10 20 30 40 50 and one that did not arrive.
-    EXPECT_EQ(pooled_quantile(clusters, 0.5, resamples).value, 30.0);
-    EXPECT_EQ(pooled_quantile(clusters, 5.0 / 6.0, resamples).value, 50.0);
-    EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples).value);
-    EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples).interval);
+    EXPECT_EQ(pooled_quantile(clusters, 0.5, resamples)->mean, 30.0);
+    EXPECT_EQ(pooled_quantile(clusters, 5.0 / 6.0, resamples)->mean, 50.0);
+    EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples));
 }
 
 TEST(GapClosed, IsTheShareOfTheWayFromBaselineToSolo) {
@@ -125,10 +124,10 @@ TEST(GapClosed, IsTheShareOfTheWayFromBaselineToSolo) {
     const Resamples resamples = resamples_of(baseline.size());
     const auto gap = gap_closed(condition, baseline, solo, resamples);
     ASSERT_TRUE(gap && gap->interval);
-    EXPECT_DOUBLE_EQ(gap->value, (470.0 - 370.0) / (470.0 - 270.0));
-    EXPECT_TRUE(gap->interval->contains(gap->value));
-    EXPECT_DOUBLE_EQ(gap_closed(solo, baseline, solo, resamples)->value, 1.0);
-    EXPECT_DOUBLE_EQ(gap_closed(baseline, baseline, solo, resamples)->value, 0.0);
+    EXPECT_DOUBLE_EQ(gap->mean, (470.0 - 370.0) / (470.0 - 270.0));
+    EXPECT_TRUE(gap->interval->contains(gap->mean));
+    EXPECT_DOUBLE_EQ(gap_closed(solo, baseline, solo, resamples)->mean, 1.0);
+    EXPECT_DOUBLE_EQ(gap_closed(baseline, baseline, solo, resamples)->mean, 0.0);
 }
 
 TEST(GapClosed, NeedsAGap) {

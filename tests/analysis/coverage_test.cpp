@@ -230,7 +230,7 @@ TEST(Coverage, OfThePooledMedianOverClustersIsNominal) {
         BootstrapConfig config;
         config.resamples = 999;
         config.seed = sample;
-        held += pooled_quantile(clusters, 0.5, Resamples(n, config)).interval->contains(100.0) ? 1 : 0;
+        held += pooled_quantile(clusters, 0.5, Resamples(n, config))->interval->contains(100.0) ? 1 : 0;
     }
     EXPECT_GE(held / static_cast<double>(samples), 0.94);
     EXPECT_LE(held / static_cast<double>(samples), 0.965);

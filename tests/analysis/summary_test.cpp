@@ -92,9 +92,9 @@ TEST_F(SmallStudy, ClosesNoGapByLosingEmergencyVehicles) {
         with_s += *treated.metric(primary_metric).values[run];
         without_s += *summary.find("baseline")->metric(primary_metric).values[run];
     }
-    EXPECT_DOUBLE_EQ(treated.gap_closed->value, (without_s - with_s) / (without_s - 4.0 * 70.0));
-    EXPECT_LT(treated.gap_closed->value, 0.0);
-    EXPECT_EQ(treated.gap_replications, 4U);
+    EXPECT_DOUBLE_EQ(treated.gap_closed->mean, (without_s - with_s) / (without_s - 4.0 * 70.0));
+    EXPECT_LT(treated.gap_closed->mean, 0.0);
+    EXPECT_EQ(treated.gap_closed->n, 4U);
 }
 
 /// Two that were taken off the road are not made good by two of the baseline that ran out of time.
@@ -223,8 +223,8 @@ TEST_F(SmallStudy, ComparesWithTheBaselineByReplication) {
 TEST_F(SmallStudy, FindsTheGapClosed) {
     add_all();
     const ScenarioSummary summary = scenario();
-    EXPECT_DOUBLE_EQ(summary.find("treated")->gap_closed->value, 0.5);
-    EXPECT_EQ(summary.find("treated")->gap_replications, 4U);
+    EXPECT_DOUBLE_EQ(summary.find("treated")->gap_closed->mean, 0.5);
+    EXPECT_EQ(summary.find("treated")->gap_closed->n, 4U);
     EXPECT_FALSE(summary.find("baseline")->gap_closed);
     EXPECT_FALSE(summary.find("other")->gap_closed);
 }
@@ -267,7 +267,7 @@ TEST_F(SmallStudy, CountsPairsThatAFailureOrAStrandedVehicleBreaks) {
     EXPECT_EQ(treated.complete_runs, 3U);
     EXPECT_EQ(treated.metric("emergency_travel_time_s").estimate->n, 2U);
     EXPECT_EQ(treated.metric("collisions").comparison->complete_pairs, 3U);
-    EXPECT_EQ(treated.gap_replications, 3U) << "lost vehicles count with the horizon";
+    EXPECT_EQ(treated.gap_closed->n, 3U) << "lost vehicles count with the horizon";
     EXPECT_EQ(treated.emergency.teleported, 1U);
 }
 
@@ -296,13 +296,13 @@ TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
 TEST_F(SmallStudy, GivesTheTailOfAllEmergencyVehiclesWithThoseThatDidNotArriveLast) {
     add_all();
     const TravelTimeTail before = scenario().find("solo")->travel_time;
-    EXPECT_EQ(before.median.value, 60.0);
-    EXPECT_EQ(before.percentile_95.value, 80.0);
+    EXPECT_EQ(before.median->mean, 60.0);
+    EXPECT_EQ(before.percentile_95->mean, 80.0);
     for (RunRecord& run : results_.runs) {
         if (run.key.condition == "solo" && run.key.replication == 1)
             run.vehicles[1].outcome = VehicleOutcome::running_at_end;
     }
-    EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95.value);
+    EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95);
 }
 
 TEST_F(SmallStudy, GivesCountsIntervalsThatDoNotReachBelowZero) {

@@ -101,6 +101,19 @@ TEST(ComparisonText, NamesSettingsInWhichConditionsOfOneNameDifferBeforeTheFigur
     EXPECT_THAT(comparison_text(summary_with(-5.0), {"collisions"}), Not(HasSubstr("same name")));
 }
 
+TEST(ComparisonText, NamesTheBuildsThatMadeTheFoldersIfTheyDiffer) {
+    analysis::Summary summary = summary_with(-5.0);
+    EXPECT_THAT(comparison_text(summary, {"collisions"}), Not(HasSubstr("builds")));
+    EXPECT_FALSE(nlohmann::json::parse(comparison_json(summary, {"collisions"}, {})).contains("builds"));
+    summary.builds = {"0123456789abcdef", "an older one"};
+    EXPECT_THAT(
+        comparison_text(summary, {"collisions"}),
+        testing::StartsWith("Made by different builds of Clearway: 0123456789abcdef in the first folder "
+                            "and an older one in the second.\n\n"));
+    const auto json = nlohmann::json::parse(comparison_json(summary, {"collisions"}, {}));
+    EXPECT_EQ(json["builds"]["first"], "0123456789abcdef");
+}
+
 TEST(Shortfalls, IncludeLostEmergencyVehiclesHoweverGoodTheMeanOfTheRest) {
     analysis::Summary summary = summary_with(-20.0);
     analysis::Objections& objections = summary.scenarios[0].conditions[1].objections;
@@ -160,11 +173,11 @@ analysis::Summary summary_with_response() {
     analysis::Summary summary = summary_with(-5.0);
     analysis::ResponseTime& response = summary.scenarios[0].conditions[1].response;
     response.threshold_s = 85.0;
-    response.percentile_90_s = analysis::TripStatistic{92.0, analysis::Interval{88.0, 99.0}};
-    response.percentile_90_difference_s = analysis::TripStatistic{-21.5, analysis::Interval{-30.0, -14.0}};
-    response.in_time = analysis::TripStatistic{0.75, std::nullopt};
-    response.in_time_difference = analysis::TripStatistic{0.25, analysis::Interval{0.125, 0.375}};
-    response.pairs = 18;
+    response.percentile_90_s = analysis::Estimate{20, 92.0, 0.0, analysis::Interval{88.0, 99.0}};
+    response.percentile_90_difference_s =
+        analysis::Estimate{18, -21.5, 0.0, analysis::Interval{-30.0, -14.0}};
+    response.in_time = analysis::Estimate{20, 0.75, 0.0, std::nullopt};
+    response.in_time_difference = analysis::Estimate{18, 0.25, 0.0, analysis::Interval{0.125, 0.375}};
     return summary;
 }
 

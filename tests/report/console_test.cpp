@@ -103,7 +103,7 @@ TEST(ConsoleTables, leave_out_the_published_table_where_there_is_none) {
 
 TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
     StudyFacts study = tests::study({"merge"});
-    study.scenarios[0].conditions[3].safety_checks_off = true;
+    study.scenarios[0].conditions[3].condition.safety_checks = traffic::SafetyChecks::off;
     study.scenarios[0].conditions[2].failed = {{7, "signal: killed by signal 6"}};
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
@@ -114,9 +114,10 @@ TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
 TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
-        for (Outcome& outcome : condition.outcomes) {
-            for (Estimate* const estimate : {&outcome.value, &outcome.difference}) {
-                *estimate = {estimate->mean, std::nullopt, std::nullopt, 1};
+        for (const MeasureInfo& measure : measures()) {
+            for (MaybeEstimate* const estimate : {&tests::value(condition, measure.measure),
+                                                  &tests::difference(condition, measure.measure)}) {
+                if (*estimate) *estimate = analysis::Estimate{1, (*estimate)->mean, 0.0, std::nullopt};
             }
         }
     }
@@ -130,9 +131,8 @@ TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
 
 TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
     StudyFacts study = tests::study({"merge"});
-    ConditionFacts empty;
-    empty.name = empty.title = "broken";
-    empty.baseline = 0;
+    ConditionFacts empty = tests::empty_condition("broken", "broken");
+    empty.baseline = "baseline";
     empty.failed = {{0, "simulator: no route"}, {1, "simulator: no route"}};
     study.scenarios[0].conditions[1] = empty;
     const std::string text = console_tables(study);
@@ -151,7 +151,9 @@ TEST(ConsoleTables, warn_of_a_demand_without_emergency_vehicles) {
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
         condition.emergency = {};
         for (const MeasureInfo& measure : measures()) {
-            if (measure.relevance == Relevance::least) condition.outcome(measure.measure) = {};
+            if (measure.relevance != Relevance::least) continue;
+            tests::value(condition, measure.measure).reset();
+            tests::difference(condition, measure.measure).reset();
         }
     }
     const std::string text = console_tables(study);
@@ -163,7 +165,8 @@ TEST(ConsoleTables, warn_of_a_demand_without_emergency_vehicles) {
 
 TEST(ConsoleTables, print_the_upper_end_of_an_interval_that_the_bound_at_zero_makes_lopsided) {
     StudyFacts study = tests::study({"merge"});
-    study.scenarios[0].conditions[0].outcome(Measure::emergency_depart_delay).value = {0.5, 0.03, 8.0, 20};
+    tests::value(study.scenarios[0].conditions[0], Measure::emergency_depart_delay) =
+        tests::between(0.5, 0.03, 8.0);
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr(" 0.50 (<8.00)"));
     EXPECT_THAT(text, HasSubstr("(<x)"));
@@ -174,7 +177,7 @@ TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_
     ConditionFacts& condition = study.scenarios[0].conditions[1];
     condition.objections.emergency = {.arrived = 47, .teleported = 13};
     condition.objections.baseline_emergency = {.arrived = 60};
-    condition.has_policy = true;
+    condition.condition.policies = {"corridor"};
     condition.leases.emplace();
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]  lost EVs\n"));
@@ -215,10 +218,10 @@ StudyFacts study_with_response() {
     ScenarioFacts& scenario = study.scenarios[0];
     scenario.response_threshold_s = 85.0;
     for (ConditionFacts& condition : scenario.conditions) {
-        condition.response_percentile_90.value = {92.0, 88.0, 99.0, 20};
-        condition.response_percentile_90.difference = {-21.5, -30.0, -14.0, 20};
-        condition.response_in_time.value = {0.75, 0.6, 0.9, 20};
-        condition.response_in_time.difference = {0.25, -0.125, 0.375, 20};
+        condition.response.percentile_90_s = tests::between(92.0, 88.0, 99.0);
+        condition.response.percentile_90_difference_s = tests::between(-21.5, -30.0, -14.0);
+        condition.response.in_time = tests::between(0.75, 0.6, 0.9);
+        condition.response.in_time_difference = tests::between(0.25, -0.125, 0.375);
     }
     return study;
 }
@@ -238,14 +241,15 @@ TEST(ConsoleTables, show_response_times_and_the_share_in_time) {
 TEST(ConsoleTables, show_how_signals_served_emergency_vehicles) {
     StudyFacts study = tests::study({"merge"});
     ConditionFacts& condition = study.scenarios[0].conditions[1];
-    condition.safety = {{"signal_calls", "", {4.5, 4.0, 5.0, 20}, {}, std::nullopt},
-                        {"signal_calls_granted", "", {3.5, 3.0, 4.0, 20}, {}, std::nullopt},
-                        {"signal_recovery_s", "", {42.0, 40.0, 44.0, 20}, {}, std::nullopt}};
+    tests::set_total(condition, "signal_calls", 90);
+    tests::metric(condition, "signal_calls").estimate = tests::around(4.5, 0.5);
+    tests::metric(condition, "signal_calls_granted").estimate = tests::around(3.5, 0.5);
+    tests::metric(condition, "signal_recovery_s").estimate = tests::around(42.0, 2.0);
     const std::string text = console_tables(study, Tables::all);
     EXPECT_THAT(text, HasSubstr("calls  granted  useless entry, s green, s  hold, s  back, s\n"));
     EXPECT_THAT(text, HasSubstr("4.5      3.5        -        -        -        -     42.0\n"));
     EXPECT_THAT(console_tables(study, Tables::essential), Not(HasSubstr("Signals, mean of runs")));
-    condition.safety.clear();
+    tests::set_total(condition, "signal_calls", 0);
     EXPECT_THAT(console_tables(study, Tables::all), Not(HasSubstr("Signals, mean of runs")));
 }
 

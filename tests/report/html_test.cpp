@@ -87,7 +87,8 @@ TEST(Page, escapes_every_text_that_comes_from_files) {
     scenario.name = scenario.title = scenario.attribution = evil;
     scenario.network_svg = "<svg class=\"network\" viewBox=\"0 0 1 1\"></svg>";
     for (ConditionFacts& condition : scenario.conditions) {
-        condition.name = condition.title = condition.recipe = evil;
+        condition.condition.name = condition.title = condition.recipe = evil;
+        if (condition.is_compared()) condition.baseline = evil;
         condition.failed = {{1, evil}};
     }
     const std::string page = page_of(study);
@@ -119,9 +120,9 @@ TEST(Page, explains_colours_of_signals_only_where_they_are) {
 TEST(Page, never_prints_nan_for_what_is_missing) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
-        condition.outcomes = {};
-        condition.travel_time = {};
-        condition.runs = 0;
+        const std::string baseline = condition.baseline;
+        condition = tests::empty_condition(condition.name(), condition.title);
+        condition.baseline = baseline;
         condition.failed = {{0, "simulator: no route"}};
     }
     const std::string page = page_of(study);
@@ -138,7 +139,7 @@ TEST(Page, of_an_empty_study_says_so) {
 TEST(Page, says_where_a_distribution_was_thinned) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("evenly spaced")));
-    study.scenarios[0].conditions[0].travel_time.arrived = 30000;
+    study.scenarios[0].conditions[0].distribution.arrived = 30000;
     EXPECT_THAT(page_of(study), HasSubstr("Drawn at 200 ranks, evenly spaced"));
 }
 

@@ -28,10 +28,10 @@ class MapFacts : public testing::Test {
 TEST_F(MapFacts, AreMeansOverThePassagesThatBothRunsHave) {
     const ScenarioFacts scenario = crossing();
     ASSERT_TRUE(scenario.map);
-    EXPECT_EQ(scenario.conditions[scenario.map->condition].name, "helps");
+    EXPECT_EQ(scenario.conditions[scenario.map->condition].name(), "helps");
     ASSERT_EQ(scenario.map->times.size(), 2u);
     const EdgeTimes& first = scenario.map->times[0];
-    EXPECT_EQ(scenario.map->roads.edges[first.edge].id, "north_in");
+    EXPECT_EQ(scenario.roads->edges[first.edge].id, "north_in");
     EXPECT_EQ(first.passages, 6u);
     // Half of 100 s and of 75 s, with luck of 0, 7, ... 35 s and half of it.
     EXPECT_DOUBLE_EQ(first.baseline_s, 0.5 * (100.0 + 17.5));
@@ -52,8 +52,7 @@ TEST_F(MapFacts, ReachStartsAtTheStations) {
 TEST_F(MapFacts, AndTheTripWhoseGainIsNearestToTheMeanAreShown) {
     // In replication 0 the second vehicle gains most, 35.5 s; the mean of all is above that.
     const ScenarioFacts scenario = crossing();
-    const double mean_s =
-        -*scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference.mean;
+    const double mean_s = -scenario.conditions[1].difference(Measure::emergency_restricted_time)->mean;
     EXPECT_GT(mean_s, 35.5);
     ASSERT_GT(scenario.journeys.size(), 1u);
     EXPECT_EQ(scenario.journeys[0].vehicle, "emergency<0>");

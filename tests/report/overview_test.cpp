@@ -57,7 +57,7 @@ TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {
 
 TEST_F(Overview, CallsAShownDifferenceThatIsTooSmallNoDifference) {
     tests::compare(corridor(), around(-0.5, 0.2), around(0.4, 1.0));
-    corridor().outcome(Measure::emergency_restricted_time).least_relevant = 1.0;
+    corridor().least_relevant_s = 1.0;
     EXPECT_THAT(headline(),
                 StartsWith("corridor makes no difference to ambulances that counts (-0.5 s a trip)"));
     EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
@@ -74,7 +74,7 @@ TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {
 }
 
 TEST_F(Overview, SaysThatSafetyChecksWereOff) {
-    corridor().safety_checks_off = true;
+    corridor().condition.safety_checks = traffic::SafetyChecks::off;
     corridor().objections.unchecked = true;
     EXPECT_THAT(headline(), HasSubstr("ran without safety checks"));
     EXPECT_THAT(headline(), Not(HasSubstr("saves")));
@@ -89,14 +89,14 @@ TEST_F(Overview, GivesTheOthersATileOfTheirOwnColour) {
 }
 
 TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
-    corridor().events.collisions = 7;
-    corridor().events.emergency_collisions = 2;
-    scenario_.conditions[0].events.collisions = 5;
+    tests::set_total(corridor(), "collisions", 7);
+    tests::set_total(corridor(), "emergency_collisions", 2);
+    tests::set_total(scenario_.conditions[0], "collisions", 5);
     EXPECT_THAT(headline(), HasSubstr("collisions (7 in 20 runs; baseline 5 in 20)"));
     EXPECT_EQ(safety().figure, "7 collisions");
     EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
     EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle"));
-    corridor().outcome(Measure::collisions).difference = around(0.4, 0.2);
+    tests::difference(corridor(), Measure::collisions) = around(0.4, 0.2);
     EXPECT_EQ(safety().tone, Tile::Tone::worse);
     EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));
 }

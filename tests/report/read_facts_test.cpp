@@ -105,15 +105,15 @@ TEST_F(RunFolder, gives_means_paired_differences_and_outcomes) {
     ASSERT_EQ(merge.conditions.size(), 4u);
     const ConditionFacts& helpful = merge.conditions[1];
     EXPECT_EQ(helpful.title, "Graph made by simulation attributes");
-    EXPECT_EQ(helpful.baseline, 0u);
-    EXPECT_TRUE(helpful.safety_checks_off);
+    EXPECT_EQ(helpful.baseline, "baseline");
+    EXPECT_TRUE(helpful.is_unchecked());
     // Differences -20, -21, -22: mean -21, standard deviation 1, t(2) = 4.3027, half width 4.3027 / sqrt(3).
-    const Estimate& difference = helpful.outcome(Measure::emergency_travel_time).difference;
-    EXPECT_DOUBLE_EQ(difference.mean.value(), -21.0);
-    EXPECT_NEAR(difference.low.value(), -21.0 - 2.4842, 1e-3);
-    EXPECT_NEAR(difference.high.value(), -21.0 + 2.4842, 1e-3);
-    EXPECT_DOUBLE_EQ(helpful.outcome(Measure::gap_closed).value.mean.value(), 63.0 / 126.0);
-    EXPECT_DOUBLE_EQ(helpful.outcome(Measure::unfinished).value.mean.value(), 2.0);
+    const analysis::Estimate difference = helpful.difference(Measure::emergency_travel_time).value();
+    EXPECT_DOUBLE_EQ(difference.mean, -21.0);
+    EXPECT_NEAR(difference.interval->low, -21.0 - 2.4842, 1e-3);
+    EXPECT_NEAR(difference.interval->high, -21.0 + 2.4842, 1e-3);
+    EXPECT_DOUBLE_EQ(helpful.value(Measure::gap_closed)->mean, 63.0 / 126.0);
+    EXPECT_DOUBLE_EQ(helpful.value(Measure::unfinished)->mean, 2.0);
     EXPECT_EQ(helpful.emergency.arrived, 6u);
     EXPECT_FALSE(merge.conditions[0].is_compared());
     EXPECT_FALSE(merge.conditions[3].is_compared());
@@ -145,7 +145,7 @@ TEST(GapClosed, is_a_dash_for_a_condition_that_lost_emergency_vehicles) {
     const StudyFacts facts = read_facts(folder.path() / "study");
     const ConditionFacts& lost = facts.scenarios.at(0).conditions.at(1);
     ASSERT_TRUE(lost.objections.loses_emergency());
-    EXPECT_FALSE(lost.outcome(Measure::gap_closed).value.mean);
+    EXPECT_FALSE(lost.value(Measure::gap_closed));
     EXPECT_THAT(json_tables(facts), testing::ContainsRegex("\"gap_closed\": .\n *\"mean\": null"));
     EXPECT_THAT(console_tables(facts, Tables::all),
                 testing::ContainsRegex("Gap closed, %\n.*\n  lossy +- +lost EVs\n"));
@@ -192,7 +192,7 @@ TEST(Titles, of_the_dissertations_conditions_name_the_predictor_and_its_weights)
 
 TEST_F(RunFolder, gives_the_distribution_over_all_emergency_vehicles) {
     const StudyFacts facts = read_facts(study());
-    const Distribution& distribution = facts.scenarios[0].conditions[0].travel_time;
+    const Distribution& distribution = facts.scenarios[0].conditions[0].distribution;
     EXPECT_EQ(distribution.all, 6u);
     ASSERT_EQ(distribution.points.size(), 6u);
     EXPECT_DOUBLE_EQ(distribution.points.front().seconds, 100.0);
@@ -202,12 +202,12 @@ TEST_F(RunFolder, gives_the_distribution_over_all_emergency_vehicles) {
 
 TEST_F(RunFolder, gives_failed_and_missing_runs_with_their_cause) {
     const ConditionFacts broken = read_facts(study()).scenarios[0].conditions[2];
-    EXPECT_EQ(broken.runs, 0u);
+    EXPECT_EQ(broken.complete_runs, 0u);
     ASSERT_EQ(broken.failed.size(), 1u);
     EXPECT_EQ(broken.failed[0].replication, 1u);
     EXPECT_EQ(broken.failed[0].cause, "signal: SUMO aborted <b> (signal 6), 3 attempts");
     EXPECT_EQ(broken.missing_runs, 2u);
-    EXPECT_FALSE(broken.outcome(Measure::emergency_travel_time).value.mean.has_value());
+    EXPECT_FALSE(broken.value(Measure::emergency_travel_time));
 }
 
 TEST_F(RunFolder, becomes_tables_and_a_page) {
@@ -251,15 +251,15 @@ TEST_F(RunFolder, tells_which_edges_have_three_or_more_lanes) {
 }
 
 TEST_F(RunFolder, tells_how_many_signals_the_network_has) {
-    EXPECT_FALSE(read_facts(study()).scenarios[0].signals.has_value());
+    EXPECT_FALSE(read_facts(study()).scenarios[0].roads);
     write("scenarios/merge/roads.json", R"({"edges": [], "signals": [], "stations": []})");
-    EXPECT_EQ(read_facts(study()).scenarios[0].signals, 0U);
+    EXPECT_TRUE(read_facts(study()).scenarios[0].roads->signals.empty());
     write("scenarios/merge/roads.json", "{}");
     EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
 }
 
 TEST_F(RunFolder, lists_the_edges_of_the_network_for_its_figure) {
-    EXPECT_TRUE(read_facts(study()).scenarios[0].network_edges.empty());
+    EXPECT_FALSE(read_facts(study()).scenarios[0].roads);
     write("scenarios/merge/network.svg", "<svg class=\"network\" viewBox=\"0 0 1 1\"></svg>");
     write("scenarios/merge/streets.json", R"({"a1": "Long Street"})");
     write("scenarios/merge/wide_edges.json", R"([{"edge":"a2","street":"","car_lanes":4}])");

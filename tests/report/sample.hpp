@@ -9,93 +9,127 @@
 namespace clearway::report::tests {
 
 /// mean, half width
-inline Estimate around(double mean, double half_width, std::uint64_t count = 20) {
-    return {mean, mean - half_width, mean + half_width, count};
+inline MaybeEstimate around(double mean, double half_width, std::size_t count = 20) {
+    return analysis::Estimate{count, mean, 0.0, analysis::Interval{mean - half_width, mean + half_width}};
+}
+
+inline analysis::MetricSummary& metric(ConditionFacts& facts, std::string_view name) {
+    return const_cast<analysis::MetricSummary&>(facts.metric(name));
+}
+inline MaybeEstimate& value(ConditionFacts& facts, Measure measure) {
+    return metric(facts, info(measure).field).estimate;
+}
+inline analysis::Comparison& comparison(ConditionFacts& facts, Measure measure) {
+    auto& comparison = metric(facts, info(measure).field).comparison;
+    return comparison ? *comparison : comparison.emplace();
+}
+inline MaybeEstimate& difference(ConditionFacts& facts, Measure measure) {
+    return comparison(facts, measure).difference;
+}
+/// An estimate by its mean and the ends of its interval.
+inline MaybeEstimate between(double mean, double low, double high, std::size_t count = 20) {
+    return analysis::Estimate{count, mean, 0.0, analysis::Interval{low, high}};
+}
+
+/// A count that all runs have together.
+inline void set_total(ConditionFacts& facts, std::string_view name, double total) {
+    metric(facts, name).values = {total};
+}
+
+/// A condition with all metrics, which have no values.
+inline ConditionFacts empty_condition(const std::string& name, const std::string& title) {
+    ConditionFacts facts;
+    facts.condition.name = name;
+    facts.title = title;
+    for (const analysis::MetricInfo& info : analysis::all_metrics())
+        facts.metrics.emplace_back().metric = info;
+    for (const Measure derived : {Measure::gap_closed, Measure::unfinished})
+        facts.metrics.emplace_back().metric.name = info(derived).field;
+    return facts;
 }
 
 inline ConditionFacts condition(const std::string& name, const std::string& title, double travel_time_s) {
-    ConditionFacts facts;
-    facts.name = name;
-    facts.title = title;
+    ConditionFacts facts = empty_condition(name, title);
     facts.recipe = "perfect sensing; no repair; no policy";
-    facts.runs = 20;
-    facts.emergency = {.arrived = 58, .running = 1, .teleported = 1, .not_inserted = 0, .removed = 0};
-    facts.others = {.arrived = 740, .running = 0, .teleported = 0, .not_inserted = 0, .removed = 0};
-    facts.outcome(Measure::emergency_waiting_time).value = around(travel_time_s / 9.0, 1.1);
-    facts.outcome(Measure::emergency_depart_delay).value = around(0.31, 0.12);
-    facts.outcome(Measure::waiting_time).value = around(12.4, 2.2);
-    facts.outcome(Measure::emergency_restricted_time).value = around(travel_time_s, 4.4);
-    facts.outcome(Measure::emergency_travel_time).value = around(travel_time_s, 4.4);
-    facts.outcome(Measure::emergency_time_loss).value = around(travel_time_s / 4.0, 3.1);
-    facts.outcome(Measure::other_time_loss).value = around(31.7, 2.6);
-    facts.outcome(Measure::depart_delay).value = around(0.42, 0.1);
-    facts.outcome(Measure::collisions).value = around(0.05, 0.1);
-    facts.outcome(Measure::teleports).value = around(0.05, 0.1);
-    facts.outcome(Measure::unfinished).value = around(0.05, 0.1);
-    facts.travel_time_median = around(0.93 * travel_time_s, 4.0);
-    facts.travel_time_percentile_95 = around(1.4 * travel_time_s, 9.0);
-    facts.travel_time.all = 60;
-    facts.travel_time.arrived = 58;
+    facts.complete_runs = 20;
+    facts.emergency = {.arrived = 58, .running_at_end = 1, .teleported = 1, .not_inserted = 0, .removed = 0};
+    facts.others = {.arrived = 740, .running_at_end = 0, .teleported = 0, .not_inserted = 0, .removed = 0};
+    value(facts, Measure::emergency_waiting_time) = around(travel_time_s / 9.0, 1.1);
+    value(facts, Measure::emergency_depart_delay) = around(0.31, 0.12);
+    value(facts, Measure::waiting_time) = around(12.4, 2.2);
+    value(facts, Measure::emergency_restricted_time) = around(travel_time_s, 4.4);
+    value(facts, Measure::emergency_travel_time) = around(travel_time_s, 4.4);
+    value(facts, Measure::emergency_time_loss) = around(travel_time_s / 4.0, 3.1);
+    value(facts, Measure::other_time_loss) = around(31.7, 2.6);
+    value(facts, Measure::depart_delay) = around(0.42, 0.1);
+    value(facts, Measure::collisions) = around(0.05, 0.1);
+    value(facts, Measure::teleports) = around(0.05, 0.1);
+    value(facts, Measure::unfinished) = around(0.05, 0.1);
+    facts.travel_time.median = around(0.93 * travel_time_s, 4.0);
+    facts.travel_time.percentile_95 = around(1.4 * travel_time_s, 9.0);
+    facts.distribution.all = 60;
+    facts.distribution.arrived = 58;
     for (int rank = 1; rank <= 58; ++rank) {
         const double seconds = travel_time_s * (0.7 + 0.3 * std::pow(rank / 29.0, 1.4));
-        facts.travel_time.points.push_back({seconds, rank / 60.0});
+        facts.distribution.points.push_back({seconds, rank / 60.0});
     }
     return facts;
 }
 
 /// Twenty pairs whose mean difference is that of `travel_time`.
-inline void add_pairs(ConditionFacts& facts, const Estimate& travel_time) {
+inline void add_pairs(ConditionFacts& facts, const analysis::Estimate& travel_time) {
+    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
+                                  Measure::other_time_loss, Measure::collisions}) {
+        analysis::Comparison& paired = comparison(facts, measure);
+        paired.complete_pairs = 20;
+        paired.incomplete_pairs = 1;
+        paired.vehicles_left_out = 2;
+        paired.bootstrap = paired.median_interval = travel_time.interval;
+        paired.median = travel_time.mean;
+        paired.effect_size = -1.87;
+        paired.t_p = 0.0004;
+        paired.wilcoxon_p = 0.0012;
+        paired.holm_p = 0.0016;
+    }
+    analysis::Comparison& times = comparison(facts, Measure::emergency_restricted_time);
     for (int pair = 0; pair < 20; ++pair) {
-        const double baseline_s = 101.3 + 9.0 * std::sin(1.7 * pair);
-        facts.travel_time_pairs.push_back(
-            {baseline_s, baseline_s + *travel_time.mean + 5.0 * std::cos(2.3 * pair)});
+        times.baseline_values.push_back(101.3 + 9.0 * std::sin(1.7 * pair));
+        times.condition_values.push_back(times.baseline_values.back() + travel_time.mean +
+                                         5.0 * std::cos(2.3 * pair));
     }
     facts.precision = Precision{{}, 6.0, 141};
     for (std::uint64_t n = 5; n <= 20; ++n)
         facts.precision->points.push_back({n, 14.0 / std::sqrt(static_cast<double>(n))});
     for (int approach = 0; approach < 12; ++approach) {
-        const Estimate cost = around(240.0 / (1 + approach) * (approach % 3 == 1 ? -1.0 : 1.0), 60.0);
-        facts.approaches.push_back({"edge" + std::to_string(approach),
-                                    approach == 2 ? "Stra\u00dfe der sehr langen und noch l\u00e4ngeren "
-                                                    "Namen am \u00e4u\u00dfersten Rand der Stadt"
-                                                  : "",
-                                    cost, cost, around(3.0, 5.0), cost, 1200.0, 35.5, 1.25});
+        const MaybeEstimate cost = around(240.0 / (1 + approach) * (approach % 3 == 1 ? -1.0 : 1.0), 60.0);
+        facts.approaches.push_back(
+            {"edge" + std::to_string(approach), 1200.0, cost, cost, around(3.0, 5.0), cost, 35.5, 1.25});
     }
+    facts.recovery.emplace().recovered_after_s = 75.0;
     for (int offset = -60; offset <= 240; offset += 5)
-        facts.recovery.push_back(
+        facts.recovery->points.push_back(
             {static_cast<double>(offset), around(3.0 * std::exp(-std::pow((offset - 30) / 40.0, 2.0)), 0.8)});
-    facts.recovered_after_s = 75.0;
-    facts.events = {.leases_issued = 812, .leases_refused = 31, .leases_expired = 640};
-    for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
-                                  Measure::other_time_loss, Measure::collisions})
-        facts.outcome(measure).paired = PairedStatistics{.complete_pairs = 20,
-                                                         .incomplete_pairs = 1,
-                                                         .vehicles_left_out = 2,
-                                                         .bootstrap = travel_time,
-                                                         .median = travel_time,
-                                                         .effect_size = -1.87,
-                                                         .t_p = 0.0004,
-                                                         .wilcoxon_p = 0.0012,
-                                                         .holm_p = 0.0016};
+    set_total(facts, "leases_issued", 812);
+    set_total(facts, "leases_refused", 31);
+    set_total(facts, "leases_expired", 640);
 }
 
-inline void compare(ConditionFacts& facts, const Estimate& travel_time, const Estimate& others) {
-    facts.baseline = 0;
-    add_pairs(facts, travel_time);
-    for (Outcome& outcome : facts.outcomes) {
-        outcome.difference = around(0.0, 0.2);
-    }
-    facts.outcome(Measure::emergency_restricted_time).difference = travel_time;
-    facts.outcome(Measure::emergency_travel_time).difference = travel_time;
-    facts.outcome(Measure::emergency_time_loss).difference = travel_time;
-    facts.outcome(Measure::emergency_waiting_time).difference = around(-1.84, 0.9);
-    facts.outcome(Measure::other_time_loss).difference = others;
-    facts.outcome(Measure::gap_closed).value = around(0.41, 0.13);
+inline void compare(ConditionFacts& facts, const MaybeEstimate& travel_time, const MaybeEstimate& others) {
+    facts.baseline = "baseline";
+    add_pairs(facts, *travel_time);
+    for (const MeasureInfo& measure : measures())
+        difference(facts, measure.measure) = around(0.0, 0.2);
+    difference(facts, Measure::emergency_restricted_time) = travel_time;
+    difference(facts, Measure::emergency_travel_time) = travel_time;
+    difference(facts, Measure::emergency_time_loss) = travel_time;
+    difference(facts, Measure::emergency_waiting_time) = around(-1.84, 0.9);
+    difference(facts, Measure::other_time_loss) = others;
+    value(facts, Measure::gap_closed) = around(0.41, 0.13);
 }
 
-/// A small grid of streets with two stations; its first street was driven.
-inline ScenarioMap map() {
-    ScenarioMap map;
+/// A small grid of streets with two stations.
+inline RoadMap roads() {
+    RoadMap roads;
     constexpr std::size_t size = 6;
     const auto street = [&](bool east, std::size_t row, std::size_t column) {
         MapEdge edge;
@@ -110,7 +144,7 @@ inline ScenarioMap map() {
         const std::size_t next_column = column + (east ? 1 : 0);
         if (next_column < size) edge.to.push_back(2 * (next_row % size * size + next_column));
         if (next_row < size) edge.to.push_back(2 * (next_row * size + next_column % size) + 1);
-        map.roads.edges.push_back(edge);
+        roads.edges.push_back(edge);
     };
     for (std::size_t row = 0; row < size; ++row) {
         for (std::size_t column = 0; column < size; ++column) {
@@ -118,8 +152,14 @@ inline ScenarioMap map() {
             street(false, row, column);
         }
     }
-    map.roads.signals = {{"J1", {200.0, 0.0}}, {"J2", {400.0, 0.0}}};
-    map.roads.stations = {{"east00", "fire_station", "Station <1>"}, {"north00", "ambulance_station", ""}};
+    roads.signals = {{"J1", {200.0, 0.0}}, {"J2", {400.0, 0.0}}};
+    roads.stations = {{"east00", "fire_station", "Station <1>"}, {"north00", "ambulance_station", ""}};
+    return roads;
+}
+
+/// The first street of the grid was driven.
+inline ScenarioMap map(const RoadMap& roads) {
+    ScenarioMap map;
     map.condition = 1;
     map.times = {{0, 20, 31.0, 18.5},
                  {2, 20, 40.0, 38.0},
@@ -127,7 +167,7 @@ inline ScenarioMap map() {
                  {7, 12, 15.0, 16.2},
                  {9, 4, 15.0, 23.0}};
     map.holds = {{0, 1.5, 22.0}, {1, 1.0, 9.5}};
-    map.reach = reach_of(map.roads, map.times, {0, 1}, 240.0);
+    map.reach = reach_of(roads, map.times, {0, 1}, 240.0);
     return map;
 }
 
@@ -158,7 +198,10 @@ inline ScenarioFacts scenario(const std::string& name) {
     compare(facts.conditions[2], around(-9.1, 3.6), around(2.4, 1.2));
     compare(facts.conditions[3], around(29.5, 8.5), around(3.9, 2.2));
     compare(facts.conditions[4], around(-0.6, 2.8), around(-0.1, 1.0));
-    facts.map = map();
+    facts.roads = roads();
+    facts.map = map(*facts.roads);
+    facts.streets["edge2"] =
+        "Stra\u00dfe der sehr langen und noch l\u00e4ngeren Namen am \u00e4u\u00dfersten Rand der Stadt";
     if (name != std::string("city")) facts.map->reach.reset();  // the others have no stations
     return facts;
 }

@@ -14,7 +14,7 @@ int main(int argument_count, char** arguments) {
     }
     StudyFacts study =
         tests::study({"merge", "intersection", "city", "<script>fetch('http://127.0.0.1:9/')</script>"});
-    study.scenarios[0].conditions[3].safety_checks_off = true;
+    study.scenarios[0].conditions[3].condition.safety_checks = clearway::traffic::SafetyChecks::off;
     study.scenarios[0].conditions[2].failed = {{3, "<img src=http://127.0.0.1:9/x onerror=alert(1)>"}};
     study.scenarios[1].network_svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 960 540\" class=\"network\">"

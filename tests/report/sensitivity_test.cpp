@@ -6,6 +6,7 @@
 
 #include "report/console.hpp"
 #include "report/html.hpp"
+#include "report/sample.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -33,18 +34,19 @@ analysis::ConditionSummary condition(const core::Settings& settings, const analy
     return summary;
 }
 
-analysis::Summary summary_of(std::vector<analysis::ConditionSummary> conditions) {
+analysis::Summary turned_summary(std::vector<analysis::ConditionSummary> conditions) {
     analysis::Summary summary;
     summary.scenarios.push_back({"city", "City", std::move(conditions)});
     return summary;
 }
 
 analysis::Summary three_settings() {
-    return summary_of({condition({}, {100, 102, 104, 106, 108}, {40, 40, 40, 40, 40}),
-                       condition({{"a.small", "1"}}, {101, 103, 105, 107, 109}, {40, 40, 40, 40, 40}),
-                       condition({{"a.large", "5"}}, {90, 92, 94, 96, 98}, {42, 42, 42, 42, 42}),
-                       condition({{"a.large", "9"}}, {103, 105, 107, 109, 111}, {39, 39, 39, 39, 39}),
-                       condition({{"a.large", "9"}, {"a.small", "1"}}, {1, 1, 1, 1, 1}, {1, 1, 1, 1, 1})});
+    return turned_summary(
+        {condition({}, {100, 102, 104, 106, 108}, {40, 40, 40, 40, 40}),
+         condition({{"a.small", "1"}}, {101, 103, 105, 107, 109}, {40, 40, 40, 40, 40}),
+         condition({{"a.large", "5"}}, {90, 92, 94, 96, 98}, {42, 42, 42, 42, 42}),
+         condition({{"a.large", "9"}}, {103, 105, 107, 109, 111}, {39, 39, 39, 39, 39}),
+         condition({{"a.large", "9"}, {"a.small", "1"}}, {1, 1, 1, 1, 1}, {1, 1, 1, 1, 1})});
 }
 
 TEST(Sensitivities, put_the_setting_that_moves_emergency_vehicles_most_first) {
@@ -100,9 +102,9 @@ TEST(Sensitivities, are_printed_within_80_columns_and_drawn_in_the_page) {
 std::vector<Sensitivity> one_that_matters() {
     const analysis::Values others = {40, 40, 40, 40, 40};
     return sensitivities(
-        summary_of({condition({}, {100, 102, 104, 106, 108}, others),
-                    condition({{"preempt_signals.lead_s", "4"}}, {90, 92, 94, 96, 97}, others),
-                    condition({{"clear_lane.worth_s", "2"}}, {101, 101, 105, 105, 108}, others)}));
+        turned_summary({condition({}, {100, 102, 104, 106, 108}, others),
+                        condition({{"preempt_signals.lead_s", "4"}}, {90, 92, 94, 96, 97}, others),
+                        condition({{"clear_lane.worth_s", "2"}}, {101, 101, 105, 105, 108}, others)}));
 }
 
 TEST(Sensitivities, fold_settings_without_a_shown_effect_and_count_them) {
@@ -145,9 +147,9 @@ TEST(Sensitivities, name_what_is_objected_to_a_level) {
 }
 
 TEST(Sensitivities, do_not_fold_what_too_few_seeds_cannot_tell) {
-    const auto all = sensitivities(
-        summary_of({condition({}, {100, 102}, {40, 40}), condition({{"a.small", "1"}}, {100, 103}, {40, 41}),
-                    condition({{"a.large", "5"}}, {90, 91}, {42, 42})}));
+    const auto all = sensitivities(turned_summary({condition({}, {100, 102}, {40, 40}),
+                                                   condition({{"a.small", "1"}}, {100, 103}, {40, 41}),
+                                                   condition({{"a.large", "5"}}, {90, 91}, {42, 42})}));
     ASSERT_EQ(all.size(), 1U);
     for (const SensitivityRow& row : all[0].rows) {
         EXPECT_FALSE(row.shows_nothing());
@@ -167,11 +169,10 @@ TEST(Sensitivities, name_the_shipped_value_where_it_does_not_depend_on_the_scena
 
 /// A compared condition whose EVs are faster by 12 s.
 ConditionFacts helpful(const std::string& name) {
-    ConditionFacts facts;
-    facts.name = facts.title = name;
-    facts.baseline = 0;
-    facts.runs = 5;
-    facts.outcome(Measure::emergency_restricted_time).difference = {-12.0, -14.0, -10.0, 5};
+    ConditionFacts facts = tests::empty_condition(name, name);
+    facts.baseline = "baseline";
+    facts.complete_runs = 5;
+    tests::difference(facts, primary) = tests::around(-12.0, 2.0, 5);
     return facts;
 }
 
@@ -179,12 +180,12 @@ TEST(Sensitivities, come_before_the_verdicts_of_their_levels_which_are_folded) {
     StudyFacts study;
     study.sensitivities = one_that_matters();
     ConditionFacts dangerous = helpful("corridor+clear_lane.worth_s");
-    dangerous.outcome(Measure::collisions).difference = {2.0, 1.0, 3.0, 5};
+    tests::difference(dangerous, Measure::collisions) = tests::around(2.0, 1.0, 5);
     ScenarioFacts city;
     city.name = "city";
     city.replications = 5;
-    city.conditions = {ConditionFacts{}, helpful("corridor"), helpful("corridor+preempt_signals.lead_s"),
-                       dangerous};
+    city.conditions = {tests::empty_condition("baseline", "baseline"), helpful("corridor"),
+                       helpful("corridor+preempt_signals.lead_s"), dangerous};
     study.scenarios = {city};
     EXPECT_EQ(headline(study),
               "city: EV travel time is changed by 1 of 2 settings of corridor, each turned alone, and the "

@@ -36,10 +36,13 @@ TEST(Number, never_prints_a_signed_zero_or_nan) {
 }
 
 TEST(EstimateText, shows_the_interval_only_where_there_is_one) {
-    EXPECT_EQ(estimate({8.0, 6.5, 9.5, 20}, {}), "8.0 [6.5, 9.5]");
-    EXPECT_EQ(estimate({8.0, std::nullopt, std::nullopt, 1}, {}), "8.0");
-    EXPECT_EQ(estimate(Estimate{}, {}), "-");
-    EXPECT_EQ(estimate({0.41, 0.28, 0.54, 20}, {.decimals = 0}, 100.0), "41 [28, 54]");
+    EXPECT_EQ(estimate(tests::between(8.0, 6.5, 9.5), {}), "8.0 [6.5, 9.5]");
+    EXPECT_EQ(estimate(tests::between(8.0, 6.5, 9.5, 4), {}), "8.0");
+    EXPECT_EQ(estimate({}, {}), "-");
+    const NumberStyle with_sign{.sign = Sign::always};
+    EXPECT_EQ(estimate(tests::between(1.0, -2.0, 4.0), with_sign), "+1.0 [-2.0, 4.0]");
+    EXPECT_EQ(estimate(tests::between(1.0, -2.0, 4.0), {.sign = Sign::ends_too}), "+1.0 [-2.0, +4.0]");
+    EXPECT_EQ(estimate(tests::between(0.41, 0.28, 0.54), {.decimals = 0}, 100.0), "41 [28, 54]");
 }
 
 TEST(Decimals, grow_where_all_means_are_small) {

@@ -13,73 +13,68 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Outcome differing(const Estimate& difference, double least_relevant = 0.0) {
-    return {{}, difference, least_relevant, {}};
-}
+using tests::between;
 
 TEST(Effect, of_less_than_what_counts_is_negligible) {
-    EXPECT_EQ(effect_of(differing({-0.2, -0.3, -0.1, 20}, 1.0), Better::lower), Effect::negligible);
-    EXPECT_EQ(effect_of(differing({0.1, -0.3, 0.5, 20}, 1.0), Better::lower), Effect::negligible)
+    EXPECT_EQ(effect_of(between(-0.2, -0.3, -0.1, 20), Better::lower, 1.0), Effect::negligible);
+    EXPECT_EQ(effect_of(between(0.1, -0.3, 0.5, 20), Better::lower, 1.0), Effect::negligible)
         << "shown to be smaller than what counts";
-    EXPECT_EQ(effect_of(differing({-0.9, -1.7, -0.1, 20}, 1.0), Better::lower), Effect::negligible);
-    EXPECT_EQ(effect_of(differing({-1.2, -1.7, -0.7, 20}, 1.0), Better::lower), Effect::better);
-    EXPECT_EQ(effect_of(differing({-0.2, -2.0, 1.6, 20}, 1.0), Better::lower), Effect::none_shown);
+    EXPECT_EQ(effect_of(between(-0.9, -1.7, -0.1, 20), Better::lower, 1.0), Effect::negligible);
+    EXPECT_EQ(effect_of(between(-1.2, -1.7, -0.7, 20), Better::lower, 1.0), Effect::better);
+    EXPECT_EQ(effect_of(between(-0.2, -2.0, 1.6, 20), Better::lower, 1.0), Effect::none_shown);
 }
 
 TEST(Effect, follows_from_the_interval_alone) {
-    EXPECT_EQ(effect_of(differing({-5.0, -9.0, -1.0, 20}), Better::lower), Effect::better);
-    EXPECT_EQ(effect_of(differing({-5.0, -9.0, -1.0, 20}), Better::higher), Effect::worse);
-    EXPECT_EQ(effect_of(differing({5.0, 1.0, 9.0, 20}), Better::lower), Effect::worse);
-    EXPECT_EQ(effect_of(differing({5.0, 1.0, 9.0, 20}), Better::higher), Effect::better);
-    EXPECT_EQ(effect_of(differing({-5.0, -11.0, 1.0, 20}), Better::lower), Effect::none_shown);
+    EXPECT_EQ(effect_of(between(-5.0, -9.0, -1.0, 20), Better::lower), Effect::better);
+    EXPECT_EQ(effect_of(between(-5.0, -9.0, -1.0, 20), Better::higher), Effect::worse);
+    EXPECT_EQ(effect_of(between(5.0, 1.0, 9.0, 20), Better::lower), Effect::worse);
+    EXPECT_EQ(effect_of(between(5.0, 1.0, 9.0, 20), Better::higher), Effect::better);
+    EXPECT_EQ(effect_of(between(-5.0, -11.0, 1.0, 20), Better::lower), Effect::none_shown);
 }
 
 TEST(Effect, counts_a_bound_of_zero_as_included) {
-    EXPECT_EQ(effect_of(differing({-5.0, -10.0, 0.0, 20}), Better::lower), Effect::none_shown);
-    EXPECT_EQ(effect_of(differing({0.0, 0.0, 0.0, 20}), Better::lower), Effect::none_shown);
+    EXPECT_EQ(effect_of(between(-5.0, -10.0, 0.0, 20), Better::lower), Effect::none_shown);
+    EXPECT_EQ(effect_of(between(0.0, 0.0, 0.0, 20), Better::lower), Effect::none_shown);
 }
 
 TEST(Effect, of_fewer_than_five_pairs_is_not_told) {
-    EXPECT_EQ(effect_of(differing({-50.0, std::nullopt, std::nullopt, 1}), Better::lower), Effect::too_few);
-    EXPECT_EQ(effect_of(differing({-50.0, -51.0, -49.0, 4}), Better::lower), Effect::too_few);
-    EXPECT_EQ(effect_of(differing({-50.0, -51.0, -49.0, 5}), Better::lower), Effect::better);
-    EXPECT_EQ(effect_of(differing({}), Better::lower), Effect::undecided);
+    EXPECT_EQ(effect_of(analysis::Estimate{1, -50.0, 0.0, {}}, Better::lower), Effect::too_few);
+    EXPECT_EQ(effect_of(between(-50.0, -51.0, -49.0, 4), Better::lower), Effect::too_few);
+    EXPECT_EQ(effect_of(between(-50.0, -51.0, -49.0, 5), Better::lower), Effect::better);
+    EXPECT_EQ(effect_of({}, Better::lower), Effect::undecided);
 }
 
 TEST(Verdict, says_helped_harmed_or_no_effect_shown) {
     const ScenarioFacts scenario = tests::scenario("merge");
-    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain),
+    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain).text(),
               "helped: EV travel time -12.4 s [-15.5, -9.3], -12 %; no effect shown on the others' time loss "
               "(+0.4 s "
               "[-0.8, 1.6]).");
     EXPECT_EQ(
-        verdict(scenario, scenario.conditions[3], Script::plain),
+        verdict(scenario, scenario.conditions[3], Script::plain).text(),
         "harmed: EV travel time +29.5 s [21.0, 38.0], +29 %; the others lose more time (+3.9 s [1.7, 6.1]).");
-    EXPECT_THAT(verdict(scenario, scenario.conditions[4], Script::plain),
+    EXPECT_THAT(verdict(scenario, scenario.conditions[4], Script::plain).text(),
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %;"));
 }
 
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
     ScenarioFacts scenario = tests::scenario("merge");
-    Outcome& outcome = scenario.conditions[1].outcome(Measure::emergency_restricted_time);
-    outcome.difference = tests::around(-0.2, 0.1);
-    outcome.least_relevant = 1.0;
+    tests::difference(scenario.conditions[1], primary) = tests::around(-0.2, 0.1);
+    scenario.conditions[1].least_relevant_s = 1.0;
     EXPECT_THAT(
-        verdict(scenario, scenario.conditions[1], Script::plain),
+        verdict(scenario, scenario.conditions[1], Script::plain).text(),
         StartsWith("no relevant effect: EV travel time -0.2 s [-0.3, -0.1], 0 %, where 1.0 s would count;"));
 }
 
 TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
     ScenarioFacts scenario = tests::scenario("merge");
-    const auto of_four = [&] { return verdict(scenario, scenario.conditions[4], Script::plain); };
+    const auto of_four = [&] { return verdict(scenario, scenario.conditions[4], Script::plain).text(); };
     EXPECT_THAT(of_four(), Not(HasSubstr("signals")));
-    scenario.signals = 3;
-    EXPECT_THAT(of_four(), Not(HasSubstr("signals")));
-    scenario.signals = 0;
+    scenario.roads->signals.clear();
     EXPECT_THAT(of_four(),
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %; the network has "
                            "no signals, so policies at signals have nothing to do;"));
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), Not(HasSubstr("signals")));
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(), Not(HasSubstr("signals")));
 }
 
 TEST(CoarseSteps, are_marked_above_a_quarter_of_a_second) {
@@ -105,15 +100,15 @@ TEST(FewSeeds, are_named_below_ten) {
 
 TEST(Verdict, names_collisions_when_their_interval_excludes_zero) {
     ScenarioFacts scenario = tests::scenario("merge");
-    scenario.conditions[1].outcome(Measure::collisions).difference = tests::around(4.5, 1.5);
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain),
+    tests::difference(scenario.conditions[1], Measure::collisions) = tests::around(4.5, 1.5);
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
                 EndsWith("; more collisions (+4.50 per run [3.00, 6.00])."));
 }
 
 TEST(Verdict, says_that_safety_checks_were_off) {
     ScenarioFacts scenario = tests::scenario("merge");
-    scenario.conditions[1].safety_checks_off = true;
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), HasSubstr("Safety checks"));
+    scenario.conditions[1].condition.safety_checks = traffic::SafetyChecks::off;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(), HasSubstr("Safety checks"));
 }
 
 /// The measured case: seven survivors are hardly slower, thirteen of twenty teleport.
@@ -122,8 +117,8 @@ ScenarioFacts survivors_only() {
     ConditionFacts& condition = scenario.conditions[4];
     condition.objections.emergency = {.arrived = 7, .teleported = 13};
     condition.objections.baseline_emergency = {.arrived = 20};
-    condition.outcome(Measure::emergency_restricted_time).difference = tests::around(500.0, 90.0);
-    condition.outcome(Measure::emergency_travel_time).difference = tests::around(1.7, 4.0);
+    tests::difference(condition, Measure::emergency_restricted_time) = tests::around(500.0, 90.0);
+    tests::difference(condition, Measure::emergency_travel_time) = tests::around(1.7, 4.0);
     return scenario;
 }
 
@@ -131,12 +126,12 @@ TEST(Verdict, says_first_how_many_emergency_vehicles_were_lost) {
     ScenarioFacts scenario = survivors_only();
     ConditionFacts& condition = scenario.conditions[4];
     EXPECT_THAT(
-        verdict(scenario, condition, Script::plain),
+        verdict(scenario, condition, Script::plain).text(),
         StartsWith("lost 13 of 20 emergency vehicles (13 teleported; baseline 0) and harmed: EV travel "
                    "time +500.0 s [410.0, 590.0]"));
     for (const double mean : {-30.0, 0.0, 0.2}) {
-        condition.outcome(Measure::emergency_restricted_time).difference = tests::around(mean, 0.5);
-        const std::string text = verdict(scenario, condition, Script::plain);
+        tests::difference(condition, Measure::emergency_restricted_time) = tests::around(mean, 0.5);
+        const std::string text = verdict(scenario, condition, Script::plain).text();
         EXPECT_THAT(text, StartsWith("lost 13 of 20 emergency vehicles"));
         for (const char* const claim : {"helped", "no effect shown: ", "no relevant effect"})
             EXPECT_THAT(text, Not(HasSubstr(claim)));
@@ -153,8 +148,9 @@ TEST(Effect, of_a_condition_that_loses_emergency_vehicles_is_worse_or_ruled_out)
 
 TEST(Verdict, never_calls_a_condition_without_safety_checks_a_help) {
     ScenarioFacts scenario = tests::scenario("merge");
-    scenario.conditions[1].objections.unchecked = scenario.conditions[1].safety_checks_off = true;
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain),
+    scenario.conditions[1].condition.safety_checks = traffic::SafetyChecks::off;
+    scenario.conditions[1].objections.unchecked = true;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
                 StartsWith("ran without safety checks: EV travel time -12.4 s"));
     EXPECT_EQ(effect_of(scenario.conditions[1], Measure::emergency_travel_time), Effect::ruled_out);
     EXPECT_EQ(effect_of(scenario.conditions[1], Measure::other_time_loss), Effect::ruled_out);
@@ -171,25 +167,25 @@ TEST(Effect, on_the_gap_is_ruled_out_as_every_gain_is) {
 TEST(Verdict, says_how_many_runs_are_missing) {
     ScenarioFacts scenario = tests::scenario("merge");
     scenario.conditions[1].missing_runs = 2;
-    scenario.conditions[1].runs = 5;
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain),
+    scenario.conditions[1].complete_runs = 5;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
                 StartsWith("2 of 7 runs are missing; "));
 }
 
 TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     ScenarioFacts scenario = tests::scenario("merge");
     ConditionFacts& condition = scenario.conditions[1];
-    condition.outcome(Measure::other_time_loss).difference = tests::around(-9.0, 2.0);
-    EXPECT_THAT(verdict(scenario, condition, Script::plain), HasSubstr("the others lose less time"));
+    tests::difference(condition, Measure::other_time_loss) = tests::around(-9.0, 2.0);
+    EXPECT_THAT(verdict(scenario, condition, Script::plain).text(), HasSubstr("the others lose less time"));
     condition.objections.not_inserted = analysis::Estimate{20, 8.0, 1.0, analysis::Interval{6.0, 10.0}};
-    const std::string text = verdict(scenario, condition, Script::plain);
+    const std::string text = verdict(scenario, condition, Script::plain).text();
     EXPECT_THAT(text, Not(HasSubstr("lose less time")));
     EXPECT_THAT(text, HasSubstr("; more other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
 }
 
 TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
     ConditionFacts condition;
-    condition.has_policy = true;
+    condition.condition.policies = {"corridor"};
     condition.leases.emplace();
     EXPECT_EQ(lease_sentence(condition), "asked 0 vehicles to change lanes");
     condition.leases->push_back({"corridor", "change_lane", 1200, 5, 800, 900, {{"a", 1}, {"no_room", 400}}});
@@ -202,22 +198,22 @@ TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
 
 TEST(Verdict, of_one_replication_claims_nothing) {
     ScenarioFacts scenario = tests::scenario("merge");
-    scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference = {-12.4, std::nullopt,
-                                                                                     std::nullopt, 1};
-    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain),
+    tests::difference(scenario.conditions[1], primary) = analysis::Estimate{1, -12.4, 0.0, {}};
+    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain).text(),
               "no verdict: too few seeds, 1 of at least 5 (EV travel time -12.4 s, -12 %).");
-    scenario.conditions[1].outcome(Measure::emergency_restricted_time).difference = {};
-    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain),
+    tests::difference(scenario.conditions[1], Measure::emergency_restricted_time) = {};
+    EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain).text(),
               "no verdict: no complete pair of runs.");
 }
 
 TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
     ScenarioFacts scenario = tests::scenario("merge");
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain), Not(HasSubstr("Never acted")));
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                Not(HasSubstr("Never acted")));
     scenario.conditions[1].idle_parts = {
         {"preempt_signals", 20, 20}, {"clear_lane", 20, 20}, {"recover_signals", 3, 20, 2}};
     EXPECT_THAT(
-        verdict(scenario, scenario.conditions[1], Script::plain),
+        verdict(scenario, scenario.conditions[1], Script::plain).text(),
         HasSubstr(
             ". Never acted: preempt_signals, clear_lane in 20 of 20 runs; recover_signals in 3 of 20 runs. "
             "Only changed the EV's own lane: recover_signals in 2 of 20 runs."));
@@ -250,7 +246,7 @@ TEST(Headline, does_not_speak_of_gains_where_none_is_shown) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
         if (condition.is_compared()) {
-            condition.outcome(Measure::emergency_restricted_time).difference = tests::around(-1.0, 3.0);
+            tests::difference(condition, Measure::emergency_restricted_time) = tests::around(-1.0, 3.0);
         }
     }
     EXPECT_EQ(headline(study), "merge: no effect shown under 4 of 4 conditions.");

@@ -17,6 +17,21 @@ void Range::include(double value) {
     seen_ = true;
 }
 
+void Range::include(const MaybeEstimate& estimate) {
+    if (shown_interval(estimate) != nullptr)
+        include_all(estimate);
+    else if (estimate)
+        include(estimate->mean);
+}
+
+void Range::include_all(const MaybeEstimate& estimate) {
+    if (!estimate) return;
+    include(estimate->mean);
+    if (!estimate->interval) return;
+    include(estimate->interval->low);
+    include(estimate->interval->high);
+}
+
 Ticks nice_ticks(Range range, int wanted) {
     const double rough = (range.high - range.low) / std::max(1, wanted);
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -87,11 +102,11 @@ void Plot::grid_y() {
     if (!y_.label.empty()) text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
 }
 
-void Plot::line(const std::vector<std::pair<double, double>>& points, std::size_t series) {
+void Plot::line(const Points& points, std::size_t series) {
     polyline("line", points, series);
 }
 
-void Plot::hair(const std::vector<std::pair<double, double>>& points, std::size_t series) {
+void Plot::hair(const Points& points, std::size_t series) {
     polyline("hair", points, series);
 }
 
@@ -107,8 +122,7 @@ void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t se
     fmt::format_to(svg, "\"/>\n");
 }
 
-void Plot::polyline(const char* style, const std::vector<std::pair<double, double>>& points,
-                    std::size_t series) {
+void Plot::polyline(const char* style, const Points& points, std::size_t series) {
     const auto svg = out();
     fmt::format_to(svg, "<polyline class=\"{} s{}\" points=\"", style, series % palette_size);
     for (const auto& [x, y] : points) {
@@ -126,6 +140,14 @@ void Plot::interval(std::pair<double, double> bounds, double mean, double y, std
 void Plot::point(double value, double y, std::size_t series) {
     fmt::format_to(out(), "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
                    series % palette_size, x_.place(value), y);
+}
+
+void Plot::estimate(const MaybeEstimate& value, const analysis::Interval* interval, double y,
+                    std::size_t series) {
+    if (interval != nullptr)
+        this->interval({interval->low, interval->high}, value->mean, y, series);
+    else if (value)
+        point(value->mean, y, series);
 }
 
 void Plot::beam(std::pair<double, double> bounds, double y, std::size_t series) {
@@ -159,6 +181,36 @@ void Plot::horizontal(double value) {
 void Plot::whisker(double x, std::pair<double, double> bounds, std::size_t series) {
     fmt::format_to(out(), "<path class=\"bar s{}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
                    series % palette_size, x_.place(x) - 3.0, y_.place(bounds.first), y_.place(bounds.second));
+}
+
+Chart::Chart(const std::string& title, double height, Axis x, Axis y)
+    : Plot(title, height, {x.values, x.label, left_edge, right_edge, x.scale},
+           {y.values, y.label, height - label_space, top_edge, y.scale}) {
+    grid_x();
+    grid_y();
+}
+
+std::string panels(const std::string& title, const std::string& label, std::size_t count, const Range& x,
+                   const Range& y, const std::function<void(Plot&, std::size_t)>& draw) {
+    constexpr std::size_t columns = 2;
+    constexpr double panel_width = 150.0;
+    constexpr double panel_height = 104.0;
+    constexpr double first_top = 58.0;   // room for the label and the first titles
+    constexpr double below = 168.0;      // from one panel's top to the next one's
+    constexpr double first_left = 44.0;  // room for the labels of y
+    constexpr double beside = 194.0;     // from one panel's left edge to the next one's
+    const double rows = std::ceil(static_cast<double>(count) / columns);
+    Plot plot(title, first_top + rows * below, {}, {});
+    plot.text(2.0, 14.0, label, Plot::Anchor::start, "axis");
+    for (std::size_t panel = 0; panel < count; ++panel) {
+        const double left = first_left + beside * static_cast<double>(panel % columns);
+        const double top = first_top + below * static_cast<double>(panel / columns);
+        plot.turn_to({x, "", left, left + panel_width}, {y, "", top + panel_height, top});
+        plot.grid_x();
+        plot.grid_y();
+        draw(plot, panel);
+    }
+    return plot.finish();
 }
 
 }  // namespace clearway::report::detail

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "report/detail/canvas.hpp"
+#include "report/facts.hpp"
 
 namespace clearway::report::detail {
 
@@ -16,7 +18,14 @@ struct Range {
     double low = 0.0;
     double high = 0.0;
 
+    Range() = default;
+    Range(double from, double to) : low(from), high(to), seen_(true) {}
+
     void include(double value);
+    /// The mean, and the interval where it is printed.
+    void include(const MaybeEstimate& estimate);
+    /// The same with an interval of however few values.
+    void include_all(const MaybeEstimate& estimate);
     bool empty() const { return !seen_; }
 
   private:
@@ -56,6 +65,13 @@ struct Axis {
     }
 };
 
+inline constexpr double right_edge = 388.0;  ///< Of the drawing area; the rest keeps the last label inside.
+inline constexpr double left_edge = 52.0;    ///< Room for the labels of y.
+inline constexpr double top_edge = 26.0;     ///< Room for the label of y.
+inline constexpr double label_space = 44.0;  ///< Below the drawing area.
+
+using Points = std::vector<std::pair<double, double>>;
+
 /// A drawing with two axes.
 class Plot : public Canvas {
   public:
@@ -68,10 +84,13 @@ class Plot : public Canvas {
     void grid_x();
     void grid_y();
     /// A polyline in the style of `series`, an index of the palette.
-    void line(const std::vector<std::pair<double, double>>& points, std::size_t series);
+    void line(const Points& points, std::size_t series);
     /// A horizontal interval with its mean, at height `y` in figure units.
     void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
     void point(double value, double y, std::size_t series);
+    /// The two above: a point if there is no interval to draw, and nothing without an estimate.
+    void estimate(const MaybeEstimate& value, const analysis::Interval* interval, double y,
+                  std::size_t series);
     /// A filled bar between two values of x, at height `y` in figure units.
     void beam(std::pair<double, double> bounds, double y, std::size_t series);
     /// A horizontal line between two values of x at a value of y, with the CSS class `style`.
@@ -84,18 +103,31 @@ class Plot : public Canvas {
     /// A horizontal line across the figure at a value of y.
     void horizontal(double value);
     /// A thin polyline, for figures with many lines.
-    void hair(const std::vector<std::pair<double, double>>& points, std::size_t series);
+    void hair(const Points& points, std::size_t series);
     /// The area between two bounds of y over x: (x, low, high).
     void band(const std::vector<std::array<double, 3>>& bounds, std::size_t series);
     /// Continues with other axes: the next panel of the drawing.
     void turn_to(Axis x, Axis y);
 
   private:
-    void polyline(const char* style, const std::vector<std::pair<double, double>>& points,
-                  std::size_t series);
+    void polyline(const char* style, const Points& points, std::size_t series);
 
     Axis x_;
     Axis y_;
 };
+
+/// A plot over the whole drawing area, with the lines of both axes.
+struct Chart : Plot {
+    Chart(const std::string& title, double height, const Range& x, const std::string& x_label, const Range& y,
+          const std::string& y_label)
+        : Chart(title, height, {x, x_label}, {y, y_label}) {}
+    /// Places of the axes are set here.
+    Chart(const std::string& title, double height, Axis x, Axis y);
+};
+
+/// Small multiples: panels of one scale, two beside each other in one drawing. `draw` is called with the plot
+/// turned to each panel, and its number.
+std::string panels(const std::string& title, const std::string& label, std::size_t count, const Range& x,
+                   const Range& y, const std::function<void(Plot&, std::size_t)>& draw);
 
 }  // namespace clearway::report::detail

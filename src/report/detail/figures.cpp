@@ -2,10 +2,6 @@
 
 namespace clearway::report::detail {
 
-std::string cell(const std::optional<double>& value, NumberStyle style) {
-    return value ? number(*value, style) : missing(style.script);
-}
-
 std::vector<Figure> figures_of(const StudyFacts& study,
                                const std::function<Figure(const ScenarioFacts&)>& figure) {
     std::vector<Figure> figures;

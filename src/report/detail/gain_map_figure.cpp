@@ -37,32 +37,34 @@ std::vector<const MapEdge*> all_edges(const RoadMap& roads) {
 }
 
 /// The ways, small changes first, so that large ones lie on top.
-void draw_ways(MapCanvas& canvas, const ScenarioMap& map) {
+void draw_ways(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
     std::vector<EdgeTimes> times = map.times;
     std::ranges::stable_sort(times, {}, [](const EdgeTimes& one) { return std::abs(one.gain_s()); });
     for (const EdgeTimes& one : times)
-        canvas.edge(map.roads.edges[one.edge], band_of(one.gain_s()).style);
+        canvas.edge(roads.edges[one.edge], band_of(one.gain_s()).style);
 }
 
-void draw_holds(MapCanvas& canvas, const ScenarioMap& map) {
+void draw_holds(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
     double longest_s = 0.0;
     for (const SignalHolds& one : map.holds)
         longest_s = std::max(longest_s, one.held_s);
     for (const SignalHolds& one : map.holds) {
         if (one.held_s <= 0.0) continue;
-        const auto [x, y] = canvas.place(map.roads.signals[one.signal].place);
+        const auto [x, y] = canvas.place(roads.signals[one.signal].place);
         canvas.circle(x, y, 3.0 + 4.0 * std::sqrt(one.held_s / longest_s), "held");
     }
 }
 
 /// Approaches whose interval lies above 0, the largest losses first.
-std::vector<const ApproachFacts*> losing_approaches(const ConditionFacts& condition) {
-    std::vector<const ApproachFacts*> losing;
-    for (const ApproachFacts& approach : condition.approaches) {
-        if (approach.difference.has_interval() && *approach.difference.low > 0.0) losing.push_back(&approach);
+std::vector<const analysis::ApproachCost*> losing_approaches(const ConditionFacts& condition) {
+    std::vector<const analysis::ApproachCost*> losing;
+    for (const analysis::ApproachCost& approach : condition.approaches) {
+        const analysis::Interval* const interval = shown_interval(approach.difference);
+        if (interval != nullptr && interval->low > 0.0) losing.push_back(&approach);
     }
-    std::ranges::stable_sort(losing, std::greater{},
-                             [](const ApproachFacts* approach) { return *approach->difference.mean; });
+    std::ranges::stable_sort(losing, std::greater{}, [](const analysis::ApproachCost* approach) {
+        return approach->difference->mean;
+    });
     return losing;
 }
 
@@ -73,19 +75,20 @@ void draw_loss(MapCanvas& canvas, const MapEdge& edge) {
     canvas.add(fmt::format("<path class=\"losing\" d=\"M{:.1f} {:.1f}l5 -9h-10z\"/>\n", x, y));
 }
 
-DataTable data_of(const ScenarioMap& map, const std::vector<const ApproachFacts*>& losing) {
+DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
+                  const std::vector<const analysis::ApproachCost*>& losing) {
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
     for (const EdgeTimes& one : map.times)
-        table.rows.push_back({"edge", map.roads.edges[one.edge].id, grouped(one.passages),
+        table.rows.push_back({"edge", roads.edges[one.edge].id, grouped(one.passages),
                               number(one.baseline_s, typeset(2)), number(one.condition_s, typeset(2)),
                               number(one.gain_s(), typeset(2, Sign::always))});
     for (const SignalHolds& one : map.holds)
-        table.rows.push_back({"signal held, per run", map.roads.signals[one.signal].id,
+        table.rows.push_back({"signal held, per run", roads.signals[one.signal].id,
                               number(one.holds, typeset(2)), "", number(one.held_s, typeset(1)), ""});
-    for (const ApproachFacts* const approach : losing)
+    for (const analysis::ApproachCost* const approach : losing)
         table.rows.push_back({"others lose, s per run", approach->edge, "",
-                              cell(approach->baseline_s, typeset(0)), "",
-                              number(-*approach->difference.mean, typeset(0, Sign::always))});
+                              number_or_dash(approach->baseline_s, typeset(0)), "",
+                              number(-approach->difference->mean, typeset(0, Sign::always))});
     return table;
 }
 
@@ -105,18 +108,18 @@ std::vector<LegendEntry> entries_of(const ScenarioMap& map, bool losing) {
 }  // namespace
 
 Figure gain_map_figure(const ScenarioFacts& scenario) {
-    if (!scenario.map || !is_drawable(scenario.map->roads)) return {};
+    if (!scenario.map || !is_drawable(*scenario.roads)) return {};
+    const RoadMap& roads = *scenario.roads;
     const ScenarioMap& map = *scenario.map;
     const ConditionFacts& condition = scenario.conditions[map.condition];
     MapCanvas canvas(fmt::format("{}: where {} gains and costs time", scenario.name, condition.label()),
-                     map.roads);
-    canvas.edges(all_edges(map.roads), "road");
-    draw_ways(canvas, map);
-    draw_holds(canvas, map);
-    const std::vector<const ApproachFacts*> losing = losing_approaches(condition);
+                     roads);
+    canvas.edges(all_edges(roads), "road");
+    draw_ways(canvas, roads, map);
+    draw_holds(canvas, roads, map);
+    const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
     for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
-        if (const auto edge = map.roads.find_edge(losing[row]->edge))
-            draw_loss(canvas, map.roads.edges[*edge]);
+        if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);
     }
     canvas.scale_bar();
     canvas.legend(entries_of(map, !losing.empty()));
@@ -131,7 +134,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
             losing.size(), drawn_losses);
     return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(),
             scenario.attribution.empty() ? note : note + " " + scenario.attribution + ".",
-            data_of(map, losing)};
+            data_of(roads, map, losing)};
 }
 
 }  // namespace clearway::report::detail

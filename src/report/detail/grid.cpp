@@ -1,5 +1,7 @@
 #include "report/detail/grid.hpp"
 
+#include <algorithm>
+
 namespace clearway::report::detail {
 namespace {
 
@@ -25,13 +27,13 @@ std::string style_of(GridCell::Tone tone) {
     return "cell empty";
 }
 
-}  // namespace
-
+/// Units that a grid takes from its top.
 double grid_height(const Grid& grid) {
     return (grid.heading.empty() ? 0.0 : heading_height) + columns_height +
            row_height * static_cast<double>(grid.rows.size()) + 8.0;
 }
 
+/// Draws a grid with its upper edge at `top`.
 void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     using Anchor = Canvas::Anchor;
     if (!grid.heading.empty()) {
@@ -54,6 +56,43 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
         }
         top += row_height;
     }
+}
+
+/// More columns are too narrow for their figures.
+constexpr std::size_t most_columns = 8;
+
+template <class Cell>
+std::vector<Cell> part_of(const std::vector<Cell>& cells, std::size_t first) {
+    const auto start = cells.begin() + static_cast<std::ptrdiff_t>(first);
+    return {start, start + static_cast<std::ptrdiff_t>(std::min(most_columns, cells.size() - first))};
+}
+
+/// Adds the grid as several that are narrow enough.
+void split(const Grid& grid, std::vector<Grid>& parts) {
+    for (std::size_t first = 0; first < grid.columns.size(); first += most_columns) {
+        Grid& part = parts.emplace_back(Grid{grid.heading, part_of(grid.columns, first), {}});
+        for (const Grid::Row& row : grid.rows)
+            part.rows.push_back({row.label, part_of(row.cells, first)});
+    }
+}
+
+}  // namespace
+
+Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide, const std::string& axes) {
+    std::vector<Grid> grids;
+    for (const Grid& grid : wide)
+        split(grid, grids);
+    double top = axes.empty() ? 0.0 : 24.0;
+    double height = top;
+    for (const Grid& grid : grids)
+        height += grid_height(grid);
+    Canvas canvas(title, height);
+    if (!axes.empty()) canvas.text(2.0, 14.0, shortened(axes, 62), Canvas::Anchor::start, "axis");
+    for (const Grid& grid : grids) {
+        draw_grid(grid, top, canvas);
+        top += grid_height(grid);
+    }
+    return canvas;
 }
 
 }  // namespace clearway::report::detail

@@ -24,12 +24,8 @@ struct Grid {
     std::vector<Row> rows;
 };
 
-/// More columns are too narrow for their figures.
-inline constexpr std::size_t most_grid_columns = 8;
-
-/// Units that a grid takes from its top.
-double grid_height(const Grid& grid);
-/// Draws a grid with its upper edge at `top`.
-void draw_grid(const Grid& grid, double top, Canvas& canvas);
+/// A drawing of grids below each other, under a line that says what their columns and rows are. A grid with
+/// more columns than there is room for becomes several.
+Canvas draw_grids(const std::string& title, const std::vector<Grid>& grids, const std::string& axes = {});
 
 }  // namespace clearway::report::detail

@@ -12,21 +12,10 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr double height = 300.0;
-constexpr double bottom_edge = height - 44.0;
-constexpr double top_edge = 26.0;
 /// With fewer pairs the share of true links in a bin is too uncertain.
 constexpr std::uint64_t fewest_pairs = 100;
 /// Points closer than this, in figure units, are left out.
 constexpr double least_step = 1.5;
-
-using Points = std::vector<std::pair<double, double>>;
-
-Range range_of(double low, double high) {
-    Range range;
-    range.include(low);
-    range.include(high);
-    return range;
-}
 
 std::string decimal(double value, int decimals) {
     return number(value, {decimals, Script::typeset});
@@ -82,10 +71,7 @@ std::string age_label(std::size_t age_class) {
 }  // namespace
 
 std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
-    Plot plot("Precision over recall", height, {range_of(0.5, 1.0), "recall", left_edge, right_edge},
-              {range_of(0.5, 1.0), "precision", bottom_edge, top_edge});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot("Precision over recall", height, Range(0.5, 1.0), "recall", Range(0.5, 1.0), "precision");
     DataTable data{{"Predictor", "AP", "precision at recall .80", ".90", ".95", ".98", ".99"}, {}};
     bool any = false;
     for (const DrawnResult& one : drawn) {
@@ -98,8 +84,7 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
         any = any || !curve.empty();
         if (!points.empty()) plot.line(thinned(points, plot.x(), plot.y()), one.series);
         const auto& ap = one.result->of(links::LinkSubset::all).ap.value;
-        std::vector<std::string> row = {one.result->predictor,
-                                        ap ? decimal(*ap, 4) : missing(Script::typeset)};
+        std::vector<std::string> row = {one.result->predictor, number_or_dash(ap, typeset(4))};
         for (const double recall : {0.80, 0.90, 0.95, 0.98, 0.99})
             row.push_back(precision_at(curve, recall));
         data.rows.push_back(std::move(row));
@@ -113,17 +98,15 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
 }
 
 std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
-    Range gaps = range_of(-0.05, 0.05);
+    Range gaps(-0.05, 0.05);
     std::vector<Points> curves;
     for (const DrawnResult& one : drawn) {
         curves.push_back(gaps_of(one.result->scores.of(links::LinkSubset::all)));
         for (const auto& [stated, gap] : curves.back())
             gaps.include(gap);
     }
-    Plot plot("Reliability", height, {range_of(0.0, 1.0), "stated probability", left_edge, right_edge},
-              {padded(gaps, 0.04), "share of true links minus stated probability", bottom_edge, top_edge});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot("Reliability", height, Range(0.0, 1.0), "stated probability", padded(gaps, 0.04),
+               "share of true links minus stated probability");
     DataTable data{{"Predictor", "stated", "share of true links minus it"}, {}};
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (!curves[i].empty()) plot.line(curves[i], drawn[i].series);
@@ -140,7 +123,7 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
 }
 
 std::string age_figure(const std::vector<DrawnResult>& drawn) {
-    Range values = range_of(0.95, 1.0);
+    Range values(0.95, 1.0);
     DataTable data{{"Predictor"}, {}};
     for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class)
         data.head.push_back(age_label(age_class) + " s");
@@ -152,7 +135,7 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
         row.push_back(one.result->predictor);
         for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class) {
             const auto ap = links::link_quality(one.result->scores.of_age(age_class)).ap;
-            row.push_back(ap ? decimal(*ap, 4) : missing(Script::typeset));
+            row.push_back(number_or_dash(ap, typeset(4)));
             if (!ap) continue;
             any = true;
             points.emplace_back(static_cast<double>(age_class), *ap);
@@ -162,15 +145,15 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
     if (!any) return {};
     const double last = static_cast<double>(links::age_classes) - 1.0;
     Plot plot("Average precision by age", height,
-              {range_of(-0.3, last + 0.3), "age of the older report, s", left_edge, right_edge},
-              {padded(values, 0.02), "average precision", bottom_edge, top_edge});
+              {Range(-0.3, last + 0.3), "age of the older report, s", left_edge, right_edge},
+              {padded(values, 0.02), "average precision", height - label_space, top_edge});
     plot.grid_y();
     for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class) {
-        plot.text(plot.x().place(static_cast<double>(age_class)), bottom_edge + 16.0, age_label(age_class),
-                  Plot::Anchor::middle, "tick");
+        plot.text(plot.x().place(static_cast<double>(age_class)), height - label_space + 16.0,
+                  age_label(age_class), Plot::Anchor::middle, "tick");
     }
-    plot.text((left_edge + right_edge) / 2.0, bottom_edge + 34.0, plot.x().label, Plot::Anchor::middle,
-              "axis");
+    plot.text((left_edge + right_edge) / 2.0, height - label_space + 34.0, plot.x().label,
+              Plot::Anchor::middle, "axis");
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (!curves[i].empty()) plot.line(curves[i], drawn[i].series);
     }

@@ -50,7 +50,7 @@ std::string to_html(const Figure& figure) {
 
 std::string condition_label(const ConditionFacts& condition) {
     std::string html = escaped(condition.title);
-    if (condition.safety_checks_off) html += " <span class=\"unsafe\">safety checks off</span>";
+    if (condition.is_unchecked()) html += " <span class=\"unsafe\">safety checks off</span>";
     return html;
 }
 

@@ -1,11 +1,17 @@
 #pragma once
 
+#include "report/detail/axes.hpp"
 #include "report/detail/writer.hpp"
 #include "report/facts.hpp"
 
 namespace clearway::report::detail {
 
 // Figures of the first screen. Without a drawing if there is nothing to draw.
+
+/// Extends the ranges by the places of a journey.
+void include(const JourneyFacts& journey, Range& times, Range& distances);
+/// Distance over time.
+Points way_of(const JourneyFacts& journey);
 
 /// Time and distance of one emergency vehicle of one replication, with and without a condition in one
 /// drawing, and what the signals on its route showed in both.

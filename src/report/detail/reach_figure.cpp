@@ -65,8 +65,8 @@ DataTable data_of(const RoadMap& roads, const Reach& reach) {
 }  // namespace
 
 Figure reach_figure(const ScenarioFacts& scenario) {
-    if (!scenario.map || !scenario.map->reach || !is_drawable(scenario.map->roads)) return {};
-    const RoadMap& roads = scenario.map->roads;
+    if (!scenario.map || !scenario.map->reach || !is_drawable(*scenario.roads)) return {};
+    const RoadMap& roads = *scenario.roads;
     const Reach& reach = *scenario.map->reach;
     const double within_s = 60.0 * reach.minutes;
     const std::string minutes = number(reach.minutes, typeset(0));

@@ -10,19 +10,11 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double height = 330.0;
 constexpr double offset = 2.6;  // of a run's signals from the stop line, so that both runs are seen
 
 const JourneyFacts* journey_under(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const auto found = std::ranges::find(scenario.journeys, condition.label(), &JourneyFacts::condition);
     return found == scenario.journeys.end() || found->places.size() < 2 ? nullptr : &*found;
-}
-
-void include(const JourneyFacts& journey, Range& times, Range& distances) {
-    for (const JourneyPlace& place : journey.places) {
-        times.include(place.time_s);
-        distances.include(place.distance_m);
-    }
 }
 
 /// What the signals showed in one run, beside their stop lines.
@@ -45,13 +37,6 @@ void add_signal_colours(const JourneyFacts& without, const JourneyFacts& with,
     }
 }
 
-void draw_way(Plot& plot, const JourneyFacts& journey, std::size_t series) {
-    std::vector<std::pair<double, double>> points;
-    for (const JourneyPlace& place : journey.places)
-        points.emplace_back(place.time_s, place.distance_m);
-    plot.line(points, series);
-}
-
 void add_data(const JourneyFacts& journey, DataTable& table) {
     for (const JourneyPlace& place : journey.places)
         table.rows.push_back({journey.condition, "vehicle", "", number(place.time_s, typeset(1)), "",
@@ -64,10 +49,24 @@ void add_data(const JourneyFacts& journey, DataTable& table) {
 
 }  // namespace
 
+void include(const JourneyFacts& journey, Range& times, Range& distances) {
+    for (const JourneyPlace& place : journey.places) {
+        times.include(place.time_s);
+        distances.include(place.distance_m);
+    }
+}
+
+Points way_of(const JourneyFacts& journey) {
+    Points points;
+    for (const JourneyPlace& place : journey.places)
+        points.emplace_back(place.time_s, place.distance_m);
+    return points;
+}
+
 Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    if (!condition.baseline) return {};
-    const ConditionFacts& baseline = scenario.conditions[*condition.baseline];
-    const JourneyFacts* const without = journey_under(scenario, baseline);
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    if (baseline == nullptr) return {};
+    const JourneyFacts* const without = journey_under(scenario, *baseline);
     const JourneyFacts* const with = journey_under(scenario, condition);
     if (without == nullptr || with == nullptr) return {};
     Range times;
@@ -75,17 +74,15 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     include(*without, times, distances);
     include(*with, times, distances);
     if (times.high <= times.low || distances.high <= distances.low) return {};
-    Plot plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), height,
-              {times, "time since departure, s", left_edge, right_edge},
-              {distances, "distance along the route, m", height - label_space, 26.0});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), 330.0,
+               times, "time since departure, s", distances, "distance along the route, m");
     draw_signals(plot, *without, -offset);
     draw_signals(plot, *with, offset);
-    const auto series = static_cast<std::size_t>(&condition - scenario.conditions.data());
-    draw_way(plot, *without, *condition.baseline);
-    draw_way(plot, *with, series);
-    std::vector<LegendEntry> legend = {line_entry(*condition.baseline, baseline.label()),
+    const std::size_t baseline_series = scenario.place_of(condition.baseline);
+    const std::size_t series = scenario.place_of(condition.name());
+    plot.line(way_of(*without), baseline_series);
+    plot.line(way_of(*with), series);
+    std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),
                                        line_entry(series, condition.label())};
     add_signal_colours(*without, *with, legend);
     plot.legend(legend);

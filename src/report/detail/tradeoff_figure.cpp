@@ -10,7 +10,6 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double tradeoff_height = 330.0;
 constexpr Measure gain = Measure::emergency_restricted_time;
 constexpr Measure cost = Measure::other_time_loss;
 
@@ -20,10 +19,14 @@ struct Point {
     const ConditionFacts* condition = nullptr;
     bool turned_alone = false;  ///< A setting of another condition: drawn small, without a number.
 
-    const Estimate& time() const { return condition->outcome(gain).difference; }
-    const Estimate& others() const { return condition->outcome(cost).difference; }
-    double x() const { return *others().mean; }
-    double y() const { return -*time().mean; }
+    MaybeEstimate gained() const {
+        MaybeEstimate time = condition->difference(gain);
+        if (!time) return time;
+        time->mean = -time->mean;
+        if (time->interval) time->interval = analysis::Interval{-time->interval->high, -time->interval->low};
+        return time;
+    }
+    const MaybeEstimate& lost() const { return condition->difference(cost); }
 };
 
 std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scenario) {
@@ -31,7 +34,7 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
     for (std::size_t number = 0; number < scenario.conditions.size(); ++number) {
         const ConditionFacts& condition = scenario.conditions[number];
         Point point{number, &condition, reference_of(study, scenario, condition) != nullptr};
-        if (condition.is_compared() && point.time().mean && point.others().mean) points.push_back(point);
+        if (condition.is_compared() && point.gained() && point.lost()) points.push_back(point);
     }
     // The small ones first, so that none hides a number.
     std::stable_partition(points.begin(), points.end(),
@@ -39,33 +42,20 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
     return points;
 }
 
-void include(const Point& point, Range& costs, Range& gains) {
-    costs.include(point.x());
-    gains.include(point.y());
-    if (point.others().has_interval()) {
-        costs.include(*point.others().low);
-        costs.include(*point.others().high);
-    }
-    if (point.time().has_interval()) {
-        gains.include(-*point.time().low);
-        gains.include(-*point.time().high);
-    }
-}
-
 void draw(Plot& plot, const Point& point) {
-    const double x = plot.x().place(point.x());
-    const double y = plot.y().place(point.y());
+    const MaybeEstimate gained = point.gained();
+    const double x = plot.x().place(point.lost()->mean);
+    const double y = plot.y().place(gained->mean);
     const std::string series = fmt::format("s{}", point.number % palette_size);
     if (point.turned_alone) {
         plot.circle(x, y, 3.0, "dot small " + series);
         return;
     }
-    if (point.others().has_interval())
-        plot.path({{plot.x().place(*point.others().low), y}, {plot.x().place(*point.others().high), y}},
+    if (const analysis::Interval* const across = shown_interval(point.lost()))
+        plot.path({{plot.x().place(across->low), y}, {plot.x().place(across->high), y}},
                   "bar thin " + series);
-    if (point.time().has_interval())
-        plot.path({{x, plot.y().place(-*point.time().high)}, {x, plot.y().place(-*point.time().low)}},
-                  "bar thin " + series);
+    if (const analysis::Interval* const up = shown_interval(gained))
+        plot.path({{x, plot.y().place(up->low)}, {x, plot.y().place(up->high)}}, "bar thin " + series);
     plot.circle(x, y, 8.0, "dot " + series);
     plot.text(x, y + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
 }
@@ -75,15 +65,10 @@ DataTable data_of(const std::vector<Point>& points) {
                      "pairs", "objection"},
                     {}};
     for (const Point& point : points) {
-        Estimate mirrored = point.time();
-        mirrored.mean = -*mirrored.mean;
-        if (mirrored.low && mirrored.high) {
-            mirrored.low = -*point.time().high;
-            mirrored.high = -*point.time().low;
-        }
+        const MaybeEstimate gained = point.gained();
         table.rows.push_back({point.condition->label(), std::to_string(point.number),
-                              estimate(mirrored, typeset(2)), estimate(point.others(), typeset(2)),
-                              grouped(point.time().count),
+                              estimate(gained, typeset(2)), estimate(point.lost(), typeset(2)),
+                              grouped(gained->n),
                               analysis::emergency_objection_word(point.condition->objections)});
     }
     return table;
@@ -111,14 +96,14 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     gains.include(0.0);
     gains.include(scenario.least_relevant_s);
     gains.include(-scenario.least_relevant_s);
-    for (const Point& point : points)
-        include(point, costs, gains);
+    for (const Point& point : points) {
+        costs.include(point.lost());
+        gains.include(point.gained());
+    }
     const std::string title =
         fmt::format("{}: gain of emergency vehicles and cost to the others", scenario.name);
-    Plot plot(title, tradeoff_height, {padded(costs, 0.1), "others lose, s each", left_edge, right_edge},
-              {padded(gains, 0.1), "emergency vehicles gain, s a trip", tradeoff_height - label_space, 26.0});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot(title, 330.0, padded(costs, 0.1), "others lose, s each", padded(gains, 0.1),
+               "emergency vehicles gain, s a trip");
     const double top = plot.y().place(scenario.least_relevant_s);
     plot.rectangle(left_edge, top, right_edge - left_edge, plot.y().place(-scenario.least_relevant_s) - top,
                    "uncounted");

@@ -5,13 +5,6 @@
 #include <map>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
-#include "analysis/estimate.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "metrics/counts.hpp"
-
 namespace clearway::report::detail {
 namespace {
 
@@ -37,10 +30,16 @@ std::map<std::string, JourneyFacts> journeys_of(const std::vector<metrics::Journ
             if (const auto before = open.find(key); before != open.end())
                 journey.signals[before->second].to_s = at_s;
             open[key] = journey.signals.size();
-            journey.signals.push_back({row.signal, row.state, row.distance_m, at_s, std::max(at_s, end_s)});
+            const bool known = row.state == "green" || row.state == "yellow";
+            journey.signals.push_back(
+                {row.signal, known ? row.state : "red", row.distance_m, at_s, std::max(at_s, end_s)});
         }
     }
     return journeys;
+}
+
+double mean_difference_s(const ConditionFacts* condition) {
+    return analysis::mean_of(condition->difference(Measure::emergency_restricted_time)).value_or(0.0);
 }
 
 /// Conditions that are shown: the baseline and those that help the EVs most.
@@ -49,9 +48,7 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
     for (const ConditionFacts& condition : scenario.conditions) {
         if (condition.is_compared()) compared.push_back(&condition);
     }
-    std::ranges::stable_sort(compared, {}, [](const ConditionFacts* condition) {
-        return condition->outcome(Measure::emergency_restricted_time).difference.mean.value_or(0.0);
-    });
+    std::ranges::stable_sort(compared, {}, mean_difference_s);
     std::vector<const ConditionFacts*> shown;
     if (!scenario.conditions.empty()) shown.push_back(&scenario.conditions.front());
     for (const ConditionFacts* condition : compared) {
@@ -86,11 +83,17 @@ std::optional<Typical> typical_vehicle(const std::vector<std::map<std::string, J
 
 }  // namespace
 
-std::vector<JourneyFacts> journeys_in(const results::Store& store, const ScenarioFacts& scenario) {
+const metrics::TrafficTables& RunTraffic::of(const experiment::RunKey& key) {
+    const auto [place, is_new] = tables_.try_emplace(key);
+    if (is_new) place->second = store_.read_traffic(key);
+    return place->second;
+}
+
+std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario) {
     const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
     if (conditions.empty()) return {};
     const ConditionFacts& first = *conditions[std::min<std::size_t>(1, conditions.size() - 1)];
-    const double gain_s = -first.outcome(Measure::emergency_restricted_time).difference.mean.value_or(0.0);
+    const double gain_s = -mean_difference_s(&first);
     constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
     std::vector<JourneyFacts> journeys;
     std::optional<Typical> shown;
@@ -98,8 +101,7 @@ std::vector<JourneyFacts> journeys_in(const results::Store& store, const Scenari
          replication < std::min<std::uint64_t>(looked_at, scenario.replications); ++replication) {
         std::vector<std::map<std::string, JourneyFacts>> runs;
         for (const ConditionFacts* condition : conditions)
-            runs.push_back(
-                journeys_of(store.read_traffic({scenario.name, condition->name, replication}).journeys));
+            runs.push_back(journeys_of(traffic.of({scenario.name, condition->name(), replication}).journeys));
         const std::optional<Typical> found = typical_vehicle(runs, gain_s);
         if (!found || (shown && shown->off_s <= found->off_s)) continue;
         shown = found;
@@ -111,40 +113,6 @@ std::vector<JourneyFacts> journeys_in(const results::Store& store, const Scenari
         }
     }
     return journeys;
-}
-
-std::vector<FlowFacts> flows_in(const std::filesystem::path& file, const results::Results& results,
-                                const std::string& scenario, const std::string& condition) {
-    if (!std::filesystem::exists(file)) return {};
-    double runs = 0.0;
-    std::map<std::string, double> sums;
-    for (const results::RunRecord& run : results.runs) {
-        if (run.key.scenario != scenario || run.key.condition != condition) continue;
-        ++runs;
-        for (const metrics::ApproachRow& row : run.traffic.approaches)
-            sums[row.edge] += row.flow_per_hour;
-    }
-    std::vector<FlowFacts> flows;
-    for (const metrics::EdgeCount& count : metrics::read_counts(file)) {
-        FlowFacts& flow = flows.emplace_back();
-        flow.edge = count.edge;
-        flow.counted_per_hour = count.vehicles_per_hour;
-        if (runs == 0.0) continue;
-        flow.modelled_per_hour = sums[count.edge] / runs;
-        flow.geh = analysis::geh(*flow.modelled_per_hour, count.vehicles_per_hour);
-    }
-    return flows;
-}
-
-std::map<std::string, std::string> streets_in(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) return {};
-    try {
-        return nlohmann::json::parse(core::read_file(file)).get<std::map<std::string, std::string>>();
-    } catch (const nlohmann::json::exception& error) {
-        throw core::InputError(core::Problem{file.string(), error.what(),
-                                             "an object of edges and their street names",
-                                             "Remove the file, or create the run folder again"});
-    }
 }
 
 }  // namespace clearway::report::detail

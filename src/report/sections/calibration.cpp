@@ -16,10 +16,9 @@ void calibration_section(const StudyFacts& study, Writer& writer) {
         std::size_t met = 0;
         for (const FlowFacts& flow : scenario.flows) {
             if (flow.geh && *flow.geh < analysis::geh_limit) ++met;
-            table.rows.push_back(
-                {flow.street.empty() ? flow.edge : fmt::format("{} ({})", flow.street, flow.edge),
-                 number(flow.counted_per_hour, typeset(0)), cell(flow.modelled_per_hour, typeset(0)),
-                 cell(flow.geh, typeset(1))});
+            table.rows.push_back({scenario.place_name(flow.edge), number(flow.counted_per_hour, typeset(0)),
+                                  number_or_dash(flow.modelled_per_hour, typeset(0)),
+                                  number_or_dash(flow.geh, typeset(1))});
         }
         writer.heading(scenario.name);
         writer.markup(fmt::format("<p>{} of {} places have a GEH below {}.</p>\n", met, scenario.flows.size(),

@@ -16,37 +16,22 @@ constexpr double forest_right = 250.0;  // the numbers are to the right of the d
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
 
-Range forest_range(const ScenarioFacts& scenario, std::size_t& compared) {
+Range forest_range(const ScenarioFacts& scenario) {
     Range range;
     range.include(0.0);
-    compared = 0;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared()) continue;
-        ++compared;
-        for (const Measure measure : forest_measures) {
-            const Estimate& difference = condition.outcome(measure).difference;
-            if (difference.mean) range.include(*difference.mean);
-            if (difference.has_interval()) {
-                range.include(*difference.low);
-                range.include(*difference.high);
-            }
-        }
+        for (const Measure measure : forest_measures)
+            range.include(condition.difference(measure));
     }
     return range;
 }
 
-void draw_forest_row(Plot& plot, const ConditionFacts& condition, const Outcome& outcome, double top,
+void draw_forest_row(Plot& plot, const ConditionFacts& condition, const MaybeEstimate& difference, double top,
                      std::size_t series) {
-    const Estimate& difference = outcome.difference;
     plot.text(10.0, top + 11.0, condition.label(), Plot::Anchor::start, "label");
     plot.text(right_edge, top + 26.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
               "value");
-    if (!difference.mean) return;
-    if (difference.has_interval()) {
-        plot.interval({*difference.low, *difference.high}, *difference.mean, top + 22.0, series);
-    } else {
-        plot.point(*difference.mean, top + 22.0, series);
-    }
+    plot.estimate(difference, shown_interval(difference), top + 22.0, series);
 }
 
 DataTable forest_data(const ScenarioFacts& scenario) {
@@ -54,25 +39,28 @@ DataTable forest_data(const ScenarioFacts& scenario) {
     for (const Measure measure : forest_measures) {
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared()) continue;
-            const Estimate& difference = condition.outcome(measure).difference;
+            const MaybeEstimate& difference = condition.difference(measure);
             const NumberStyle style = typeset(2, Sign::always);
+            const auto end = [&](double analysis::Interval::*side) {
+                return difference && difference->interval ? number(*difference->interval.*side, style)
+                                                          : missing(style.script);
+            };
             table.rows.push_back({fmt::format("{}, {}", info(measure).title, condition.label()),
-                                  cell(difference.mean, style), cell(difference.low, style),
-                                  cell(difference.high, style), grouped(difference.count)});
+                                  number_or_dash(mean_of(difference), style), end(&analysis::Interval::low),
+                                  end(&analysis::Interval::high), grouped(difference ? difference->n : 0)});
         }
     }
     return table;
 }
 
 Figure forest_figure(const ScenarioFacts& scenario) {
-    std::size_t compared = 0;
-    const Range range = forest_range(scenario, compared);
+    const auto compared = std::ranges::count_if(scenario.conditions, &ConditionFacts::is_compared);
     if (compared == 0) return {};
-    const double rows = static_cast<double>(compared * forest_measures.size()) * row_height +
-                        heading_height * forest_measures.size();
-    const double height = rows + 10.0 + label_space;
+    const double height =
+        forest_measures.size() * (static_cast<double>(compared) * row_height + heading_height) + 10.0 +
+        label_space;
     Plot plot(fmt::format("{}: paired differences to the baseline", scenario.name), height,
-              {padded(range, 0.06), "difference to the baseline, s", 10.0, forest_right},
+              {padded(forest_range(scenario), 0.06), "difference to the baseline, s", 10.0, forest_right},
               {{}, "", 6.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);
@@ -83,7 +71,7 @@ Figure forest_figure(const ScenarioFacts& scenario) {
         for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
             const ConditionFacts& condition = scenario.conditions[row];
             if (!condition.is_compared()) continue;
-            draw_forest_row(plot, condition, condition.outcome(measure), top, row);
+            draw_forest_row(plot, condition, condition.difference(measure), top, row);
             top += row_height;
         }
     }

@@ -36,18 +36,15 @@ Figure precision_figure(const ScenarioFacts& scenario) {
     replications.high = std::max(replications.high, replications.low + least_width);
     constexpr double height = 270.0;
     widths.high *= 1.05;
-    Plot plot(fmt::format("{}: width of the interval over replications", scenario.name), height,
-              {replications, "replications", left_edge, right_edge},
-              {widths, "half width of the interval, s", height - label_space, 26.0});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot(fmt::format("{}: width of the interval over replications", scenario.name), height,
+               replications, "replications", widths, "half width of the interval, s");
     if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
     std::vector<LegendEntry> entries;
     DataTable data{{"Condition, replications", "half width, s"}, {}};
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
         if (!condition.precision || condition.precision->points.empty()) continue;
-        std::vector<std::pair<double, double>> points;
+        Points points;
         for (const PrecisionPoint& point : condition.precision->points) {
             points.emplace_back(static_cast<double>(point.replications), point.half_width_s);
             data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
@@ -71,13 +68,14 @@ DataTable precision_table(const ScenarioFacts& scenario) {
         {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
-        const Estimate& difference = condition.outcome(Measure::emergency_restricted_time).difference;
+        const MaybeEstimate& difference = condition.difference(Measure::emergency_restricted_time);
+        const analysis::Interval* const interval = shown_interval(difference);
         const auto& precision = condition.precision;
         table.rows.push_back(
-            {condition.label(), grouped(difference.count),
+            {condition.label(), grouped(difference ? difference->n : 0),
              precision ? number(precision->deviation_s, typeset(1)) : missing(Script::typeset),
-             difference.has_interval() ? number((*difference.high - *difference.low) / 2.0, typeset(2))
-                                       : missing(Script::typeset),
+             interval != nullptr ? number((interval->high - interval->low) / 2.0, typeset(2))
+                                 : missing(Script::typeset),
              replications_needed(condition)});
     }
     return table;

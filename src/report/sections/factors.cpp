@@ -68,19 +68,19 @@ std::string plain_name(const std::string& name) {
 /// All that the axes of a grid do not say: scenario, condition and the levels of the other factors.
 std::string panel_of(const Made& made, const std::vector<Factor>& factors) {
     std::string panel =
-        fmt::format("{}, {}", plain_name(made.scenario->name), plain_name(made.condition->name));
+        fmt::format("{}, {}", plain_name(made.scenario->name), plain_name(made.condition->name()));
     for (std::size_t factor = 2; factor < factors.size(); ++factor)
         panel += fmt::format(", {} {}", factors[factor].name, level_of(made, factors[factor].name));
     return panel;
 }
 
 GridCell cell_of(const Made& made, Measure measure) {
-    const Estimate& difference = made.condition->outcome(measure).difference;
-    if (!difference.mean) return {};
+    const MaybeEstimate& difference = made.condition->difference(measure);
+    if (!difference) return {};
     const Effect effect = effect_of(*made.condition, measure);
     const bool lost =
         measure == Measure::emergency_restricted_time && made.condition->objections.on_emergency();
-    return {number(*difference.mean, typeset(1, Sign::always)) + (lost ? " (!)" : ""),
+    return {number(difference->mean, typeset(1, Sign::always)) + (lost ? " (!)" : ""),
             lost || effect == Effect::worse ? GridCell::Tone::worse
             : effect == Effect::better      ? GridCell::Tone::better
                                             : GridCell::Tone::neutral};
@@ -89,13 +89,11 @@ GridCell cell_of(const Made& made, Measure measure) {
 using Panels = std::map<std::string, std::vector<Made>>;
 
 Grid grid_of(const std::string& heading, const std::vector<Made>& panel, const std::vector<Factor>& factors,
-             Measure measure, std::size_t first_column) {
+             Measure measure) {
     Grid grid;
     grid.heading = heading;
     const Factor& across = factors[0];
-    const std::size_t end = std::min(across.levels.size(), first_column + most_grid_columns);
-    grid.columns.assign(across.levels.begin() + static_cast<std::ptrdiff_t>(first_column),
-                        across.levels.begin() + static_cast<std::ptrdiff_t>(end));
+    grid.columns = across.levels;
     const std::vector<std::string> down =
         factors.size() > 1 ? factors[1].levels : std::vector<std::string>{""};
     for (const std::string& level : down) {
@@ -122,7 +120,7 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
         row = {one.condition->label(), one.scenario->name};
         for (const Factor& factor : factors)
             row.push_back(level_of(one, factor.name));
-        row.push_back(estimate(one.condition->outcome(measure).difference, typeset(2, Sign::always)));
+        row.push_back(estimate(one.condition->difference(measure), typeset(2, Sign::always)));
         row.push_back(analysis::emergency_objection_word(one.condition->objections));
     }
     return table;
@@ -134,24 +132,11 @@ Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& 
     for (const Made& one : made)
         panels[panel_of(one, factors)].push_back(one);
     std::vector<Grid> grids;
-    for (const auto& [heading, panel] : panels) {
-        for (std::size_t column = 0; column < factors[0].levels.size(); column += most_grid_columns)
-            grids.push_back(grid_of(heading, panel, factors, measure, column));
-    }
-    double height = 24.0;
-    for (const Grid& grid : grids)
-        height += grid_height(grid);
-    Canvas canvas(caption, height);
-    canvas.text(2.0, 14.0,
-                shortened(fmt::format("across: {}{}", factors[0].name,
-                                      factors.size() > 1 ? "; down: " + factors[1].name : ""),
-                          62),
-                Canvas::Anchor::start, "axis");
-    double top = 24.0;
-    for (const Grid& grid : grids) {
-        draw_grid(grid, top, canvas);
-        top += grid_height(grid);
-    }
+    for (const auto& [heading, panel] : panels)
+        grids.push_back(grid_of(heading, panel, factors, measure));
+    Canvas canvas = draw_grids(
+        caption, grids,
+        fmt::format("across: {}{}", factors[0].name, factors.size() > 1 ? "; down: " + factors[1].name : ""));
     return {name, caption, canvas.finish(), "", data_of(made, factors, measure)};
 }
 

@@ -5,34 +5,13 @@
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
+#include "report/detail/overview_figures.hpp"
 #include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {
 namespace {
 
-/// How a signal's state is drawn: a level line whose style differs in more than colour.
-struct SignalStyle {
-    const char* state;
-    const char* style;
-    const char* words;
-};
-constexpr std::array<SignalStyle, 3> signal_styles = {{{"red", "signal-red", "red"},
-                                                       {"yellow", "signal-yellow", "yellow"},
-                                                       {"green", "signal-green", "green"}}};
-
-const char* style_of(const std::string& state) {
-    for (const SignalStyle& style : signal_styles) {
-        if (state == style.state) return style.style;
-    }
-    return "signal-red";
-}
-
-std::vector<LegendEntry> signal_entries() {
-    std::vector<LegendEntry> entries;
-    for (const SignalStyle& style : signal_styles)
-        entries.push_back(stripe_entry(style.style, fmt::format("signal {}", style.words)));
-    return entries;
-}
+constexpr std::array signal_states = {"red", "yellow", "green"};
 
 DataTable journey_data(const JourneyFacts& journey) {
     DataTable table{{"What", "from, s", "to, s", "distance, m"}, {}};
@@ -48,26 +27,21 @@ DataTable journey_data(const JourneyFacts& journey) {
 
 Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey, Range times,
                       Range distances) {
-    constexpr double height = 340.0;
     const std::string title = fmt::format("{}: {}", scenario.name, journey.condition);
-    Plot plot(
+    Chart plot(
         fmt::format("{}: time and distance of {} with the signals on its route", title, journey.vehicle),
-        height, {times, "time since departure, s", left_edge, right_edge},
-        {distances, "distance along the route, m", height - label_space, 26.0});
-    plot.grid_x();
-    plot.grid_y();
+        340.0, times, "time since departure, s", distances, "distance along the route, m");
     for (const SignalSpan& span : journey.signals)
-        plot.stripe({span.from_s, span.to_s}, span.distance_m, style_of(span.state));
-    std::vector<std::pair<double, double>> points;
-    for (const JourneyPlace& place : journey.places)
-        points.emplace_back(place.time_s, place.distance_m);
-    plot.line(points, 0);
+        plot.stripe({span.from_s, span.to_s}, span.distance_m, ("signal-" + span.state).c_str());
+    plot.line(way_of(journey), 0);
     const std::string note = fmt::format(
         "Replication {}, vehicle {}. Level lines are the stop lines on its route, in the state that is "
         "shown to it.",
         journey.replication, journey.vehicle);
-    std::vector<LegendEntry> entries = signal_entries();
-    entries.insert(entries.begin(), line_entry(0, "emergency vehicle"));
+    std::vector<LegendEntry> entries = {line_entry(0, "emergency vehicle")};
+    for (const char* const state : signal_states)
+        entries.push_back(
+            stripe_entry(fmt::format("signal-{}", state).c_str(), fmt::format("signal {}", state)));
     plot.legend(entries);
     return {fmt::format("journey-{}-{}", scenario.name, journey.condition), title, plot.finish(), note,
             journey_data(journey)};
@@ -76,12 +50,8 @@ Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey
 std::vector<Figure> journey_figures(const ScenarioFacts& scenario) {
     Range times;
     Range distances;
-    for (const JourneyFacts& journey : scenario.journeys) {
-        for (const JourneyPlace& place : journey.places) {
-            times.include(place.time_s);
-            distances.include(place.distance_m);
-        }
-    }
+    for (const JourneyFacts& journey : scenario.journeys)
+        include(journey, times, distances);
     if (times.empty() || times.high <= times.low || distances.high <= distances.low) return {};
     std::vector<Figure> figures;
     for (const JourneyFacts& journey : scenario.journeys)

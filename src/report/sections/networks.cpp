@@ -24,11 +24,13 @@ DataTable edges_of(const ScenarioFacts& scenario) {
         return scenario.wide_edges ? "1 or 2" : "";
     };
     constexpr double kmh_per_mps = 3.6;
-    for (const NetworkEdge& edge : scenario.network_edges) {
-        table.rows.push_back({edge.edge, edge.street, number(edge.length_m, typeset(1)),
+    for (const MapEdge& edge : scenario.roads.value_or(RoadMap{}).edges) {
+        const auto street = scenario.streets.find(edge.id);
+        table.rows.push_back({edge.id, street == scenario.streets.end() ? "" : street->second,
+                              number(edge.length_m, typeset(1)),
                               number(kmh_per_mps * edge.limit_mps, typeset(0)), edge.signal ? "yes" : "no",
-                              lanes_of(edge.edge)});
-        wide.erase(edge.edge);
+                              lanes_of(edge.id)});
+        wide.erase(edge.id);
     }
     for (const auto& [id, edge] : wide)  // of folders that list no others
         table.rows.push_back({id, edge.street, "", "", "", std::to_string(edge.car_lanes)});

@@ -13,11 +13,10 @@ DataTable events_of(const ScenarioFacts& scenario) {
         {"Condition", "actions asked", "refused", "ended by expiry", "collisions", "with an EV", "teleports"},
         {}};
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Events& events = condition.events;
-        table.rows.push_back({condition.label(), grouped(events.leases_issued),
-                              grouped(events.leases_refused), grouped(events.leases_expired),
-                              grouped(events.collisions), grouped(events.emergency_collisions),
-                              grouped(events.teleports)});
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row.push_back(condition.label());
+        for (const char* const metric : event_metrics)
+            row.push_back(grouped(condition.count(metric)));
     }
     return table;
 }
@@ -25,7 +24,8 @@ DataTable events_of(const ScenarioFacts& scenario) {
 DataTable leases_of(const ScenarioFacts& scenario) {
     DataTable table{{"Condition", "what its policy asked for"}, {}, DataTable::Cells::words};
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (condition.has_policy) table.rows.push_back({condition.label(), lease_sentence(condition)});
+        if (!condition.condition.policies.empty())
+            table.rows.push_back({condition.label(), lease_sentence(condition)});
     }
     return table;
 }
@@ -35,12 +35,13 @@ DataTable endings_of(const ScenarioFacts& scenario) {
                      "others", "arrived", "runs", "failed", "missing"},
                     {}};
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Endings& ends = condition.emergency;
-        table.rows.push_back({condition.label(), grouped(ends.all()), grouped(ends.arrived),
-                              grouped(ends.running), grouped(ends.teleported), grouped(ends.not_inserted),
-                              grouped(ends.removed), grouped(condition.others.all()),
-                              grouped(condition.others.arrived), grouped(condition.runs),
-                              grouped(condition.failed.size()), grouped(condition.missing_runs)});
+        const analysis::OutcomeCounts& ends = condition.emergency;
+        table.rows.push_back({condition.label(), grouped(ends.total()), grouped(ends.arrived),
+                              grouped(ends.running_at_end), grouped(ends.teleported),
+                              grouped(ends.not_inserted), grouped(ends.removed),
+                              grouped(condition.others.total()), grouped(condition.others.arrived),
+                              grouped(condition.complete_runs), grouped(condition.failed.size()),
+                              grouped(condition.missing_runs)});
     }
     return table;
 }
@@ -58,7 +59,7 @@ void write_failures(const ScenarioFacts& scenario, Writer& writer) {
         writer.markup(fmt::format("<details open><summary>{}, {}: {} failed</summary>\n",
                                   escaped(scenario.name), condition_label(condition),
                                   counted(condition.failed.size(), "run")));
-        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name), "", std::move(table)});
+        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name()), "", std::move(table)});
         if (condition.failed.size() > shown_failures)
             writer.markup(fmt::format("<p class=\"note\">The first {} are listed.</p>", shown_failures));
         writer.close_fold();

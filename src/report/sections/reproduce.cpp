@@ -15,7 +15,7 @@ void reproduce_section(const StudyFacts& study, Writer& writer) {
     if (!study.scenarios.empty()) {
         for (const ConditionFacts& condition : study.scenarios.front().conditions) {
             html += fmt::format("<dt>{} <code>{}</code></dt><dd>{}</dd>\n", condition_label(condition),
-                                escaped(condition.name), escaped(condition.recipe));
+                                escaped(condition.name()), escaped(condition.recipe));
         }
     }
     writer.markup(html + "</dl>\n");

@@ -1,24 +1,26 @@
+#include "report/safety.hpp"
+
 #include <fmt/format.h>
 
+#include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {
 namespace {
 
 /// Enough decimals for a mean: two below 10, one below 1000.
-NumberStyle style_of(const Estimate& value, Sign sign = Sign::negative_only) {
-    const double size = value.mean.value_or(0.0);
-    return {size < 10.0 ? 2 : size < 1000.0 ? 1 : 0, Script::typeset, sign};
+NumberStyle style_of(const MaybeEstimate& value, Sign sign = Sign::negative_only) {
+    const double size = mean_of(value).value_or(0.0);
+    return typeset(size < 10.0 ? 2 : size < 1000.0 ? 1 : 0, sign);
 }
 
 DataTable table_of(const ConditionFacts& condition) {
     DataTable table{{"", "per run [95 %]", "against the baseline [95 %]", "per 1,000 vehicle-km"}, {}};
-    for (const SafetyFacts& row : condition.safety) {
-        const NumberStyle with_sign = style_of(row.value, Sign::always);
-        table.rows.push_back(
-            {row.title, estimate(row.value, style_of(row.value)),
-             row.difference.mean ? estimate(row.difference, with_sign) : std::string(),
-             row.per_1000_km ? number(*row.per_1000_km, {2, Script::typeset}) : std::string()});
+    for (const SafetyRow& row : safety_rows(condition)) {
+        const MaybeEstimate& value = row.metric->estimate;
+        table.rows.push_back({row.title, estimate(value, style_of(value)),
+                              estimate_or_nothing(row.difference(), style_of(value, Sign::always)),
+                              row.per_1000_km ? number(*row.per_1000_km, typeset(2)) : std::string()});
     }
     return table;
 }
@@ -34,10 +36,10 @@ void safety_section(const StudyFacts& study, Writer& writer) {
     for (const ScenarioFacts& scenario : study.scenarios) {
         writer.heading(scenario.name);
         for (const ConditionFacts& condition : scenario.conditions) {
-            if (condition.safety.empty()) continue;
+            if (condition.complete_runs == 0) continue;
             writer.open_fold(condition_label(condition));
             writer.table(
-                {fmt::format("safety-{}-{}", scenario.name, condition.name), "", table_of(condition)});
+                {fmt::format("safety-{}-{}", scenario.name, condition.name()), "", table_of(condition)});
             writer.close_fold();
         }
     }

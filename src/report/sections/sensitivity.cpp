@@ -17,31 +17,19 @@ constexpr double chart_left = 96.0;    // the values, shipped and turned to, are
 constexpr double chart_right = 262.0;  // the numbers are to the right of the drawing
 constexpr double level_height = 17.0;
 constexpr double heading_height = 20.0;
-constexpr NumberStyle signed_tenths{.decimals = 1, .script = Script::typeset, .sign = Sign::always};
+constexpr NumberStyle signed_tenths = typeset(1, Sign::ends_too);
 
 using Rows = std::vector<const SensitivityRow*>;
-using Member = std::optional<analysis::Estimate> SensitivityLevel::*;
-
-void include(const std::optional<analysis::Estimate>& estimate, Range& range) {
-    if (!estimate) return;
-    range.include(estimate->mean);
-    if (!estimate->interval) return;
-    range.include(estimate->interval->low);
-    range.include(estimate->interval->high);
-}
+using Member = MaybeEstimate SensitivityLevel::*;
 
 void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, Member member, double y) {
     const char* const mark = level.objection.empty() ? "" : " (!)";
     plot.text(label_left, y + 4.0, row.turned(level, "\u2192") + mark, Plot::Anchor::start, "label");
     plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
-    const std::optional<analysis::Estimate>& estimate = level.*member;
-    if (!estimate) return;
-    plot.beam({0.0, estimate->mean}, y, 1);
-    if (estimate->interval) {
-        plot.interval({estimate->interval->low, estimate->interval->high}, estimate->mean, y, 1);
-    } else {
-        plot.point(estimate->mean, y, 1);
-    }
+    const MaybeEstimate& difference = level.*member;
+    if (!difference) return;
+    plot.beam({0.0, difference->mean}, y, 1);
+    plot.estimate(difference, difference->interval ? &*difference->interval : nullptr, y, 1);
 }
 
 /// Of all rows, so that the charts above and below the fold have one scale.
@@ -50,7 +38,7 @@ Range range_of(const Sensitivity& sensitivity, Member member) {
     range.include(0.0);
     for (const SensitivityRow& row : sensitivity.rows) {
         for (const SensitivityLevel& level : row.levels)
-            include(level.*member, range);
+            range.include_all(level.*member);
     }
     return padded(range, 0.06);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "report/detail/figures.hpp"
 #include "report/published.hpp"
 #include "report/sections/sections.hpp"
 #include "report/verdict.hpp"
@@ -17,33 +18,27 @@ const char* delta_class(Effect effect) {
     return "delta";
 }
 
-std::string mean_and_range(const Estimate& value, NumberStyle style, double factor) {
-    const std::string whole = estimate(value, style, factor);
-    const std::size_t space = whole.find(' ');
-    std::string html = fmt::format("<span class=\"mean\">{}</span>", whole.substr(0, space));
-    if (space != std::string::npos)
-        html += fmt::format("<span class=\"range\">{}</span>", whole.substr(space + 1));
-    return html;
-}
-
 std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition, const MeasureInfo& measure) {
-    const Outcome& outcome = condition.outcome(measure.measure);
-    const NumberStyle style{decimals_of(scenario, measure.measure), Script::typeset};
-    NumberStyle signed_style = style;
-    signed_style.sign = Sign::always;
-    std::string html = "<td>" + mean_and_range(outcome.value, style, measure.printed_factor);
-    if (outcome.difference.mean) {
+    const MaybeEstimate& value = condition.value(measure.measure);
+    const MaybeEstimate& difference = condition.difference(measure.measure);
+    const int decimals = decimals_of(scenario, measure.measure);
+    std::string html = fmt::format(
+        "<td><span class=\"mean\">{}</span>",
+        value ? number(value->mean * measure.printed_factor, typeset(decimals)) : missing(Script::typeset));
+    if (const analysis::Interval* const interval = shown_interval(value))
+        html += fmt::format("<span class=\"range\">{}</span>",
+                            interval_text(*interval, typeset(decimals), measure.printed_factor));
+    if (difference)
         html +=
             fmt::format("<span class=\"{}\">{}</span>", delta_class(effect_of(condition, measure.measure)),
-                        estimate(outcome.difference, signed_style, measure.printed_factor));
-    }
+                        estimate(difference, typeset(decimals, Sign::always), measure.printed_factor));
     if (is_void_for_lost(condition, measure.measure)) html += "<span class=\"delta worse\">lost EVs</span>";
     return html + "</td>";
 }
 
 std::string published_cell(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
-    const auto value = published_value(scenario.published_as, condition.name, measure);
-    return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, {1, Script::typeset}) : "");
+    const auto value = published_value(scenario.published_as, condition.name(), measure);
+    return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, typeset(1)) : "");
 }
 
 /// Rows are conditions and columns are measures, with a column of published numbers after each measure that
@@ -72,7 +67,7 @@ std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure
 
 std::string p_value(const std::optional<double>& p) {
     if (!p) return missing(Script::typeset);
-    return *p < 0.001 ? "< 0.001" : number(*p, {3, Script::typeset});
+    return *p < 0.001 ? "< 0.001" : number(*p, typeset(3));
 }
 
 /// All statistics of the paired differences of a measure.
@@ -80,20 +75,22 @@ DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
     DataTable table{{info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d",
                      "p (t)", "p (Holm)", "p (Wilcoxon)", "pairs", "incomplete", "EVs left out"},
                     {}};
-    const NumberStyle style{decimals_of(scenario, measure), Script::typeset, Sign::always};
+    const NumberStyle style = typeset(decimals_of(scenario, measure), Sign::always);
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Outcome& outcome = condition.outcome(measure);
-        if (!outcome.paired) continue;
-        const PairedStatistics& paired = *outcome.paired;
+        const std::optional<analysis::Comparison>& paired = condition.outcome(measure).comparison;
+        if (!paired) continue;
+        const std::size_t pairs = paired->complete_pairs;
+        MaybeEstimate bootstrap = paired->difference;
+        if (bootstrap) bootstrap->interval = paired->bootstrap;
+        const MaybeEstimate median =
+            paired->median ? MaybeEstimate({pairs, *paired->median, 0.0, paired->median_interval})
+                           : std::nullopt;
         table.rows.push_back(
-            {condition.label(), estimate(outcome.difference, style),
-             paired.bootstrap.has_interval() ? estimate(paired.bootstrap, style) : missing(Script::typeset),
-             estimate(paired.median, style),
-             paired.effect_size ? number(*paired.effect_size, {2, Script::typeset})
-                                : missing(Script::typeset),
-             p_value(paired.t_p), p_value(paired.holm_p), p_value(paired.wilcoxon_p),
-             grouped(paired.complete_pairs), grouped(paired.incomplete_pairs),
-             grouped(paired.vehicles_left_out)});
+            {condition.label(), estimate(paired->difference, style),
+             shown_interval(bootstrap) != nullptr ? estimate(bootstrap, style) : missing(Script::typeset),
+             estimate(median, style), number_or_dash(paired->effect_size, typeset(2)), p_value(paired->t_p),
+             p_value(paired->holm_p), p_value(paired->wilcoxon_p), grouped(pairs),
+             grouped(paired->incomplete_pairs), grouped(paired->vehicles_left_out)});
     }
     return table;
 }
@@ -111,13 +108,12 @@ DataTable plain_table(const ScenarioFacts& scenario, std::span<const Measure> co
         std::vector<std::string>& row = table.rows.emplace_back();
         row.push_back(condition.label());
         for (const Measure measure : columns) {
-            const Outcome& outcome = condition.outcome(measure);
-            NumberStyle style{decimals_of(scenario, measure), Script::typeset};
-            row.push_back(estimate(outcome.value, style, info(measure).printed_factor));
-            style.sign = Sign::always;
-            row.push_back(estimate(outcome.difference, style, info(measure).printed_factor));
-            const auto value = published_value(scenario.published_as, condition.name, measure);
-            if (with_published) row.push_back(value ? number(*value, {1, Script::typeset}) : "");
+            const double factor = info(measure).printed_factor;
+            const int decimals = decimals_of(scenario, measure);
+            row.push_back(estimate(condition.value(measure), typeset(decimals), factor));
+            row.push_back(estimate(condition.difference(measure), typeset(decimals, Sign::always), factor));
+            const auto value = published_value(scenario.published_as, condition.name(), measure);
+            if (with_published) row.push_back(value ? number(*value, typeset(1)) : "");
         }
     }
     return table;

@@ -10,10 +10,10 @@
 namespace clearway::report::detail {
 namespace {
 
-std::vector<std::pair<double, double>> zipped(const std::vector<double>& x, const std::vector<double>& y) {
+Points zipped(const std::vector<double>& x, const std::vector<double>& y) {
     // For long trainings: about as many points as the figure has units.
     const std::size_t stride = std::max<std::size_t>(1, x.size() / 400);
-    std::vector<std::pair<double, double>> points;
+    Points points;
     for (std::size_t row = 0; row < x.size(); row += stride) {
         if (std::isfinite(y[row])) points.emplace_back(x[row], y[row]);
     }
@@ -38,7 +38,7 @@ Axis loss_axis(const LossCurve& curve) {
     if (!decades) {
         losses.low = 0.0;
         losses.high = losses.high > 0.0 ? losses.high * 1.05 : 1.0;
-        return {losses, "loss, nat", 0.0, 0.0};
+        return {losses, "loss, nat"};
     }
     Range exponents;
     exponents.include(std::floor(std::log10(std::max(smallest, losses.low))));
@@ -54,14 +54,8 @@ Figure loss_figure(const LossCurve& curve) {
         epochs.include(epoch);
     }
     if (epochs.high <= epochs.low) epochs = padded(epochs, 0.0);
-    const double height = 270.0;
-    Axis losses = loss_axis(curve);
-    losses.from = height - label_space;
-    losses.to = 26.0;
-    Plot plot(fmt::format("Train and test loss: {}", curve.title), height,
-              {epochs, "epoch", left_edge, right_edge}, losses);
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot(fmt::format("Train and test loss: {}", curve.title), 270.0, {epochs, "epoch"},
+               loss_axis(curve));
     std::vector<LegendEntry> entries = {line_entry(1, "train"), line_entry(2, curve.held_out)};
     if (curve.constant_loss) {
         plot.line({{epochs.low, *curve.constant_loss}, {epochs.high, *curve.constant_loss}}, 3);

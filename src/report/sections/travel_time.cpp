@@ -9,8 +9,8 @@
 namespace clearway::report::detail {
 namespace {
 
-std::vector<std::pair<double, double>> steps(const Distribution& distribution, double last) {
-    std::vector<std::pair<double, double>> points;
+Points steps(const Distribution& distribution, double last) {
+    Points points;
     double share = 0.0;
     for (const SharePoint& point : distribution.points) {
         points.emplace_back(point.seconds, share);
@@ -34,14 +34,14 @@ DataTable distribution_data(const ScenarioFacts& scenario) {
                      "median [95 %], s", "95th percentile [95 %], s"},
                     {}};
     for (const ConditionFacts& condition : scenario.conditions) {
-        const Distribution& distribution = condition.travel_time;
+        const Distribution& distribution = condition.distribution;
         std::vector<std::string> row = {condition.label(), grouped(distribution.all),
                                         grouped(distribution.arrived)};
         for (const double share : {0.10, 0.25, 0.50, 0.75, 0.90, 0.95}) {
             row.push_back(seconds_at(distribution, share));
         }
-        row.push_back(estimate(condition.travel_time_median, typeset(1)));
-        row.push_back(estimate(condition.travel_time_percentile_95, typeset(1)));
+        row.push_back(estimate(condition.travel_time.median, typeset(1)));
+        row.push_back(estimate(condition.travel_time.percentile_95, typeset(1)));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -51,9 +51,9 @@ std::string distribution_note(const ScenarioFacts& scenario) {
     std::string note =
         "Share of all EVs of the demand, so a curve that ends below 1 shows EVs that did not arrive. "
         "Replications are pooled; the intervals under Data come from resampling whole replications.";
-    const bool thinned =
-        std::any_of(scenario.conditions.begin(), scenario.conditions.end(),
-                    [](const auto& one) { return one.travel_time.arrived > one.travel_time.points.size(); });
+    const bool thinned = std::any_of(
+        scenario.conditions.begin(), scenario.conditions.end(),
+        [](const auto& one) { return one.distribution.arrived > one.distribution.points.size(); });
     if (thinned) {
         note += fmt::format(" Drawn at {} ranks, evenly spaced; the steps between them are left out.",
                             distribution_points);
@@ -63,18 +63,34 @@ std::string distribution_note(const ScenarioFacts& scenario) {
 
 constexpr std::size_t drawn_pairs = 60;  // per condition; more lines merge into a grey area
 
+/// EV travel times of one replication, s: restricted means over all EVs.
+struct Pair {
+    double baseline_s = 0.0;
+    double condition_s = 0.0;
+};
+
+/// Complete pairs, in the order of the replications.
+std::vector<Pair> pairs_of(const ConditionFacts& condition) {
+    std::vector<Pair> pairs;
+    const auto& comparison = condition.outcome(Measure::emergency_restricted_time).comparison;
+    if (!comparison) return pairs;
+    for (std::size_t pair = 0; pair < comparison->baseline_values.size(); ++pair)
+        pairs.push_back({comparison->baseline_values[pair], comparison->condition_values[pair]});
+    return pairs;
+}
+
 /// Evenly spaced pairs, at most `drawn_pairs`.
-std::vector<TravelTimePair> thinned(const std::vector<TravelTimePair>& pairs) {
+std::vector<Pair> thinned(const std::vector<Pair>& pairs) {
     const std::size_t stride = (pairs.size() + drawn_pairs - 1) / drawn_pairs;
-    std::vector<TravelTimePair> shown;
+    std::vector<Pair> shown;
     for (std::size_t pair = 0; pair < pairs.size(); pair += stride)
         shown.push_back(pairs[pair]);
     return shown;
 }
 
-TravelTimePair mean_of(const std::vector<TravelTimePair>& pairs) {
-    TravelTimePair sum;
-    for (const TravelTimePair& pair : pairs) {
+Pair mean_pair(const std::vector<Pair>& pairs) {
+    Pair sum;
+    for (const Pair& pair : pairs) {
         sum.baseline_s += pair.baseline_s;
         sum.condition_s += pair.condition_s;
     }
@@ -82,20 +98,11 @@ TravelTimePair mean_of(const std::vector<TravelTimePair>& pairs) {
     return {sum.baseline_s / n, sum.condition_s / n};
 }
 
-/// Conditions that have pairs, with their place in the scenario.
-std::vector<std::size_t> paired_conditions(const ScenarioFacts& scenario) {
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
-        if (!scenario.conditions[row].travel_time_pairs.empty()) rows.push_back(row);
-    }
-    return rows;
-}
-
 DataTable slopes_data(const ScenarioFacts& scenario) {
     DataTable table{{"Condition, pair", "baseline, s", "condition, s", "difference, s"}, {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         std::size_t place = 0;
-        for (const TravelTimePair& pair : thinned(condition.travel_time_pairs)) {
+        for (const Pair& pair : thinned(pairs_of(condition))) {
             table.rows.push_back({fmt::format("{}, {}", condition.label(), ++place),
                                   number(pair.baseline_s, typeset(1)), number(pair.condition_s, typeset(1)),
                                   number(pair.condition_s - pair.baseline_s, typeset(1, Sign::always))});
@@ -107,26 +114,19 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
 Figure distribution_figure(const ScenarioFacts& scenario) {
     Range range;
     for (const ConditionFacts& condition : scenario.conditions) {
-        for (const SharePoint& point : condition.travel_time.points) {
+        for (const SharePoint& point : condition.distribution.points) {
             range.include(point.seconds);
         }
     }
     if (range.empty()) return {};
-    const double height = 300.0;
-    Range shares;
-    shares.include(0.0);
-    shares.include(1.0);
-    Plot plot(fmt::format("{}: distribution of EV travel time", scenario.name), height,
-              {padded(range, 0.04), "EV travel time, s", left_edge, right_edge},
-              {shares, "share of EVs that arrived within", height - label_space, 26.0});
-    plot.grid_x();
-    plot.grid_y();
+    Chart plot(fmt::format("{}: distribution of EV travel time", scenario.name), 300.0, padded(range, 0.04),
+               "EV travel time, s", Range(0.0, 1.0), "share of EVs that arrived within");
     std::vector<LegendEntry> entries;
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
         entries.push_back(line_entry(row, condition.label()));
-        if (!condition.travel_time.points.empty()) {
-            plot.line(steps(condition.travel_time, plot.x().values.high), row);
+        if (!condition.distribution.points.empty()) {
+            plot.line(steps(condition.distribution, plot.x().values.high), row);
         }
     }
     plot.legend(entries);
@@ -135,36 +135,35 @@ Figure distribution_figure(const ScenarioFacts& scenario) {
 }
 
 Figure slopes_figure(const ScenarioFacts& scenario) {
-    const std::vector<std::size_t> rows = paired_conditions(scenario);
-    if (rows.empty()) return {};
     Range seconds;
     std::size_t most = 0;
-    for (const std::size_t row : rows) {
-        const auto& pairs = scenario.conditions[row].travel_time_pairs;
+    std::vector<std::pair<std::size_t, std::vector<Pair>>> drawn;  // Place of the condition, its pairs.
+    for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
+        std::vector<Pair> pairs = pairs_of(scenario.conditions[row]);
+        if (pairs.empty()) continue;
         most = std::max(most, pairs.size());
-        for (const TravelTimePair& pair : thinned(pairs)) {
+        for (const Pair& pair : thinned(pairs)) {
             seconds.include(pair.baseline_s);
             seconds.include(pair.condition_s);
         }
+        drawn.emplace_back(row, std::move(pairs));
     }
+    if (drawn.empty()) return {};
     constexpr double height = 300.0;
     constexpr double panel = 0.62;  // of a condition's share of the width; the rest keeps panels apart
-    Range panels;
-    panels.include(0.0);
-    panels.include(static_cast<double>(rows.size()));
     Plot plot(fmt::format("{}: EV travel time of each replication, baseline and condition", scenario.name),
-              height, {panels, "", left_edge, right_edge},
-              {padded(seconds, 0.04), "EV travel time, s: baseline to condition", height - 16.0, 26.0});
+              height, {Range(0.0, static_cast<double>(drawn.size())), "", left_edge, right_edge},
+              {padded(seconds, 0.04), "EV travel time, s: baseline to condition", height - 16.0, top_edge});
     plot.grid_y();
     std::vector<LegendEntry> entries;
-    for (std::size_t column = 0; column < rows.size(); ++column) {
-        const ConditionFacts& condition = scenario.conditions[rows[column]];
-        const double from = static_cast<double>(column) + 0.5 * (1.0 - panel);
-        for (const TravelTimePair& pair : thinned(condition.travel_time_pairs))
-            plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, rows[column]);
-        const TravelTimePair mean = mean_of(condition.travel_time_pairs);
-        plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, rows[column]);
-        entries.push_back(line_entry(rows[column], condition.label()));
+    double from = 0.5 * (1.0 - panel);
+    for (const auto& [row, pairs] : drawn) {
+        for (const Pair& pair : thinned(pairs))
+            plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, row);
+        const Pair mean = mean_pair(pairs);
+        plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, row);
+        entries.push_back(line_entry(row, scenario.conditions[row].label()));
+        from += 1.0;
     }
     std::string note =
         "Each thin line is one replication, from the baseline (left) to the condition (right); the "
@@ -182,14 +181,15 @@ DataTable response_data(const ScenarioFacts& scenario) {
                     {}};
     constexpr double percent = 100.0;
     for (const ConditionFacts& condition : scenario.conditions) {
-        const auto difference = [&](const Outcome& outcome, double factor) {
-            return condition.is_compared() ? estimate(outcome.difference, typeset(1, Sign::always), factor)
-                                           : std::string();
+        const analysis::ResponseTime& response = condition.response;
+        const NumberStyle with_sign = typeset(1, Sign::always);
+        const auto difference = [&](const MaybeEstimate& value, double factor) {
+            return condition.is_compared() ? estimate(value, with_sign, factor) : std::string();
         };
-        table.rows.push_back({condition.label(), estimate(condition.response_percentile_90.value, typeset(1)),
-                              difference(condition.response_percentile_90, 1.0),
-                              estimate(condition.response_in_time.value, typeset(1), percent),
-                              difference(condition.response_in_time, percent)});
+        table.rows.push_back({condition.label(), estimate(response.percentile_90_s, typeset(1)),
+                              difference(response.percentile_90_difference_s, 1.0),
+                              estimate(response.in_time, typeset(1), percent),
+                              difference(response.in_time_difference, percent)});
     }
     return table;
 }

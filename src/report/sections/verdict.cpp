@@ -16,14 +16,12 @@ const char* effect_class(Effect effect) {
 }
 
 std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    const std::string sentence = verdict(scenario, condition, Script::typeset);
-    const std::size_t colon = sentence.find(':');
+    const Verdict words = verdict(scenario, condition, Script::typeset);
     const Effect effect = condition.objections.on_emergency()
                               ? Effect::worse
                               : effect_of(condition, Measure::emergency_restricted_time);
-    return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>{}</dd>\n", condition_label(condition),
-                       effect_class(effect), escaped(sentence.substr(0, colon)),
-                       escaped(sentence.substr(colon)));
+    return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>: {}</dd>\n", condition_label(condition),
+                       effect_class(effect), escaped(words.finding), escaped(words.figures));
 }
 
 /// Whether nothing is shown of a condition, on either side.

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/estimate.hpp"
+#include "core/settings.hpp"
+
+namespace clearway::report::detail {
+
+using Json = nlohmann::ordered_json;
+
+/// Null for a missing value.
+inline Json json_of(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// `[10.1, 14.5]`.
+inline Json json_of(const std::optional<analysis::Interval>& interval) {
+    return interval ? Json{interval->low, interval->high} : Json(nullptr);
+}
+
+/// Adds `NAME`, and both ends of its interval under their names; null where they are missing.
+inline void put_ends(Json& object, const analysis::Interval* interval, const char* low = "low_95",
+                     const char* high = "high_95") {
+    object[low] = interval != nullptr ? Json(interval->low) : Json(nullptr);
+    object[high] = interval != nullptr ? Json(interval->high) : Json(nullptr);
+}
+
+inline const analysis::Interval* pointer_to(const std::optional<analysis::Interval>& interval) {
+    return interval ? &*interval : nullptr;
+}
+
+/// `{"failure.dark_share": 0.3, "condition.failure": "B5"}`: values that are numbers become JSON numbers.
+inline Json factors_json(const core::Settings& factors) {
+    Json object = Json::object();
+    for (const auto& [name, value] : factors) {
+        const auto number = core::number_from(value);
+        object[name] = number ? Json(*number) : Json(value);
+    }
+    return object;
+}
+
+inline std::string to_text(const Json& object) {
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clearway::report::detail

@@ -1,0 +1,71 @@
+#include "report/safety.hpp"
+
+#include <array>
+#include <utility>
+
+namespace clearway::report {
+namespace {
+
+using Row = std::pair<const char*, const char*>;  // metric, title
+
+constexpr std::array rows = {
+    Row{"collisions", "Collisions, on lanes and at junctions"},
+    Row{"junction_collisions", "Collisions at junctions"},
+    Row{"emergency_collisions", "Collisions with an EV"},
+    Row{"emergency_junction_collisions", "Collisions with an EV at junctions"},
+    Row{"emergency_brakings", "Emergency brakings (9 m/s\u00b2; trucks and buses 7)"},
+    Row{"teleports", "Teleports"},
+    Row{"emergency_conflicts", "Conflicts near an EV (time to collision below 1.5 s)"},
+    Row{"emergency_least_ttc_s", "Least time to collision near an EV, s"},
+    Row{"emergency_greatest_drac_mps2", "Greatest deceleration to avoid a crash near an EV, m/s\u00b2"},
+    Row{"emergency_red_passages", "EVs past a red signal"},
+    Row{"others_red_passages", "Others past a red signal"},
+    Row{"others_hard_brakings", "Hard brakings of others (3.4 m/s\u00b2)"},
+    Row{"others_jerk_mps3", "Jerk of others, root mean square, m/s\u00b3"},
+    Row{"signal_throughput_per_hour", "Vehicles past stop lines of signals, per hour"},
+    Row{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
+    Row{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
+    Row{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
+    Row{"cross_street_delay_s",
+        "Time lost on cross streets in the 15 min after an EV, vehicle-s per passage"},
+};
+
+/// Shown only if signals were asked for green.
+constexpr std::array signal_rows = {
+    Row{"signal_calls", "Requests that reached a signal"},
+    Row{"signal_calls_granted", "Requests granted"},
+    Row{"held_greens_useless", "Greens held whose EV did not pass in them"},
+    Row{"signal_entry_delay_s", "From request to transition, s"},
+    Row{"signal_time_to_service_s", "From request to green, s"},
+    Row{"signal_dwell_s", "Hold, s"},
+    Row{"signal_recovery_s", "From the end of a hold until back in program and step, s"},
+};
+
+/// Shown only if there are pedestrians.
+constexpr std::array pedestrian_rows = {
+    Row{"pedestrian_collisions", "Collisions with a pedestrian"},
+    Row{"emergency_pedestrian_collisions", "Collisions of an EV with a pedestrian"},
+    Row{"pedestrian_count", "Walks of pedestrians"},
+    Row{"pedestrian_time_loss_s", "Time lost on a walk over a crossing, s"},
+};
+
+}  // namespace
+
+std::vector<SafetyRow> safety_rows(const analysis::ConditionSummary& summary) {
+    std::vector<SafetyRow> facts;
+    if (summary.complete_runs == 0) return facts;
+    const double driven_km = summary.total("vehicle_km");
+    std::vector<Row> shown(rows.begin(), rows.end());
+    if (summary.total("signal_calls") > 0.0)
+        shown.insert(shown.end(), signal_rows.begin(), signal_rows.end());
+    if (summary.total("pedestrian_count") > 0.0)
+        shown.insert(shown.end(), pedestrian_rows.begin(), pedestrian_rows.end());
+    for (const auto& [name, title] : shown) {
+        SafetyRow& row = facts.emplace_back(SafetyRow{&summary.metric(name), title, std::nullopt});
+        if (row.metric->metric.kind == analysis::MetricKind::count && driven_km > 0.0)
+            row.per_1000_km = summary.total(name) / driven_km * 1000.0;
+    }
+    return facts;
+}
+
+}  // namespace clearway::report
