@@ -21,7 +21,7 @@ namespace {
 using synthetic::error;
 using synthetic::record;
 
-const experiment::RunKey key{"alpha", "baseline", 1};
+const experiment::RunKey treated{"alpha", "baseline", 1};
 
 class StoreOfAStudy : public testing::Test {
   protected:
@@ -37,70 +37,70 @@ class StoreOfAStudy : public testing::Test {
 };
 
 TEST_F(StoreOfAStudy, GivesBackWhatWasWritten) {
-    EXPECT_FALSE(store_.complete(key));
-    EXPECT_FALSE(store_.read(key));
+    EXPECT_FALSE(store_.complete(treated));
+    EXPECT_FALSE(store_.read(treated));
     RunTiming timing;
     timing.wall_s = 2.5;
     timing.peak_kib = 4096;
-    EXPECT_EQ(store_.write(record(key), timing), Store::Written::first);
-    EXPECT_TRUE(store_.complete(key));
-    EXPECT_EQ(*store_.read(key), record(key));
-    EXPECT_DOUBLE_EQ(store_.read_timing(key)->wall_s, 2.5);
-    EXPECT_EQ(store_.read_timing(key)->peak_kib, 4096);
+    EXPECT_EQ(store_.write(record(treated), timing), Store::Written::first);
+    EXPECT_TRUE(store_.complete(treated));
+    EXPECT_EQ(*store_.read(treated), record(treated));
+    EXPECT_DOUBLE_EQ(store_.read_timing(treated)->wall_s, 2.5);
+    EXPECT_EQ(store_.read_timing(treated)->peak_kib, 4096);
 }
 
 TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnlyWhenAskedFor) {
-    RunRecord run = record(key);
+    RunRecord run = record(treated);
     run.traffic.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
     run.traffic.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
     run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
     run.traffic.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
     run.traffic.holds = {{"J\n2", 3, 41.5}};
     store_.write(run, {});
-    EXPECT_EQ(store_.read_traffic(key), run.traffic);
+    EXPECT_EQ(store_.read_traffic(treated), run.traffic);
     EXPECT_EQ(store_.read_traffic({"alpha", "baseline", 0}), metrics::TrafficTables{});
     run.traffic.journeys.clear();
     run.traffic.edge_times.clear();
     run.traffic.holds.clear();
-    EXPECT_EQ(store_.read(key), run);
+    EXPECT_EQ(store_.read(treated), run);
 }
 
 TEST_F(StoreOfAStudy, ReadsEmergencyVehiclesAloneWhereThatIsEnough) {
-    store_.write(record(key), {});
-    const RunRecord run = store_.read(key, VehicleRows::emergency).value();
+    store_.write(record(treated), {});
+    const RunRecord run = store_.read(treated, VehicleRows::emergency).value();
     ASSERT_EQ(run.vehicles.size(), 1U);
-    EXPECT_EQ(run.vehicles[0], record(key).vehicles[0]);
-    EXPECT_EQ(run.metrics, record(key).metrics);
+    EXPECT_EQ(run.vehicles[0], record(treated).vehicles[0]);
+    EXPECT_EQ(run.metrics, record(treated).metrics);
 }
 
 TEST_F(StoreOfAStudy, KeepsTheFirstOfTwoEqualRunsWhateverTheyTook) {
     RunTiming slow;
     slow.wall_s = 9.0;
-    store_.write(record(key), {});
-    EXPECT_EQ(store_.write(record(key), slow), Store::Written::already_there);
-    EXPECT_DOUBLE_EQ(store_.read_timing(key)->wall_s, 0.0);
+    store_.write(record(treated), {});
+    EXPECT_EQ(store_.write(record(treated), slow), Store::Written::already_there);
+    EXPECT_DOUBLE_EQ(store_.read_timing(treated)->wall_s, 0.0);
     EXPECT_EQ(files_below("runs"), 3U);
 }
 
 TEST_F(StoreOfAStudy, RefusesASecondRunThatDiffersInNumbersOrVehicles) {
-    store_.write(record(key), {});
-    RunRecord other = record(key);
+    store_.write(record(treated), {});
+    RunRecord other = record(treated);
     other.metrics.collisions = 99;
     EXPECT_THROW(store_.write(other, {}), core::ConflictError);
-    other = record(key);
+    other = record(treated);
     other.vehicles[0].waiting_time_s = 1.0;
     EXPECT_THROW(store_.write(other, {}), core::ConflictError);
-    EXPECT_EQ(*store_.read(key), record(key));
+    EXPECT_EQ(*store_.read(treated), record(treated));
     EXPECT_EQ(files_below("runs"), 3U);
 }
 
 TEST_F(StoreOfAStudy, NoticesARecordThatWasEdited) {
-    store_.write(record(key), {});
-    const auto file = store_.run_folder(key) / "vehicles.csv";
+    store_.write(record(treated), {});
+    const auto file = store_.run_folder(treated) / "vehicles.csv";
     std::string text = core::read_file(file);
     text.replace(text.find("80"), 2, "81");
     core::write_atomically(file, text);
-    EXPECT_THROW(store_.read(key), core::InputError);
+    EXPECT_THROW(store_.read(treated), core::InputError);
 }
 
 /// Replaces the first `from` in a file.
@@ -113,10 +113,10 @@ void edit(const std::filesystem::path& file, const std::string& from, const std:
 }
 
 TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
-    store_.write(record(key), {});
-    edit(store_.run_folder(key) / "run.json", "600.25", "600.75");
+    store_.write(record(treated), {});
+    edit(store_.run_folder(treated) / "run.json", "600.25", "600.75");
     try {
-        store_.read(key);
+        store_.read(treated);
         FAIL();
     } catch (const core::InputError& error) {
         EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("run.json: hash"),
@@ -134,10 +134,10 @@ void take_restricted_time_out(const std::filesystem::path& file) {
 }
 
 TEST_F(StoreOfAStudy, ReadsRecordsOfVersionsWithoutRestrictedTimesAndInventsNone) {
-    store_.write(record(key, 50.5), {});
-    take_restricted_time_out(store_.run_folder(key) / "run.json");
-    EXPECT_EQ(store_.read(key)->metrics.emergency_restricted_travel_time_s, 50.5) << "all arrived";
-    EXPECT_FALSE(store_.read(key)->leases);
+    store_.write(record(treated, 50.5), {});
+    take_restricted_time_out(store_.run_folder(treated) / "run.json");
+    EXPECT_EQ(store_.read(treated)->metrics.emergency_restricted_travel_time_s, 50.5) << "all arrived";
+    EXPECT_FALSE(store_.read(treated)->leases);
     const experiment::RunKey other{"alpha", "treated", 0};
     RunRecord lost = record(other);
     lost.vehicles[0].outcome = metrics::VehicleOutcome::teleported;
@@ -174,23 +174,23 @@ TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
 }
 
 TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
-    store_.write(error(key));
+    store_.write(error(treated));
     std::filesystem::resize_file(store_.folder() / "errors" / "alpha" / "baseline" / "00001.json", 9);
-    EXPECT_THROW(store_.read_error(key), core::InputError);
-    const std::vector<SetAside> moved = store_.set_damaged_aside({key});
+    EXPECT_THROW(store_.read_error(treated), core::InputError);
+    const std::vector<SetAside> moved = store_.set_damaged_aside({treated});
     ASSERT_EQ(moved.size(), 1U);
-    EXPECT_FALSE(store_.read_error(key));
+    EXPECT_FALSE(store_.read_error(treated));
     EXPECT_TRUE(std::filesystem::exists(moved[0].place / "error.json"));
 }
 
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
-    store_.write(error(key));
-    EXPECT_EQ(*store_.read_error(key), error(key));
-    EXPECT_FALSE(store_.complete(key));
-    store_.write(record(key), {});
-    EXPECT_FALSE(store_.read_error(key));
-    store_.write(error(key));
-    EXPECT_FALSE(store_.read_error(key)) << "a complete run cannot fail afterwards";
+    store_.write(error(treated));
+    EXPECT_EQ(*store_.read_error(treated), error(treated));
+    EXPECT_FALSE(store_.complete(treated));
+    store_.write(record(treated), {});
+    EXPECT_FALSE(store_.read_error(treated));
+    store_.write(error(treated));
+    EXPECT_FALSE(store_.read_error(treated)) << "a complete run cannot fail afterwards";
 }
 
 TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {
@@ -211,10 +211,10 @@ TEST(StoreOfABuild, SaysInEachRunWhichBuildMadeItAndWhenAndRefusesAnother) {
     Manifest manifest = synthetic::manifest();
     manifest.clearway_build = "0123456789abcdef";
     const Store store = Store::create(folder.path() / "out", manifest);
-    store.write(record(key), {});
+    store.write(record(treated), {});
     EXPECT_EQ(Store::open(store.folder()).manifest(), manifest);
-    EXPECT_EQ(store.read(key)->build, manifest.clearway_build);
-    EXPECT_THAT(store.read_timing(key)->made_at, testing::MatchesRegex("20..-..-..T..:..:..Z"));
+    EXPECT_EQ(store.read(treated)->build, manifest.clearway_build);
+    EXPECT_THAT(store.read_timing(treated)->made_at, testing::MatchesRegex("20..-..-..T..:..:..Z"));
     EXPECT_THAT(runs_csv(read_results(store)), testing::HasSubstr(",0123456789abcdef\n"));
     for (const char* const other : {"fedcba9876543210", ""}) {
         Manifest longer = manifest;
@@ -234,10 +234,10 @@ TEST(StoreOfABuild, SaysInEachRunWhichBuildMadeItAndWhenAndRefusesAnother) {
 }
 
 TEST_F(StoreOfAStudy, IsExtendedByMoreReplicationsAndNeverCutByFewer) {
-    store_.write(record(key), {});
+    store_.write(record(treated), {});
     const Store longer = Store::create(store_.folder(), synthetic::manifest(5));
     EXPECT_EQ(longer.manifest().replications, 5U);
-    EXPECT_TRUE(longer.complete(key));
+    EXPECT_TRUE(longer.complete(treated));
     EXPECT_EQ(Store::open(store_.folder()).manifest(), synthetic::manifest(5));
     try {
         Store::create(store_.folder(), synthetic::manifest(4));
@@ -261,12 +261,12 @@ TEST_F(StoreOfAStudy, FailsWithoutATraceWhenTheDiskTakesNoMore) {
     const rlimit tight{200, before.rlim_max};
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &tight);
-    EXPECT_THROW(store_.write(record(key), {}), core::EnvironmentError);
+    EXPECT_THROW(store_.write(record(treated), {}), core::EnvironmentError);
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
-    EXPECT_FALSE(store_.complete(key));
+    EXPECT_FALSE(store_.complete(treated));
     EXPECT_EQ(files_below("runs"), 0U);
-    EXPECT_EQ(store_.write(record(key), {}), Store::Written::first);
+    EXPECT_EQ(store_.write(record(treated), {}), Store::Written::first);
 }
 
 TEST_F(StoreOfAStudy, LeavesWholeRunsOrNoneWhenAWriterIsKilled) {
