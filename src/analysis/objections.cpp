@@ -31,25 +31,16 @@ void count(const metrics::VehicleRow& vehicle, OutcomeCounts& counts) {
     }
 }
 
-/// A count from every replication that both conditions have.
-struct PairedCounts {
-    std::vector<double> condition;
-    std::vector<double> baseline;
+/// The paired difference of counts if its interval lies above 0, else nothing.
+MaybeEstimate surplus(const detail::Pairs& counts, double level) {
+    MaybeEstimate difference = estimate_count_difference(counts.condition, counts.baseline, level);
+    const bool more = difference && difference->interval && difference->interval->low > 0.0;
+    return more ? difference : std::nullopt;
+}
 
-    void add(std::uint64_t with, std::uint64_t without) {
-        condition.push_back(static_cast<double>(with));
-        baseline.push_back(static_cast<double>(without));
-    }
-    /// The paired difference if its interval lies above 0, else nothing.
-    MaybeEstimate surplus(double level) const {
-        auto difference = estimate_count_difference(condition, baseline, level);
-        const bool more = difference && difference->interval && difference->interval->low > 0.0;
-        return more ? difference : std::nullopt;
-    }
-};
-
-std::uint64_t emergency_collisions(const RunRecord& run) {
-    return run.metrics.emergency_collisions + run.metrics.emergency_pedestrian_collisions;
+double emergency_collisions(const RunRecord& run) {
+    return static_cast<double>(run.metrics.emergency_collisions +
+                               run.metrics.emergency_pedestrian_collisions);
 }
 
 std::string amount(const Estimate& more) {
@@ -97,9 +88,9 @@ Objections objections_to(const detail::Runs& condition, const detail::Runs& base
                          traffic::SafetyChecks safety_checks, double level) {
     Objections objections;
     objections.unchecked = safety_checks == traffic::SafetyChecks::off;
-    PairedCounts collisions;
-    PairedCounts teleported;
-    PairedCounts not_inserted;
+    detail::Pairs collisions;
+    detail::Pairs teleported;
+    detail::Pairs not_inserted;
     for (std::size_t row = 0; row < std::min(condition.size(), baseline.size()); ++row) {
         if (condition[row] == nullptr || baseline[row] == nullptr) continue;
         objections.emergency += emergency_outcomes(*condition[row]);
@@ -107,12 +98,12 @@ Objections objections_to(const detail::Runs& condition, const detail::Runs& base
         const OutcomeCounts with = other_outcomes(*condition[row]);
         const OutcomeCounts without = other_outcomes(*baseline[row]);
         collisions.add(emergency_collisions(*condition[row]), emergency_collisions(*baseline[row]));
-        teleported.add(with.teleported, without.teleported);
-        not_inserted.add(with.not_inserted, without.not_inserted);
+        teleported.add(static_cast<double>(with.teleported), static_cast<double>(without.teleported));
+        not_inserted.add(static_cast<double>(with.not_inserted), static_cast<double>(without.not_inserted));
     }
-    objections.collisions = collisions.surplus(level);
-    objections.teleported = teleported.surplus(level);
-    objections.not_inserted = not_inserted.surplus(level);
+    objections.collisions = surplus(collisions, level);
+    objections.teleported = surplus(teleported, level);
+    objections.not_inserted = surplus(not_inserted, level);
     return objections;
 }
 

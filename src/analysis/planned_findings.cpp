@@ -9,28 +9,6 @@ using experiment::TrafficModel;
 using results::AnalysisPlan;
 using results::Claim;
 
-/// What a plan compares, in one scenario.
-struct Sides {
-    const ConditionSummary* condition = nullptr;
-    const ConditionSummary* against = nullptr;
-};
-
-struct PairedValues {
-    std::vector<double> condition, against;
-};
-
-PairedValues pairs_of(const Sides& sides, const std::string& metric) {
-    const Values& with = sides.condition->metric(metric).values;
-    const Values& without = sides.against->metric(metric).values;
-    PairedValues pairs;
-    for (std::size_t row = 0; row < std::min(with.size(), without.size()); ++row) {
-        if (!with[row] || !without[row]) continue;
-        pairs.condition.push_back(*with[row]);
-        pairs.against.push_back(*without[row]);
-    }
-    return pairs;
-}
-
 /// Mean of the first condition that `fits`; nothing if none does or its runs are missing.
 template <class Fits>
 std::optional<double> mean_of(const ScenarioSummary& scenario, const std::string& metric, const Fits& fits) {
@@ -58,15 +36,17 @@ PlannedFinding find(const results::PlannedComparison& comparison, const Scenario
     finding.comparison = comparison;
     finding.scenario = scenario.scenario;
     finding.margin_s = margin_in(scenario, plan);
-    const Sides sides{scenario.find(comparison.condition), scenario.find(comparison.against)};
-    if (sides.condition == nullptr || sides.against == nullptr) return finding;
-    const PairedValues pairs = pairs_of(sides, plan.metric);
+    const ConditionSummary* const condition = scenario.find(comparison.condition);
+    const ConditionSummary* const against = scenario.find(comparison.against);
+    if (condition == nullptr || against == nullptr) return finding;
+    const detail::Pairs pairs =
+        detail::pairs_of(condition->metric(plan.metric).values, against->metric(plan.metric).values);
     finding.pairs = pairs.condition.size();
-    finding.difference = estimate_difference(pairs.condition, pairs.against, 1.0 - plan.alpha);
+    finding.difference = estimate_difference(pairs.condition, pairs.baseline, 1.0 - plan.alpha);
     if (comparison.claim == Claim::difference) {
-        finding.p = paired_t_p(pairs.condition, pairs.against);
+        finding.p = paired_t_p(pairs.condition, pairs.baseline);
     } else if (finding.margin_s > 0.0) {
-        finding.p = paired_equivalence_p(pairs.condition, pairs.against, finding.margin_s);
+        finding.p = paired_equivalence_p(pairs.condition, pairs.baseline, finding.margin_s);
     }
     return finding;
 }

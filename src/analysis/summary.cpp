@@ -17,6 +17,8 @@ namespace clearway::analysis {
 namespace {
 
 using detail::Index;
+using detail::Pairs;
+using detail::pairs_of;
 using detail::ResampleCache;
 using detail::Runs;
 using experiment::ConditionSpec;
@@ -37,26 +39,6 @@ std::optional<detail::VehicleNumber> vehicle_number_of(const std::string& metric
     if (metric == "emergency_travel_time_s") return &metrics::VehicleRow::travel_time_s;
     if (metric == "emergency_time_loss_s") return &metrics::VehicleRow::time_loss_s;
     return std::nullopt;
-}
-
-/// Values of a condition and its baseline, one per complete pair.
-struct Pairs {
-    std::vector<double> condition;
-    std::vector<double> baseline;
-
-    void add(const std::optional<double>& with, const std::optional<double>& without) {
-        if (!with || !without) return;
-        condition.push_back(*with);
-        baseline.push_back(*without);
-    }
-};
-
-Pairs pairs_of(const Values& condition, const Values& baseline) {
-    Pairs pairs;
-    for (std::size_t replication = 0; replication < std::min(condition.size(), baseline.size());
-         ++replication)
-        pairs.add(condition[replication], baseline[replication]);
-    return pairs;
 }
 
 /// Means over the vehicles that arrived in both conditions.
@@ -122,22 +104,11 @@ std::vector<double> present_in(const Values& values) {
     return present;
 }
 
-MaybeEstimate mean_of(const std::vector<double>& present, MetricKind kind, double level) {
-    return kind == MetricKind::count ? estimate_count(present, level) : estimate_not_negative(present, level);
-}
-
 MetricSummary describe(const MetricInfo& metric, Values values, double level) {
     MetricSummary summary;
     summary.metric = metric;
-    const std::vector<double> present = present_in(values);
+    summary.estimate = estimate_values(values, metric.kind, level);
     summary.values = std::move(values);
-    summary.estimate = mean_of(present, metric.kind, level);
-    if (present.empty()) return summary;
-    constexpr double tail = 0.95;
-    summary.median = median(present);
-    summary.median_interval = quantile_interval(present, 0.5, level);
-    summary.percentile_95 = quantile(present, tail);
-    summary.percentile_95_interval = quantile_interval(present, tail, level);
     return summary;
 }
 
@@ -386,7 +357,8 @@ std::vector<MetricInfo> all_metrics() {
 }
 
 MaybeEstimate estimate_values(const Values& values, MetricKind kind, double level) {
-    return mean_of(present_in(values), kind, level);
+    const std::vector<double> present = present_in(values);
+    return kind == MetricKind::count ? estimate_count(present, level) : estimate_not_negative(present, level);
 }
 
 MaybeEstimate estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,

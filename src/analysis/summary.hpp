@@ -73,12 +73,8 @@ struct Comparison {
 /// One cell of a table: a metric in a condition of a scenario.
 struct MetricSummary {
     MetricInfo metric;
-    Values values;           ///< By replication.
-    MaybeEstimate estimate;  ///< Over the replications that have a value.
-    std::optional<double> median;
-    std::optional<Interval> median_interval;
-    std::optional<double> percentile_95;
-    std::optional<Interval> percentile_95_interval;  ///< Needs 72 replications.
+    Values values;                         ///< By replication.
+    MaybeEstimate estimate;                ///< Over the replications that have a value.
     std::optional<Comparison> comparison;  ///< Nothing for the baseline itself and for the solo condition.
 };
 

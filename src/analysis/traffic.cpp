@@ -104,19 +104,14 @@ std::vector<ApproachCost> approach_costs(const Runs& condition, const Runs& base
 }
 
 std::optional<Recovery> recovery_after(const Runs& condition, const Runs& baseline, double level) {
-    struct Values {
-        std::vector<double> condition, baseline;
-    };
-    std::map<double, Values> at_offset;
+    std::map<double, detail::Pairs> at_offset;
     for (const auto& [with, without] : watched_pairs(condition, baseline)) {
         std::map<double, double> before;
         for (const metrics::RecoveryRow& row : without->traffic.recovery)
             before[row.offset_s] = row.halted_vehicles;
         for (const metrics::RecoveryRow& row : with->traffic.recovery) {
             const auto found = before.find(row.offset_s);
-            if (found == before.end()) continue;
-            at_offset[row.offset_s].condition.push_back(row.halted_vehicles);
-            at_offset[row.offset_s].baseline.push_back(found->second);
+            if (found != before.end()) at_offset[row.offset_s].add(row.halted_vehicles, found->second);
         }
     }
     if (at_offset.empty()) return std::nullopt;

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/csv.hpp"
 #include "report/detail/axes.hpp"
-#include "report/detail/figures.hpp"
+#include "report/detail/json.hpp"
 #include "report/detail/standalone.hpp"
 #include "report/signal_name.hpp"
 #include "report/text.hpp"
@@ -16,7 +15,7 @@ namespace clearway::report {
 namespace {
 
 using analysis::EquipEnd;
-using Json = nlohmann::ordered_json;
+using detail::Json;
 
 constexpr double great_share = 0.8;
 
@@ -77,21 +76,17 @@ std::string share_sentence(const EquipmentFacts& facts) {
 
 Json estimate_json(const MaybeEstimate& estimate) {
     if (!estimate) return nullptr;
-    Json json = {{"mean", estimate->mean}, {"pairs", estimate->n}, {"low", nullptr}, {"high", nullptr}};
-    if (estimate->interval) {
-        json["low"] = estimate->interval->low;
-        json["high"] = estimate->interval->high;
-    }
+    Json json = {{"mean", estimate->mean}, {"pairs", estimate->n}};
+    detail::put_ends(json, detail::pointer_to(estimate->interval), "low", "high");
     return json;
 }
 
 Json signal_json(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    const auto share = share_of_all(facts, signal);
     return {{"number", signal.number},
             {"signal", signal.signal},
             {"gain_s", estimate_json(signal.gain)},
             {"gain_so_far_s", estimate_json(signal.so_far)},
-            {"share_of_all", share ? Json(*share) : Json(nullptr)},
+            {"share_of_all", detail::json_of(share_of_all(facts, signal))},
             {"others_time_loss_s", estimate_json(signal.others)}};
 }
 
@@ -108,16 +103,12 @@ const char* end_word(EquipEnd end) {
 }
 
 void append_estimate(std::string& line, const MaybeEstimate& estimate) {
-    if (!estimate) {
-        line += ",,,";
-        return;
-    }
-    line += "," + core::csv_cell(estimate->mean);
-    if (!estimate->interval) {
-        line += ",,";
-        return;
-    }
-    line += "," + core::csv_cell(estimate->interval->low) + "," + core::csv_cell(estimate->interval->high);
+    const auto end = [&](double analysis::Interval::*side) {
+        return estimate && estimate->interval ? std::optional(*estimate->interval.*side) : std::nullopt;
+    };
+    line += fmt::format(",{},{},{}", core::csv_cell(mean_of(estimate)),
+                        core::csv_cell(end(&analysis::Interval::low)),
+                        core::csv_cell(end(&analysis::Interval::high)));
 }
 
 void append_row(std::string& csv, std::size_t equipped, const EquipmentFacts& facts,
@@ -193,7 +184,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"rank_with_80_percent", rank ? Json(*rank) : Json(nullptr)},
                        {"end", end_word(facts.end)},
                        {"next", facts.next ? signal_json(facts, *facts.next) : Json(nullptr)}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return detail::to_text(json);
 }
 
 std::string equipment_csv(const EquipmentFacts& facts) {
@@ -209,24 +200,17 @@ std::string equipment_csv(const EquipmentFacts& facts) {
 }
 
 std::string equipment_curve(const EquipmentFacts& facts) {
-    constexpr double height = 260.0;
-    detail::Range numbers;
-    numbers.include(0.0);
-    numbers.include(static_cast<double>(std::max<std::size_t>(facts.ranked.size(), 1)));
+    const detail::Range numbers(0.0, static_cast<double>(std::max<std::size_t>(facts.ranked.size(), 1)));
     detail::Range gains;
     gains.include(0.0);
     gains.include_all(facts.all_gain);
     for (const EquippedSignal& signal : facts.ranked)
         gains.include_all(signal.so_far);
-    detail::Plot plot(
-        fmt::format("{}: gain against number of signals equipped", facts.title), height,
-        {detail::padded(numbers, 0.05), "signals equipped", detail::left_edge, detail::right_edge},
-        {detail::padded(gains, 0.1), "emergency vehicles gain, s a trip", height - detail::label_space,
-         26.0});
-    plot.grid_x();
-    plot.grid_y();
+    detail::Chart plot(fmt::format("{}: gain against number of signals equipped", facts.title), 260.0,
+                       detail::padded(numbers, 0.05), "signals equipped", detail::padded(gains, 0.1),
+                       "emergency vehicles gain, s a trip");
     plot.horizontal(0.0);
-    std::vector<std::pair<double, double>> points = {{0.0, 0.0}};
+    detail::Points points = {{0.0, 0.0}};
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
         const MaybeEstimate& gain = facts.ranked[rank].so_far;
         if (!gain) continue;

@@ -23,19 +23,19 @@ using links::LinkResult;
 using links::LinkSubset;
 
 std::string decimal(const std::optional<double>& value, int decimals) {
-    return value ? number(*value, {decimals, Script::typeset}) : missing(Script::typeset);
+    return number_or_dash(value, {decimals, Script::typeset});
 }
 
 /// `0.985 [0.981, 0.988]`, scaled by `factor`.
 std::string with_interval(const Measured& measured, int decimals, double factor = 1.0) {
     if (!measured.value) return missing(Script::typeset);
     const NumberStyle style{decimals, Script::typeset};
-    std::string text = number(factor * *measured.value, style);
-    if (measured.interval) {
-        text += fmt::format(" [{}, {}]", number(factor * measured.interval->low, style),
-                            number(factor * measured.interval->high, style));
-    }
-    return text;
+    const std::string text = number(factor * *measured.value, style);
+    return measured.interval ? text + " " + interval_text(*measured.interval, style, factor) : text;
+}
+
+std::string in_percent(const Measured& measured, int decimals = 1) {
+    return with_interval(measured, decimals, 100.0);
 }
 
 bool is_pooled(const LinkFacts& facts, const LinkResult& result) {
@@ -108,7 +108,7 @@ std::string gains_section(const LinkFacts& facts, Measured LinkGain::*measure) {
             facts, exits, facts.against, [&](const std::string& failure, const std::string& predictor) {
                 for (const LinkGain& gain : facts.gains) {
                     if (gain.exits == exits && gain.failure == failure && gain.predictor == predictor)
-                        return with_interval(gain.*measure, 0, 100.0);
+                        return in_percent(gain.*measure, 0);
                 }
                 return missing(Script::typeset);
             });
@@ -163,7 +163,7 @@ std::string end_to_end_section(const LinkFacts& facts) {
                 const links::LinkEndToEnd& all = result->end_to_end;
                 table.rows.push_back({failure + ", " + result->predictor, decimal(all.precision.value, 3),
                                       decimal(all.recall.value, 3), decimal(all.f1.value, 3),
-                                      with_interval(all.policy_recall, 1, 100.0),
+                                      in_percent(all.policy_recall),
                                       grouped_share(all.truth.never_seen, all.truth.true_links),
                                       grouped_share(all.truth.outside, all.truth.true_links),
                                       grouped_share(all.predicted_away(), all.truth.true_links),
@@ -226,10 +226,9 @@ std::string failed_section(const LinkFacts& facts) {
                             "F1 over all"},
                            [](const LinkResult& result) -> std::vector<std::string> {
                                const links::LinkFailed& failed = result.failed;
-                               return {grouped(failed.links),
-                                       with_interval(failed.candidate_recall, 1, 100.0),
-                                       with_interval(failed.candidate_recall_seen, 1, 100.0),
-                                       with_interval(failed.ap, 4), with_interval(failed.f1, 4)};
+                               return {grouped(failed.links), in_percent(failed.candidate_recall),
+                                       in_percent(failed.candidate_recall_seen), with_interval(failed.ap, 4),
+                                       with_interval(failed.f1, 4)};
                            });
 }
 
@@ -247,11 +246,11 @@ std::string dark_section(const LinkFacts& facts) {
                                const links::LinkDark& dark = result.dark;
                                return {grouped(dark.vehicles),
                                        grouped(dark.never_seen),
-                                       with_interval(dark.believed, 1, 100.0),
+                                       in_percent(dark.believed),
                                        with_interval(dark.place_median_m, 1),
                                        with_interval(dark.place_p95_m, 1),
                                        grouped(dark.next_cases),
-                                       with_interval(dark.next_ahead, 1, 100.0)};
+                                       in_percent(dark.next_ahead)};
                            });
 }
 
@@ -273,10 +272,9 @@ std::string scenarios_section(const LinkFacts& facts) {
                      decimal(all.log_loss.value, 3), decimal(all.ece.value, 4), decimal(all.brier.value, 4),
                      decimal(result.of(LinkSubset::hard).ap.value, 4),
                      decimal(result.of(LinkSubset::policy).ap.value, 4),
-                     with_interval(result.failed.candidate_recall, 1, 100.0),
-                     with_interval(result.failed.ap, 4), with_interval(result.failed.f1, 4),
-                     with_interval(result.dark.place_median_m, 1), with_interval(result.dark.place_p95_m, 1),
-                     with_interval(result.dark.next_ahead, 1, 100.0)});
+                     in_percent(result.failed.candidate_recall), with_interval(result.failed.ap, 4),
+                     with_interval(result.failed.f1, 4), with_interval(result.dark.place_median_m, 1),
+                     with_interval(result.dark.place_p95_m, 1), in_percent(result.dark.next_ahead)});
             }
             html += fmt::format("<details><summary>{}, exits {}</summary>\n{}</details>\n", escaped(scenario),
                                 core::name(exits), detail::to_html(table));
@@ -308,37 +306,36 @@ struct Section {
     std::string body;
 };
 
+/// Tables of one measure of a kind of pairs.
+std::string subset_section(const LinkFacts& facts, LinkSubset subset,
+                           Measured links::LinkMeasures::*measure) {
+    return measure_section(facts, 4, [&](const LinkResult& result) { return result.of(subset).*measure; });
+}
+
+std::string error_section(const LinkFacts& facts, const char* measure, Measured LinkGain::*reduction) {
+    return fmt::format("<p>How much lower 1 \u2212 {} is than that of {}, %.</p>\n", measure,
+                       escaped(facts.against)) +
+           gains_section(facts, reduction);
+}
+
 std::vector<Section> sections_of(const LinkFacts& facts) {
-    std::vector<Section> sections;
-    sections.push_back(
-        {"ap", "Average precision", definitions + measure_section(facts, 4, [](const LinkResult& result) {
-                                        return result.of(LinkSubset::all).ap;
-                                    })});
-    sections.push_back({"f1", "F1", measure_section(facts, 4, [](const LinkResult& result) {
-                            return result.of(LinkSubset::all).f1;
-                        })});
+    using Measures = links::LinkMeasures;
+    const auto of_all = [&](Measured Measures::*measure) {
+        return subset_section(facts, LinkSubset::all, measure);
+    };
+    std::vector<Section> sections = {{"ap", "Average precision", definitions + of_all(&Measures::ap)},
+                                     {"f1", "F1", of_all(&Measures::f1)}};
     if (!facts.comparisons.empty())
         sections.push_back({"comparisons", "Comparisons named in advance", comparisons_section(facts)});
     if (!facts.gains.empty()) {
-        const std::string against = escaped(facts.against);
-        sections.push_back(
-            {"ap-error", "Error of AP against the opponent",
-             fmt::format("<p>How much lower 1 \u2212 AP is than that of {}, %.</p>\n", against) +
-                 gains_section(facts, &LinkGain::ap_error_reduction)});
-        sections.push_back(
-            {"f1-error", "Error of F1 against the opponent",
-             fmt::format("<p>How much lower 1 \u2212 F1 is than that of {}, %.</p>\n", against) +
-                 gains_section(facts, &LinkGain::f1_error_reduction)});
+        sections.push_back({"ap-error", "Error of AP against the opponent",
+                            error_section(facts, "AP", &LinkGain::ap_error_reduction)});
+        sections.push_back({"f1-error", "Error of F1 against the opponent",
+                            error_section(facts, "F1", &LinkGain::f1_error_reduction)});
     }
-    sections.push_back({"hard", "AP of hard pairs", measure_section(facts, 4, [](const LinkResult& result) {
-                            return result.of(LinkSubset::hard).ap;
-                        })});
-    sections.push_back(
-        {"calibration", "Calibration error (ECE)",
-         measure_section(facts, 4, [](const LinkResult& result) { return result.of(LinkSubset::all).ece; })});
-    sections.push_back({"brier", "Brier score", measure_section(facts, 4, [](const LinkResult& result) {
-                            return result.of(LinkSubset::all).brier;
-                        })});
+    sections.push_back({"hard", "AP of hard pairs", subset_section(facts, LinkSubset::hard, &Measures::ap)});
+    sections.push_back({"calibration", "Calibration error (ECE)", of_all(&Measures::ece)});
+    sections.push_back({"brier", "Brier score", of_all(&Measures::brier)});
     sections.push_back({"failed", "All failed links", failed_section(facts)});
     sections.push_back({"dark", "Dark vehicles, and who is next ahead", dark_section(facts)});
     sections.push_back({"curves", "Curves", curves_section(facts)});

@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/csv.hpp"
+#include "report/detail/json.hpp"
 #include "report/links.hpp"
 #include "report/text.hpp"
 
@@ -14,10 +14,10 @@ namespace clearway::report {
 namespace {
 
 using analysis::Measured;
+using detail::Json;
 using links::LinkGain;
 using links::LinkMeasures;
 using links::LinkResult;
-using Json = nlohmann::ordered_json;
 using links::LinkSubset;
 
 constexpr std::size_t failure_width = 9;
@@ -191,9 +191,8 @@ void append_exits(const LinkFacts& facts, links::Exits exits, std::string& text)
 }
 
 void put(Json& object, const std::string& name, const Measured& measured) {
-    object[name] = measured.value ? Json(*measured.value) : Json(nullptr);
-    object[name + "_low_95"] = measured.interval ? Json(measured.interval->low) : Json(nullptr);
-    object[name + "_high_95"] = measured.interval ? Json(measured.interval->high) : Json(nullptr);
+    object[name] = detail::json_of(measured.value);
+    detail::put_ends(object, detail::pointer_to(measured.interval), name + "_low_95", name + "_high_95");
 }
 
 void put_measures(Json& object, const std::string& prefix, const LinkMeasures& measures) {
@@ -237,8 +236,7 @@ void put_end_to_end(Json& object, const links::LinkEndToEnd& end_to_end) {
     object["lost_predicted_away"] = end_to_end.predicted_away();
     object["policy_links"] = end_to_end.truth.policy_links;
     put(object, "policy_recall", end_to_end.policy_recall);
-    const auto ghosts = end_to_end.ghosts_per_report();
-    object["ghosts_per_report"] = ghosts ? Json(*ghosts) : Json(nullptr);
+    object["ghosts_per_report"] = detail::json_of(end_to_end.ghosts_per_report());
 }
 
 /// Every field of a result, flat.
@@ -272,8 +270,8 @@ Json gain_of(const LinkGain& gain) {
 
 void put(Json& object, const std::string& name, const links::LinkComparison::Difference& test) {
     put(object, name + "_difference", test.difference);
-    object[name + "_p"] = test.p ? Json(*test.p) : Json(nullptr);
-    object[name + "_p_holm"] = test.holm_p ? Json(*test.holm_p) : Json(nullptr);
+    object[name + "_p"] = detail::json_of(test.p);
+    object[name + "_p_holm"] = detail::json_of(test.holm_p);
 }
 
 Json comparison_of(const links::LinkComparison& comparison) {
@@ -319,7 +317,7 @@ std::string links_json(const LinkFacts& facts) {
         for (const links::LinkComparison& comparison : facts.comparisons)
             comparisons.push_back(comparison_of(comparison));
     }
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return detail::to_text(document);
 }
 
 std::string links_csv(const LinkFacts& facts) {

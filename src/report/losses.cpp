@@ -1,12 +1,13 @@
-#include <charconv>
 #include <limits>
-#include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/settings.hpp"
 #include "prediction/predictor.hpp"
 #include "report/read_facts.hpp"
 #include "report/text.hpp"
@@ -21,33 +22,20 @@ namespace {
         "Train again with clearway train, or remove the folder from training/."});
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells;
-    std::string cell;
-    std::istringstream stream(line);
-    while (std::getline(stream, cell, ',')) {
-        cells.push_back(cell);
-    }
-    if (!line.empty() && line.back() == ',') cells.emplace_back();
-    return cells;
-}
-
-double loss_from(const std::string& cell, const std::string& where) {
+double loss_from(std::string_view cell, const std::string& where) {
     if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size())
-        refuse(where, fmt::format("'{}' is not a number", cell));
-    return value;
+    const auto value = core::number_from(std::string(cell));
+    if (!value) refuse(where, fmt::format("'{}' is not a number", cell));
+    return *value;
 }
 
 /// `test` of `test_loss_nat`.
-std::string held_out_name(const std::vector<std::string>& head, const std::string& file) {
-    const std::string ending = "_loss_nat";
-    const bool fits = head.size() == 3 && head[0] == "epoch" && head[1] == "train" + ending &&
+std::string held_out_name(const std::vector<std::string_view>& head, const std::string& file) {
+    constexpr std::string_view ending = "_loss_nat";
+    const bool fits = head.size() == 3 && head[0] == "epoch" && head[1] == "train_loss_nat" &&
                       head[2].size() > ending.size() && head[2].ends_with(ending);
     if (!fits) refuse(file + ":1", "unknown columns");
-    return head[2].substr(0, head[2].size() - ending.size());
+    return std::string(head[2].substr(0, head[2].size() - ending.size()));
 }
 
 std::optional<double> number_of(const nlohmann::json& object, const char* name) {
@@ -98,15 +86,15 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
 
 LossCurve read_losses(const std::filesystem::path& training_folder) {
     const std::filesystem::path file = training_folder / "losses.csv";
-    std::istringstream lines(core::read_file(file));
+    const std::string text = core::read_file(file);
+    core::CsvReader lines(text);
     LossCurve curve;
     curve.title = training_folder.filename().string();
-    std::string line;
-    std::getline(lines, line);
-    curve.held_out = held_out_name(cells_of(line), file.string());
-    for (std::size_t row = 2; std::getline(lines, line); ++row) {
+    lines.next();
+    curve.held_out = held_out_name(lines.cells(), file.string());
+    for (std::size_t row = 2; lines.next(); ++row) {
         const std::string where = fmt::format("{}:{}", file.string(), row);
-        const std::vector<std::string> cells = cells_of(line);
+        const std::vector<std::string_view>& cells = lines.cells();
         if (cells.size() != 3) refuse(where, fmt::format("{} cells", cells.size()));
         curve.epoch.push_back(loss_from(cells[0], where));
         curve.train.push_back(loss_from(cells[1], where));

@@ -57,16 +57,9 @@ std::optional<double> published_value(std::string_view scenario, std::string_vie
         condition == "graph_graphsage_as_published" ? "graph_graphsage" : condition;
     for (const Row& row : dissertation_rows) {
         if (row.scenario != scenario || row.condition != published_row) continue;
-        switch (measure) {
-            case Measure::emergency_waiting_time:
-                return row.emergency_waiting_time_s;
-            case Measure::emergency_depart_delay:
-                return row.depart_delay_s;
-            case Measure::waiting_time:
-                return row.average_waiting_time_s;
-            default:
-                return std::nullopt;
-        }
+        if (measure == Measure::emergency_waiting_time) return row.emergency_waiting_time_s;
+        if (measure == Measure::emergency_depart_delay) return row.depart_delay_s;
+        if (measure == Measure::waiting_time) return row.average_waiting_time_s;
     }
     return std::nullopt;
 }

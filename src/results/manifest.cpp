@@ -57,12 +57,7 @@ core::Json to_object(const Manifest& manifest) {
     object["scenarios"] = core::Json::array();
     for (const ScenarioEntry& scenario : manifest.scenarios) {
         core::Json entry;
-        entry["name"] = scenario.name;
-        entry["version"] = scenario.version;
-        entry["title"] = scenario.title;
-        entry["configuration_hash"] = scenario.configuration_hash;
-        entry["attribution"] = scenario.attribution;
-        entry["configuration"] = scenario.configuration;
+        core::write_fields(entry, scenario);
         if (!scenario.factors.empty()) entry["factors"] = scenario.factors;
         object["scenarios"].push_back(std::move(entry));
     }
@@ -82,12 +77,7 @@ ScenarioEntry scenario_from(const core::Json& object, const std::string& where,
                             std::vector<core::Problem>& problems) {
     ScenarioEntry scenario;
     core::ObjectReader reader(object, where, problems);
-    reader.read("name", scenario.name);
-    reader.read("version", scenario.version);
-    reader.read("title", scenario.title);
-    reader.read("configuration_hash", scenario.configuration_hash);
-    reader.read("attribution", scenario.attribution);
-    reader.read("configuration", scenario.configuration);
+    reader.read_fields(scenario);
     reader.read_if_there("factors", scenario.factors);
     return scenario;
 }

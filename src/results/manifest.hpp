@@ -24,6 +24,18 @@ struct ScenarioEntry {
     core::Settings factors = {};     ///< Of the study: `scenario.demand.human` -> `80`.
 
     bool operator==(const ScenarioEntry&) const = default;
+
+    /// The members that are texts.
+    static constexpr auto fields() {
+        using S = ScenarioEntry;
+        using core::Field;
+        return std::make_tuple(Field{"name", "", &S::name, 0, 0, "", ""},
+                               Field{"version", "", &S::version, 0, 0, "", ""},
+                               Field{"title", "", &S::title, 0, 0, "", ""},
+                               Field{"configuration_hash", "", &S::configuration_hash, 0, 0, "", ""},
+                               Field{"attribution", "", &S::attribution, 0, 0, "", ""},
+                               Field{"configuration", "", &S::configuration, 0, 0, "", ""});
+    }
 };
 
 /// The precision that a study must reach, in place of a number of replications.

@@ -123,11 +123,4 @@ struct Results {
 };
 Results read_results(const Store& store, VehicleRows rows = VehicleRows::all);
 
-/// All runs of the manifest as one tidy table, one line per run: scenario, condition, replication, outcome
-/// (ok, failed, missing), cause, safety checks, factors, metrics, provenance. Sorted; equal results give
-/// equal bytes.
-std::string runs_csv(const Results& results);
-/// All vehicles of all complete runs, one line per vehicle. Sorted; equal results give equal bytes.
-std::string vehicles_csv(const Results& results);
-
 }  // namespace clearway::results

@@ -7,7 +7,9 @@
 namespace clearway::results {
 
 /// Writes `runs.csv`, `vehicles.csv`, `leases.csv` and `results.sqlite` of a run folder run by run, so that
-/// only one run is in memory at a time. Equal runs give equal bytes. Nothing is replaced before `finish`.
+/// only one run is in memory at a time. `runs.csv` has a line for each run of the manifest: scenario,
+/// condition, replication, outcome (ok, failed, missing), cause, safety checks, factors, metrics, provenance.
+/// Equal runs give equal bytes. Nothing is replaced before `finish`.
 class TableWriter {
   public:
     /// Throws core::EnvironmentError, as the other members do.

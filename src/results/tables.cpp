@@ -91,34 +91,6 @@ void append_leases(const RunRecord& run, std::string& text) {
     }
 }
 
-/// Passes every run of a study, in the manifest's order, to a writer of tables.
-template <class Writer>
-void write_all(const Results& results, Writer& writer) {
-    // All three lists are sorted, and together they are the manifest's runs.
-    auto run = results.runs.begin();
-    auto error = results.errors.begin();
-    results.manifest.for_each_run([&](const experiment::RunKey& key) {
-        if (run != results.runs.end() && run->key == key) {
-            writer.add(*run++);
-        } else if (error != results.errors.end() && error->key == key) {
-            writer.add(*error++);
-        } else {
-            writer.add_missing(key);
-        }
-    });
-}
-
-/// `runs.csv` as text.
-struct RunsText {
-    explicit RunsText(const Manifest& manifest) : lines(manifest), text(lines.header() + "\n") {}
-    void add(const RunRecord& run) { text += lines.of(run) + "\n"; }
-    void add(const RunError& error) { text += lines.of(error) + "\n"; }
-    void add_missing(const experiment::RunKey& key) { text += lines.of_missing(key) + "\n"; }
-
-    RunLines lines;
-    std::string text;
-};
-
 }  // namespace
 
 Results read_results(const Store& store, VehicleRows rows) {
@@ -134,19 +106,6 @@ Results read_results(const Store& store, VehicleRows rows) {
         }
     }
     return results;
-}
-
-std::string runs_csv(const Results& results) {
-    RunsText runs(results.manifest);
-    write_all(results, runs);
-    return runs.text;
-}
-
-std::string vehicles_csv(const Results& results) {
-    std::string text = vehicles_header() + "\n";
-    for (const RunRecord& run : results.runs)
-        append_vehicles(run, text);
-    return text;
 }
 
 struct TableWriter::Files {

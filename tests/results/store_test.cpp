@@ -13,6 +13,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "results/synthetic.hpp"
+#include "results/table_writer.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::results {
@@ -215,7 +216,8 @@ TEST(StoreOfABuild, SaysInEachRunWhichBuildMadeItAndWhenAndRefusesAnother) {
     EXPECT_EQ(Store::open(store.folder()).manifest(), manifest);
     EXPECT_EQ(store.read(treated)->build, manifest.clearway_build);
     EXPECT_THAT(store.read_timing(treated)->made_at, testing::MatchesRegex("20..-..-..T..:..:..Z"));
-    EXPECT_THAT(runs_csv(read_results(store)), testing::HasSubstr(",0123456789abcdef\n"));
+    write_tables(store);
+    EXPECT_THAT(core::read_file(store.runs_csv()), testing::HasSubstr(",0123456789abcdef\n"));
     for (const char* const other : {"fedcba9876543210", ""}) {
         Manifest longer = manifest;
         longer.replications += 5;

@@ -34,6 +34,12 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+/// The lines of a table that is written now.
+std::vector<std::string> table_lines(const Store& store, const std::filesystem::path& file) {
+    write_tables(store);
+    return lines_of(core::read_file(file));
+}
+
 TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), synthetic::manifest());
@@ -42,7 +48,7 @@ TEST(Tables, HaveALineForEveryRunOfTheStudyWhateverBecameOfIt) {
     EXPECT_EQ(results.runs.size(), 4U);
     EXPECT_EQ(results.errors.size(), 1U);
     EXPECT_EQ(results.missing.size(), 3U);
-    const auto lines = lines_of(runs_csv(results));
+    const auto lines = table_lines(store, store.runs_csv());
     ASSERT_EQ(lines.size(), 9U);
     EXPECT_THAT(lines[0], testing::StartsWith("scenario,condition,replication,outcome,cause,safety_checks,"
                                               "emergency_restricted_travel_time_s,emergency_travel_time_s,"));
@@ -57,7 +63,7 @@ TEST(Tables, QuoteNamesAndLeaveCellsEmptyForWhatThereIsNot) {
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), synthetic::manifest());
     fill(store, keys);
-    const auto lines = lines_of(vehicles_csv(read_results(store)));
+    const auto lines = table_lines(store, store.vehicles_csv());
     ASSERT_EQ(lines.size(), 1U + 4U * 3U);
     EXPECT_EQ(lines[0],
               "scenario,condition,replication,id,class,kind,outcome,planned_depart_s,depart_s,depart_delay_s,"
@@ -142,8 +148,7 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     const Store store = Store::create(folder.path(), manifest);
     fill(store, keys);
     store.write(record({"beta", "treated", 1}), {});
-    const Results results = read_results(store);
-    const auto lines = lines_of(runs_csv(results));
+    const auto lines = table_lines(store, store.runs_csv());
     EXPECT_THAT(lines[0],
                 testing::HasSubstr(
                     ",safety_checks,condition.failure,failure.dark_share,part.kind,scenario.demand.human,"

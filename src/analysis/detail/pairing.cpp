@@ -4,6 +4,14 @@
 
 namespace clearway::analysis::detail {
 
+Pairs pairs_of(std::span<const std::optional<double>> condition,
+               std::span<const std::optional<double>> baseline) {
+    Pairs pairs;
+    for (std::size_t row = 0; row < std::min(condition.size(), baseline.size()); ++row)
+        pairs.add(condition[row], baseline[row]);
+    return pairs;
+}
+
 std::optional<CommonMeans> common_means(std::span<const results::RunRecord* const> runs,
                                         VehicleNumber number) {
     std::map<std::string, std::size_t> arrivals;  // Emergency vehicle -> runs in which it arrived.

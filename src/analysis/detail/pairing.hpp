@@ -12,6 +12,21 @@ namespace clearway::analysis::detail {
 /// Complete runs of one condition in one scenario, by replication; nullptr if there is none.
 using Runs = std::vector<const results::RunRecord*>;
 
+/// Values of a condition and of what it is compared with, one of each for every complete pair.
+struct Pairs {
+    std::vector<double> condition;
+    std::vector<double> baseline;
+
+    void add(const std::optional<double>& with, const std::optional<double>& without) {
+        if (!with || !without) return;
+        condition.push_back(*with);
+        baseline.push_back(*without);
+    }
+};
+/// Of the replications in which both have a value.
+Pairs pairs_of(std::span<const std::optional<double>> condition,
+               std::span<const std::optional<double>> baseline);
+
 /// A metric of an emergency vehicle that arrived.
 using VehicleNumber = std::optional<double> metrics::VehicleRow::*;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -21,9 +22,9 @@ inline Json json_of(const std::optional<analysis::Interval>& interval) {
     return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
-/// Adds `NAME`, and both ends of its interval under their names; null where they are missing.
-inline void put_ends(Json& object, const analysis::Interval* interval, const char* low = "low_95",
-                     const char* high = "high_95") {
+/// Adds both ends of an interval under their names; null where they are missing.
+inline void put_ends(Json& object, const analysis::Interval* interval, const std::string& low = "low_95",
+                     const std::string& high = "high_95") {
     object[low] = interval != nullptr ? Json(interval->low) : Json(nullptr);
     object[high] = interval != nullptr ? Json(interval->high) : Json(nullptr);
 }
